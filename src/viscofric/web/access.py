@@ -27,22 +27,14 @@ _FOREIGN = "This request comes from another page or names another host; open the
 
 @dataclass(frozen=True)
 class Door:
-    """What a request must show to be let in.
-
-    Parameters
-    ----------
-    host : str
-        That the server is bound to.
-    program : str
-        Name of this run of the server, by which a page notices that it was started again.
-    invitations : set of str
-        Further tokens, each good for one use: other users of the machine can read the command lines of browsers.
-    """
+    """What a request must show to be let in."""
 
     port: int
-    host: str = "127.0.0.1"
+    host: str = "127.0.0.1"  # that the server is bound to
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
+    #: Name of this run of the server, by which a page notices that it was started again
     program: str = field(default_factory=lambda: secrets.token_hex(8))
+    #: Further tokens, each good for one use: other users of the machine can read the command lines of browsers
     invitations: set[str] = field(default_factory=set)
 
     @property

@@ -80,10 +80,7 @@ class PlainJSON(JSONResponse):
 def make_app(door: Door, workspaces: Workspaces, children: Children, study: dict[str, Any] | None = None) -> ASGIApp:
     """Return the page as an ASGI application.
 
-    Parameters
-    ----------
-    study : dict, optional
-        That the page opens with, instead of its own first one.
+    `study`: that the page opens with, instead of its own first one.
     """
     api = FastAPI(
         title="viscofric",
@@ -249,20 +246,12 @@ _WORTH_PACKING = 1_000  # bytes
 
 
 class StaticFile(NamedTuple):
-    """A file of the page.
+    """A file of the page."""
 
-    Parameters
-    ----------
-    content, packed : bytes
-        As it is, and by gzip; the latter empty where it is not worth it.
-    tag : str
-        Hash of the content.
-    """
-
-    content: bytes
+    content: bytes  # content, packed: as it is, and by gzip; the latter empty where it is not worth it
     packed: bytes
     media_type: str
-    tag: str
+    tag: str  # hash of the content
 
 
 _known: dict[tuple[Path, int, int], StaticFile] = {}

@@ -45,12 +45,8 @@ _IDLE = 2.0  # s without a job, after which what later jobs need is imported
 def main(parent: int, warm: Iterable[str] = WARM) -> None:
     """Do jobs until the standard input closes; run in a process of its own.
 
-    Parameters
-    ----------
-    parent : int
-        Number of the process that hands out the jobs.
-    warm : iterable of str
-        Modules that it imports before the first of them.
+    `parent`: number of the process that hands out the jobs; `warm`: modules that it imports before the first of
+    them.
     """
     _end_with(parent)
     orders, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
@@ -262,14 +258,8 @@ def look_after(cache: Path) -> None:
 def make_room(cache: Path, most: int = _MOST_BYTES, young: float = _YOUNG) -> None:
     """Remove the oldest rubbers and solved contacts where there are too many; later jobs make them anew.
 
-    Parameters
-    ----------
-    cache : Path
-        Of a workspace.
-    most : int
-        Bytes that may stay.
-    young : float
-        What was written so many seconds ago or less stays.
+    `cache`: of a workspace; `most`: bytes that may stay; `young`: what was written so many seconds ago or less
+    stays.
     """
     stays, before = 0, time.time() - young
     files = [entry for folder in _folders(cache) for entry in _kept_files(folder)]

@@ -13,10 +13,9 @@ import sys
 import threading
 import time
 from collections import deque
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from viscofric.web.jobs import KINDS
-from viscofric.web.messages import Message, line
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
@@ -27,6 +26,18 @@ _PROGRAM = "from viscofric.web.child import main; main({parent})"
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 _LONGEST_END = 1.0  # s that its last words may take
 _ENDED = "The process that computed this ended, usually for lack of memory; request less accuracy or fewer points."
+
+
+class Message(NamedTuple):
+    """What a process says of a job: the event, and all of it as a line of JSON."""
+
+    event: str
+    line: bytes
+
+
+def line(event: str, **more: Any) -> bytes:
+    """Return a message of the server itself, as a line of JSON."""
+    return json.dumps({"event": event, **more}).encode() + b"\n"
 
 
 class Child:

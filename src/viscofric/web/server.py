@@ -37,10 +37,7 @@ def is_local(host: str) -> bool:
 def bound(host: str, port: int) -> socket.socket:
     """Return a listening socket at a port, or at a free one if that is taken.
 
-    Raises
-    ------
-    ViscofricError
-        If the host is none of this machine's.
+    Raises `ViscofricError` if the host is none of this machine's.
     """
     for wanted in (port, 0):
         try:

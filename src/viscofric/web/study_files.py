@@ -22,19 +22,11 @@ FILE_KEYS = {
 
 
 class Named(NamedTuple):
-    """Where a study names files.
-
-    Parameters
-    ----------
-    key : str
-        Of the table.
-    place : str
-        Path in the study.
-    """
+    """Where a study names files."""
 
     table: dict[str, Any]
-    key: str
-    place: str
+    key: str  # of the table
+    place: str  # path in the study
     names: list[str]
 
 
@@ -56,10 +48,7 @@ def named_files(document: dict[str, Any]) -> Iterator[Named]:
 def check_confined(document: dict[str, Any]) -> None:
     """See to it that a study of the page names no files but the page's own.
 
-    Raises
-    ------
-    JobError
-        If it leads anywhere else.
+    Raises `JobError` if it leads anywhere else.
     """
     for named in named_files(document):
         for name in named.names:

@@ -40,10 +40,7 @@ _DEVICE = re.compile(r"^(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
 def checked_name(name: str) -> str:
     """Return the name of a file in its composed form.
 
-    Raises
-    ------
-    InputError
-        If it is not a plain name that every system can have.
+    Raises `InputError` if it is not a plain name that every system can have.
     """
     name = unicodedata.normalize("NFC", name)
     if not name or name != name.strip() or name.startswith(".") or name.endswith("."):
@@ -93,10 +90,7 @@ class Workspace:
     def store(self, name: str, content: bytes) -> None:
         """Keep a file; one of the same name is replaced.
 
-        Raises
-        ------
-        InputError
-            If it is one too many, or too large.
+        Raises `InputError` if it is one too many, or too large.
         """
         others = [size for other, size in self.listing() if other != name]
         if len(content) > LARGEST_UPLOAD:
@@ -146,10 +140,7 @@ class Workspaces:
     def get(self, key: str) -> Workspace:
         """Return the workspace of a tab, a new one if need be; the one that rested longest makes room for it.
 
-        Raises
-        ------
-        InputError
-            If all others are at work.
+        Raises `InputError` if all others are at work.
         """
         with self._one_at_a_time:
             workspace = self._known.get(key) or self._new(key)

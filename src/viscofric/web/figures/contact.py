@@ -23,10 +23,7 @@ _LOSSY = 0.03
 def contact_view(found: dict[str, Any], case: Case) -> dict[str, Any]:
     """Return ``figures``, ``key_numbers``, ``more_numbers`` and ``why``, the cause of the friction.
 
-    Parameters
-    ----------
-    found : dict
-        As of `contact_pictures.pictures`.
+    `found`: as of `contact_pictures.pictures`.
     """
     indenter = getattr(case, "indenter", None)
     noun = "rough surface" if indenter is None else indenter.noun

@@ -40,12 +40,8 @@ _BESIDE = {
 def curve_layout(kind: str, extra: list[str], layout: dict[str, Any]) -> dict[str, Any]:
     """Return ``quantities`` of a kind of contact with their axes, and ``curves``: rows by combination and temperature.
 
-    Parameters
-    ----------
-    extra : list of str
-        Quantities that [interface] and [heating] add.
-    layout : dict
-        Columns ``combination``, ``temperature`` and ``speed`` of the cases.
+    `extra`: quantities that [interface] and [heating] add; `layout`: columns ``combination``, ``temperature`` and
+    ``speed`` of the cases.
     """
     others = [*(_SMOOTH if kind == "rough" else _ROUGH), *(name for name in _OF_TABLES if name not in extra)]
     quantities = {name: about for name, about in _QUANTITIES.items() if name not in others}

@@ -44,11 +44,8 @@ def motion_view(data: xarray.Dataset, contacts: tuple[ImpactContact, ...], steps
 def pressures(solved: TransientSolution) -> dict[str, Any]:
     """Return the pressure along the motion over time, through the indenter's axis or, on waves, the highest pressure.
 
-    Returns
-    -------
-    dict
-        ``animation``: ``time`` (s), ``x`` (m, from the indenter's axis) and ``pressure`` (Pa, a row for each time).
-        ``figures``: "motion-pressure", of the first time.  Empty where no pressures were kept.
+    Returned: ``animation``: ``time`` (s), ``x`` (m, from the indenter's axis) and ``pressure`` (Pa, a row for
+    each time). ``figures``: "motion-pressure", of the first time.  Empty where no pressures were kept.
     """
     if not solved.has_pressures:
         return {}

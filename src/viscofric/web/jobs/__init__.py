@@ -9,20 +9,13 @@ _GB = 2**30
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of job.
+    """A kind of job."""
 
-    Parameters
-    ----------
-    module : str
-        Where ``run(study, options, context) -> dict`` is, and ``Options``, a pydantic model of its options.
-    seconds : float
-        It is stopped when it takes longer than this.
-    memory : int
-        Address space that the process may have while at it, bytes; half a gigabyte of it is the program itself.
-    """
-
+    #: Where ``run(study, options, context) -> dict`` is, which raises `ViscofricError` in the user's words, and
+    #: ``Options``, a pydantic model of its options
     module: str
-    seconds: float = 600.0
+    seconds: float = 600.0  # it is stopped when it takes longer than this
+    #: Address space that the process may have while at it, bytes; half a gigabyte of it is the program itself
     memory: int = 4 * _GB
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from viscofric.datasets import plain
 from viscofric.notes import listed, note_of
+from viscofric.web.jobs.context import JobOptions
 
 if TYPE_CHECKING:
     import xarray
@@ -24,16 +25,10 @@ _BEYOND, _POINTS = 1.25, 25
 _CASES = "friction cases"
 
 
-class Options(BaseModel):
-    """Options of the job.
+class Options(JobOptions):
+    """Options of the job."""
 
-    Attributes
-    ----------
-    accuracy : float, optional
-        Relative error of the predicted friction; that of [solver] without.
-    """
-
-    model_config = ConfigDict(extra="forbid")
+    #: Relative error of the predicted friction; that of [solver] without
     accuracy: float | None = Field(None, ge=1e-4, le=0.1)
 
 
@@ -54,11 +49,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         well both agree; ``key_numbers``, the most important ones, and ``summary``; ``table`` by temperature;
         ``checks`` (name, verdict, words); ``warnings``, ``failures``, ``notes``; ``band``: whether there is any;
         ``figures``.
-
-    Raises
-    ------
-    StudyError, DataFileError, InputError
-        If a table is wrong, or the measurement is not of a ball on a half-space.
     """
     from viscofric.report.texts.checks import CIRCULAR
     from viscofric.study.execution import tree_of

@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain, record
 from viscofric.errors import InputError
 from viscofric.notes import listed
 from viscofric.study.at_strain import payne_of
 from viscofric.web.figures.spec import MODULUS, Spec, axis, figure, line, points, quantity
-from viscofric.web.jobs.context import JobError
+from viscofric.web.jobs.context import JobError, JobOptions
 from viscofric.web.jobs.rubbers import (
     checked_tables,
     made_rubber,
@@ -29,10 +28,8 @@ _DIGITS = 6
 _ACCURACY = 0.02
 
 
-class Options(BaseModel):
+class Options(JobOptions):
     """Whether the strain of the study's first contact is wanted."""
-
-    model_config = ConfigDict(extra="forbid")
 
     contact: bool = False
 
@@ -46,11 +43,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         The sweep and the law as their data set names them, ``words`` (the law), ``linear`` (its linear ranges in
         words), ``figures``, ``notes`` and ``contact``: None, or ``strain`` of the contact, ``friction`` at it and
         ``linear`` friction, ``speed`` and ``temperature``.
-
-    Raises
-    ------
-    JobError, InputError
-        If there is no amplitude sweep, or it or the contact cannot be used.
     """
     table, _ = checked_tables(study, context)
     try:

@@ -5,28 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from viscofric.notes import listed
-from viscofric.web.jobs.context import NoOptions
+from viscofric.web.jobs.context import JobOptions
 
 if TYPE_CHECKING:
     from viscofric.web.jobs.context import Context
 
 
-Options = NoOptions
+Options = JobOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Check a study as ``viscofric check`` does; nothing is solved.
 
-    Returns
-    -------
-    dict
-        ``cases``, ``measured_points``, ``solves``, ``seconds`` (one core), ``memory`` (bytes), ``synthetic`` (whether
-        a rubber is made up) and ``notes``.
-
-    Raises
-    ------
-    StudyError
-        With all that is wrong.
+    Returned: ``cases``, ``measured_points``, ``solves``, ``seconds`` (one core), ``memory`` (bytes),
+    ``synthetic`` (whether a rubber is made up) and ``notes``.  Raises `StudyError` with all that is wrong.
     """
     from viscofric.study.checking import check_study
     from viscofric.web.study_text import RUN_FILE, study_of

@@ -21,10 +21,7 @@ MOST_CASES = 2_000
 def page_sweep(study: Study) -> Sweep:
     """Return the cases of a study as the page solves them: with the best estimate of the rubber, and nothing measured.
 
-    Raises
-    ------
-    JobError
-        If there are more than a page can show.
+    Raises `JobError` if there are more than a page can show.
     """
     bare = study.uncertainty.model_copy(update={"members": 0})
     sweep = study.model_copy(update={"uncertainty": bare}).sweep()
@@ -60,10 +57,7 @@ def combinations(sweep: Sweep) -> tuple[dict[object, int], list[str]]:
 def of_combination(sweep: Sweep, number: int) -> Case:
     """Return the first case of a combination.
 
-    Raises
-    ------
-    JobError
-        If there is none.
+    Raises `JobError` if there is none.
     """
     cases: dict[object, Case] = {}
     for case in sweep.cases:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from viscofric.contact.steady import LOOSE
 from viscofric.friction.cases.case import Rubbers, moved
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
 from viscofric.web.jobs.contact_pictures import RequestedContact, pictures
+from viscofric.web.jobs.context import JobOptions
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
@@ -22,40 +23,22 @@ COARSE = 0.1
 COARSE_POINTS = 128
 
 
-class Options(BaseModel):
-    """Which contact of the study is wanted, and how well.
+class Options(JobOptions):
+    """Which contact of the study is wanted, and how well."""
 
-    Parameters
-    ----------
-    speed, temperature : float
-        m/s and K, instead of the study's.
-    combination : int
-        Of all else that the study varies (loads, radii, seeds …); see `viscofric.web.jobs.combinations`.
-    stages : {"coarse", "sharp", "both"}
-        A coarse reply, one to the study's accuracy, or the first as a part and the second as the result.
-    """
-
-    model_config = ConfigDict(extra="forbid")
-
-    speed: float = Field(gt=0.0, lt=1e9)
+    speed: float = Field(gt=0.0, lt=1e9)  # speed, temperature: m/s and K, instead of the study's
     temperature: float = Field(gt=0.0, lt=1e5)
+    #: Of all else that the study varies (loads, radii, seeds …); see `viscofric.web.jobs.combinations`
     combination: int = Field(0, ge=0, lt=1_000_000)
+    #: A coarse reply, one to the study's accuracy, or the first as a part and the second as the result
     stages: Literal["coarse", "sharp", "both"] = "both"
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Solve one contact.
 
-    Returns
-    -------
-    dict
-        As of `contact_pictures.pictures`.  A converged reply has the numbers of a study that solves the case
-        by itself.
-
-    Raises
-    ------
-    ViscofricError
-        If the study is wrong, or the contact cannot be solved.
+    The reply is as of `contact_pictures.pictures`.  A converged reply has the numbers of a study that solves the
+    case by itself.  Raises `ViscofricError` if the study is wrong, or the contact cannot be solved.
     """
     _, checked = study_of(study, context.files)
     first = of_combination(page_sweep(checked), options.combination)

@@ -38,14 +38,7 @@ _DIGITS, _FEW_DIGITS = 6, 3
 
 @dataclass(frozen=True, eq=False)
 class RequestedContact:
-    """A contact that the page requests.
-
-    Attributes
-    ----------
-    case : Case
-    rubber : StudyRubber
-    study : Study
-    """
+    """A contact that the page requests."""
 
     case: Case
     rubber: StudyRubber

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 _BETWEEN_SENT = 0.05  # s, of progress: a browser shows no more
 
 
-class NoOptions(BaseModel):
-    """Options of a job that has none."""
+class JobOptions(BaseModel):
+    """Options of a job, or a part of them: other names are refused.  A job without options takes these."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -49,23 +49,12 @@ def beside_field(problem: Note) -> dict[str, str]:
 
 @dataclass
 class Context:
-    """What a job is handed.
+    """What a job is handed."""
 
-    Parameters
-    ----------
-    files : Path
-        Folder of the uploaded files; file names in the study are relative to it.
-    downloads : Path
-        Folder for what the user may fetch, at ``/api/downloads/<name>``.
-    cache : Path
-        Folder for what later jobs of the same page can use again.
-    send : callable, optional
-        Called with the event (``"progress"`` or ``"part"``) and what it says.
-    """
-
-    files: Path
-    downloads: Path
-    cache: Path
+    files: Path  # folder of the uploaded files; file names in the study are relative to it
+    downloads: Path  # folder for what the user may fetch, at ``/api/downloads/<name>``
+    cache: Path  # folder for what later jobs of the same page can use again
+    #: Called with the event (``"progress"`` or ``"part"``) and what it says
     send: Callable[[str, dict[str, Any]], object] = lambda event, message: None
     _sent: float = field(default=-math.inf, repr=False)
 

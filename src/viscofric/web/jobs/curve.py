@@ -21,7 +21,7 @@ from viscofric.study.running.store import CaseStore
 from viscofric.study.study_rubber import band_columns
 from viscofric.web.figures.curve import curve_layout, curve_parts
 from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
-from viscofric.web.jobs.context import JobError, NoOptions
+from viscofric.web.jobs.context import JobError, JobOptions
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
@@ -43,7 +43,7 @@ _DIGITS = 6
 _MOST_REASONS = 5
 
 
-Options = NoOptions
+Options = JobOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
@@ -66,11 +66,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         is known of it (null where it is not), and ``doubts``, a list of words: "extrapolated", "shift", "strain",
         "unresolved", "failed".  Then ``master`` (friction along the master curve), ``failures``, also grouped
         as ``missing``, ``warnings``, ``notes`` and ``checks``, in sentences, and what is drawn (`curve_parts`).
-
-    Raises
-    ------
-    ViscofricError
-        If the study is wrong, or none of its cases can be solved.
     """
     _, checked = study_of(study, context.files)
     contacts = _contacts(checked, study, context)

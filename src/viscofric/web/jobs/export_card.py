@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from viscofric.notes import warned
+from viscofric.web.jobs.context import JobOptions
 from viscofric.web.jobs.export_files import offered
 from viscofric.web.jobs.rubbers import made_rubber
 
@@ -18,10 +19,8 @@ _WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
 _OWN = ("csv", "json")
 
 
-class Options(BaseModel):
+class Options(JobOptions):
     """Which card, and what the rubber does not say; see `viscofric.rheology.cards.write_card`."""
-
-    model_config = ConfigDict(extra="forbid")
 
     format: Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"] = "abaqus"
     poisson_ratio: float | None = Field(None, ge=0.0, le=0.5)
@@ -45,11 +44,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     -------
     dict
         ``text`` of the card, ``download`` (``name``, ``title``, ``size``) and ``notes``, sentences.
-
-    Raises
-    ------
-    InputError
-        If the program cannot take the rubber, with what would make it.
     """
     from viscofric.rheology.cards import write_card
     from viscofric.rheology.shifts.shift_factors import ShiftFactors

@@ -65,15 +65,7 @@ def lay_out(text: str, study: Study, folder: Path) -> Path:
 def archive(target: Path, files: Iterable[tuple[str, Path | str]]) -> Path:
     """Write a zip archive.
 
-    Parameters
-    ----------
-    files : iterable of (str, Path or str)
-        Name in the archive, and the file, or the text, that is kept under it.
-
-    Returns
-    -------
-    Path
-        The archive.
+    `files`: name in the archive, and the file, or the text, that is kept under it.  Returns the archive.
     """
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as packed:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict
-
 from viscofric.errors import ViscofricError
 from viscofric.notes import Note
-from viscofric.web.jobs.context import beside_field
+from viscofric.web.jobs.context import JobOptions, beside_field
 from viscofric.web.jobs.export_files import archive, missing_files, offered
 from viscofric.web.study_text import RUN_FILE, DocumentError, study_of, study_text
 
@@ -19,18 +17,10 @@ if TYPE_CHECKING:
 ARCHIVE = "study.zip"
 
 
-class Options(BaseModel):
-    """How much is wanted.
+class Options(JobOptions):
+    """How much is wanted."""
 
-    Parameters
-    ----------
-    pack : bool
-        Whether the run file is packed, together with its data files, as a download.
-    """
-
-    model_config = ConfigDict(extra="forbid")
-
-    pack: bool = False
+    pack: bool = False  # whether the run file is packed, together with its data files, as a download
 
 
 #: What only a run file without problems has.
@@ -46,11 +36,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``text`` of the run file; ``problems``, a list of ``field`` and ``message``; ``cases`` that it has,
         ``files`` that it names, and ``about``, both in words, None where there are problems; ``summary``;
         ``download``, if it was to be packed.
-
-    Raises
-    ------
-    DocumentError
-        If a study with problems is to be packed.
     """
     text, problems, checked = _checked(study, context)
     if checked is None or problems:

@@ -6,10 +6,11 @@ import os
 import shutil
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from viscofric.notes import listed
 from viscofric.web.figures.spec import number
+from viscofric.web.jobs.context import JobOptions
 from viscofric.web.jobs.export_files import archive, lay_out, offered
 from viscofric.web.study_text import study_of
 
@@ -30,17 +31,10 @@ _STAGES = {
 }
 
 
-class Options(BaseModel):
-    """How the study is run.
+class Options(JobOptions):
+    """How the study is run."""
 
-    Parameters
-    ----------
-    workers : int
-        Processes that solve contacts; the results do not depend on it.
-    """
-
-    model_config = ConfigDict(extra="forbid")
-
+    #: Processes that solve contacts; the results do not depend on it
     workers: int = Field(1, ge=1, le=os.cpu_count() or 1)
 
 
@@ -53,13 +47,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``downloads``, a list of ``name``, ``title`` and ``size``; ``cases`` and ``failed``, their numbers;
         ``key_numbers``, the same to be shown; ``summary``;
         ``failures``, ``warnings`` and ``notes``, sentences; ``synthetic``.
-
-    Raises
-    ------
-    DocumentError
-        With all that is wrong with the document.
-    StudyError, DataFileError
-        As `run_study`.
     """
     from viscofric.report import write_figures_and_report
     from viscofric.report.texts.study import grouped_failures

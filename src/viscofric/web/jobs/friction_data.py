@@ -37,18 +37,9 @@ _MEASURED = (
 def by_temperature(temperature: Array, speed: Array, **columns: Any) -> list[dict[str, Any]]:
     """Sort points into isotherms.
 
-    Parameters
-    ----------
-    temperature, speed : (n,) array
-        K, m/s.
-    **columns : (n,) array
-        What else is known of the points.
-
-    Returns
-    -------
-    list of dict
-        For each nominal temperature, ascending: ``temperature`` (a number), ``speed`` and the other columns, in
-        ascending speed.
+    `temperature`, `speed` (n,), K, m/s; `columns` (n,): what else is known of the points.  Returned: for each
+    nominal temperature, ascending: ``temperature`` (a number), ``speed`` and the other columns, in ascending
+    speed.
     """
     nominal = nominal_temperatures(temperature)
     which = nearest(nominal, temperature) if nominal.size else np.zeros(0, dtype=np.int64)

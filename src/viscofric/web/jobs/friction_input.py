@@ -34,44 +34,22 @@ _NOTHING = Note("", "")
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """What was recognised in the files of [measurement], and the friction in them.
+    """What was recognised in the files of [measurement], and the friction in them."""
 
-    Attributes
-    ----------
-    runs : bool
-        Whether they are runs of a tribometer, not friction curves that are ready.
-    lines : list of (str, str)
-        What was recognised, as pairs of name and value.
-    steps : list of (int, str)
-        Number and description of each step of the test.
-    synthetic : bool
-        Whether a file says that it was made up.
-    curves : FrictionCurves or None
-        None where runs cannot be separated.
-    refusal : Note
-        Why they cannot; empty where they can.
-    notes : tuple of Note
-        What was doubtful.
-    """
-
-    runs: bool
-    lines: list[tuple[str, str]]
-    steps: list[tuple[int, str]]
-    synthetic: bool
-    curves: FrictionCurves | None
-    refusal: Note
-    notes: tuple[Note, ...]
+    runs: bool  # whether they are runs of a tribometer, not friction curves that are ready
+    lines: list[tuple[str, str]]  # what was recognised, as pairs of name and value
+    steps: list[tuple[int, str]]  # number and description of each step of the test
+    synthetic: bool  # whether a file says that it was made up
+    curves: FrictionCurves | None  # None where runs cannot be separated
+    refusal: Note  # why they cannot; empty where they can
+    notes: tuple[Note, ...]  # what was doubtful
 
 
 def measured(study: Mapping[str, Any], folders: Folders) -> Measured:
     """Return what the files of [measurement] hold, read here or found where an earlier job left it.
 
-    Raises
-    ------
-    StudyError
-        As `measurement_table` does.
-    DataFileError
-        If a file cannot be read; it is named without its folder.
+    Raises `StudyError` as `measurement_table` does.  Raises `DataFileError` if a file cannot be read; it is named
+    without its folder.
     """
     table = measurement_table(study, folders)
     return kept("measured", [table], table.inputs, folders, lambda: _measured(table, folders))
@@ -80,10 +58,7 @@ def measured(study: Mapping[str, Any], folders: Folders) -> Measured:
 def friction_curves(study: Mapping[str, Any], folders: Folders) -> FrictionCurves:
     """Return the friction curves of [measurement].
 
-    Raises
-    ------
-    StudyError, DataFileError, InputError
-        As `measured` does, or if the runs cannot be separated.
+    Raises `StudyError`, `DataFileError` or `InputError` as `measured` does, or if the runs cannot be separated.
     """
     found = measured(study, folders)
     if found.curves is None:
@@ -176,17 +151,8 @@ class _IndenterTables(Table):
 def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[str]) -> dict[str, Any]:
     """Return [measurement] as it stands with other files: runs or friction curves, as they are recognised.
 
-    Parameters
-    ----------
-    study : mapping
-        Tables of a run file; how runs are to be separated is kept.
-    names : sequence of str
-        Of uploaded files.
-
-    Raises
-    ------
-    StudyError
-        If a file is none of the uploaded ones, or the kinds are mixed.
+    `study`: tables of a run file; how runs are to be separated is kept; `names`: of uploaded files.  Raises
+    `StudyError` if a file is none of the uploaded ones, or the kinds are mixed.
     """
     for name in names:
         _insist_on_upload(folders.files / name, folders.files)
@@ -209,15 +175,8 @@ def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[s
 def measurement_table(study: Mapping[str, Any], folders: Folders) -> MeasurementTable:
     """Check [measurement] of a run file, without the other tables.
 
-    Returns
-    -------
-    MeasurementTable
-        With the paths of uploaded files.
-
-    Raises
-    ------
-    StudyError
-        With every wrong key, unit and range, or if a file is none of the uploaded ones.
+    It is returned with the paths of uploaded files.  Raises `StudyError` with every wrong key, unit and range, or if a
+    file is none of the uploaded ones.
     """
     if not study.get("measurement"):
         raise StudyError(Note("no-measurement", f"there is none; {_ABOUT}.", "measurement"))
@@ -234,10 +193,7 @@ def measurement_table(study: Mapping[str, Any], folders: Folders) -> Measurement
 def indenter_of(study: Mapping[str, Any]) -> Indenter | None:
     """Return what [indenter] says that friction was measured with; None where there is no such table.
 
-    Raises
-    ------
-    StudyError
-        If the table is wrong, or says more than one size.
+    Raises `StudyError` if the table is wrong, or says more than one size.
     """
     if not study.get("indenter"):
         return None

@@ -40,11 +40,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``history``: ``load_time``, ``dwell``, ``slide`` and ``strokes`` where the history has these stages, at the
         loads and speeds of the study; else ``file``, a table among the files of the page.  Or ``rows``, ``control``,
         ``path`` and ``before``, of the study's first case.
-
-    Raises
-    ------
-    ViscofricError
-        If the study or the history is wrong, or the study has none or cannot have this one.
     """
     if not options.rows:
         return _of_study(study_of(study, context.files)[1])

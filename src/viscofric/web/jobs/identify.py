@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from viscofric.datasets import plain, record
+from viscofric.web.jobs.context import JobOptions
 
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
@@ -23,29 +24,14 @@ _OF_A_BAND = ("low", "high", "limit", "relative", "decades")
 _STEPS = 4
 
 
-class Options(BaseModel):
-    """Options of the job.
+class Options(JobOptions):
+    """Options of the job."""
 
-    Attributes
-    ----------
-    shift : {"friction", "rubber"}
-        Where α(T) comes from.
-    anchor : AnchorOptions, optional
-        What fixes the level of the modulus.
-    beside : bool
-        Whether to compare with the page's material.
-    accuracy : float
-        Of each contact that is solved.
-    samples : int
-        Rubbers drawn for the bands.
-    """
-
-    model_config = ConfigDict(extra="forbid")
-    shift: Literal["friction", "rubber"] = "friction"
-    anchor: AnchorOptions | None = None
-    beside: bool = True
-    accuracy: float = Field(1e-2, ge=1e-4, le=0.1)
-    samples: int = Field(200, ge=20, le=1_000)
+    shift: Literal["friction", "rubber"] = "friction"  # where α(T) comes from
+    anchor: AnchorOptions | None = None  # what fixes the level of the modulus
+    beside: bool = True  # whether to compare with the page's material
+    accuracy: float = Field(1e-2, ge=1e-4, le=0.1)  # of each contact that is solved
+    samples: int = Field(200, ge=20, le=1_000)  # rubbers drawn for the bands
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
@@ -66,11 +52,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``name``, ``storage_modulus`` and ``loss_modulus`` of the page's rubber, or null; ``fit``: by temperature
         ``fitted``, ``lower``, ``upper`` and ``residual``; ``family``; ``rms``; ``sentences``; ``download``; and what
         is shown (`identified_view`).
-
-    Raises
-    ------
-    StudyError, DataFileError, InputError, ConvergenceError
-        If a table is wrong, or the friction does not suffice.
     """
     from viscofric.friction.identification.identify import LEVELS, identify_material
     from viscofric.notes import Note
@@ -192,48 +173,26 @@ _Text = Annotated[str, Field(max_length=100)]
 _NAMES = {"size": "the measured size", "modulus": "the modulus"}
 
 
-class AnchorOptions(BaseModel):
-    """An anchor; every quantity is text with its unit.
+class AnchorOptions(JobOptions):
+    """An anchor; every quantity is text with its unit."""
 
-    Attributes
-    ----------
-    of : str
-        "modulus" that is given, that of the page's "rubber", or the size of a contact: "indentation", "contact_area"
-        or "half_width".
-    modulus, frequency : str, optional
-        |E| at one frequency; that of the rubber is read there.
-    size, speed, load : str, optional
-        Of the moving contact.
-    temperature : str
-    error : float
-        Relative standard error.
-    """
-
-    model_config = ConfigDict(extra="forbid")
+    #: "modulus" that is given, that of the page's "rubber", or the size of a contact: "indentation", "contact_area"
+    #: or "half_width"
     of: Literal["modulus", "rubber", "indentation", "contact_area", "half_width"]
-    modulus: _Text | None = None
+    modulus: _Text | None = None  # modulus, frequency: |E| at one frequency; that of the rubber is read there
     frequency: _Text | None = None
-    size: _Text | None = None
+    size: _Text | None = None  # size, speed, load: of the moving contact
     speed: _Text | None = None
     load: _Text | None = None
     temperature: _Text
-    error: float = Field(0.01, gt=0.0, lt=1.0)
+    error: float = Field(0.01, gt=0.0, lt=1.0)  # relative standard error
 
 
 def make_anchor(requested: AnchorOptions, rubber: Material | None, load_unit: str) -> Anchor:
     """Return the requested anchor.
 
-    Parameters
-    ----------
-    rubber : Material, optional
-        Whose modulus is taken, if it is.
-    load_unit : {"N", "N/m"}
-        Of the friction curves.
-
-    Raises
-    ------
-    JobError
-        If a quantity is missing or cannot be used.
+    `rubber`: whose modulus is taken, if it is; `load_unit`: of the friction curves.  Raises `JobError` if a
+    quantity is missing or cannot be used.
     """
     from viscofric.errors import InputError
     from viscofric.web.jobs.context import JobError

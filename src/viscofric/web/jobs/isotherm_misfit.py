@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BeforeValidator, Field
 
 from viscofric.datasets import plain
 from viscofric.rheology.superposition.overlap import LogSweep, join_at
 from viscofric.study.run_file.tables import kelvin
-from viscofric.web.jobs.context import JobError
+from viscofric.web.jobs.context import JobError, JobOptions
 from viscofric.web.jobs.rubbers import made_rubber
 
 if TYPE_CHECKING:
@@ -21,10 +21,8 @@ if TYPE_CHECKING:
 _NAMED = 0.05
 
 
-class Options(BaseModel):
+class Options(JobOptions):
     """Which isotherm, and how far it may be dragged."""
-
-    model_config = ConfigDict(extra="forbid")
 
     temperature: Annotated[float, BeforeValidator(kelvin)]
     reach: float = Field(3.0, gt=0.0, le=10.0)
@@ -46,11 +44,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     dict
         ``temperature`` (K), ``log10_shift`` as it is now, ``moved`` (n decades to either side) and ``misfit`` (n, joint
         rms of log10 E' and log10 E'' where it overlaps its neighbours, decades; None where it overlaps neither).
-
-    Raises
-    ------
-    JobError
-        If there is no such isotherm.
     """
     fit = made_rubber(study, context).fit
     if fit is None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from viscofric.datasets import plain
 from viscofric.notes import listed
+from viscofric.web.jobs.context import JobOptions
 
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
@@ -19,25 +20,15 @@ if TYPE_CHECKING:
 _DOWNLOAD = "shift_factors_from_friction.csv"
 
 
-class Options(BaseModel):
-    """Options of the job.
+class Options(JobOptions):
+    """Options of the job."""
 
-    Attributes
-    ----------
-    beside : bool
-        Whether to compare with the page's material.
-    reference : str, optional
-        Temperature at which α is 1, with its unit; that of the rubber without, or one that is found.
-    law : str
-        Law to fit to the shift factors found from friction.
-    level_error : float
-        Relative standard error of friction that all points of a temperature share.
-    """
-
-    model_config = ConfigDict(extra="forbid")
-    beside: bool = True
+    beside: bool = True  # whether to compare with the page's material
+    #: Temperature at which α is 1, with its unit; that of the rubber without, or one that is found
     reference: str | None = Field(None, max_length=100)
+    #: Law to fit to the shift factors found from friction
     law: Literal["best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial", "none"] = "best"
+    #: Relative standard error of friction that all points of a temperature share
     level_error: float = Field(0.0, ge=0.0, lt=1.0)
 
 
@@ -59,11 +50,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         friction determines no shift factors, or null.  ``known``: the rubber's about the same reference, as ``points``
         (or null) and ``line``; null without a rubber, and at one
         temperature.  ``notes``, ``figures``.
-
-    Raises
-    ------
-    StudyError, DataFileError, InputError
-        If a table is wrong, or friction curves can be shifted neither way.
     """
     from viscofric.errors import SuperpositionError
     from viscofric.web.figures.friction import master_figures

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from viscofric.datasets import plain
 from viscofric.notes import listed
+from viscofric.web.jobs.context import JobOptions
 
 if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
@@ -16,16 +17,10 @@ if TYPE_CHECKING:
 _DOWNLOAD = "friction_curves.csv"
 
 
-class Options(BaseModel):
-    """Options of the job.
+class Options(JobOptions):
+    """Options of the job."""
 
-    Attributes
-    ----------
-    files : tuple of str
-        Uploaded files that were dropped; those of [measurement] without.
-    """
-
-    model_config = ConfigDict(extra="forbid")
+    #: Uploaded files that were dropped; those of [measurement] without
     files: tuple[str, ...] = Field((), max_length=1_000)
 
 
@@ -40,11 +35,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         they are a tribometer's), ``refusal`` (why they cannot be separated, or null), ``notes``, and unless refused
         ``curves`` (by temperature, see `viscofric.web.jobs.friction_data`), ``checks`` (name, verdict and words) and
         ``download``; ``figures`` and ``summary``.
-
-    Raises
-    ------
-    StudyError, DataFileError
-        If [measurement] is wrong, or a file cannot be read.
     """
     from viscofric.web.figures.friction import measured_figures
     from viscofric.web.jobs.friction_data import measured_points, pairs

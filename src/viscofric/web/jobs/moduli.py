@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict
+from pydantic import BeforeValidator
 
 from viscofric.datasets import plain
 from viscofric.study.run_file.tables import kelvin
 from viscofric.web.figures.spectrum import moduli_figures
-from viscofric.web.jobs.context import JobError
+from viscofric.web.jobs.context import JobError, JobOptions
 from viscofric.web.jobs.rubbers import friction_bands, made_rubber
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, moduli
 
@@ -22,10 +22,8 @@ if TYPE_CHECKING:
 _NEAR = 1.0
 
 
-class Options(BaseModel):
+class Options(JobOptions):
     """Where the modulus is requested."""
-
-    model_config = ConfigDict(extra="forbid")
 
     temperature: Annotated[float, BeforeValidator(kelvin)]
     bands: bool = True
@@ -47,11 +45,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``temperature`` (K), ``modulus``, ``band`` or None, ``moved`` (all measured points, brought there by α and b) or
         None, ``isotherm`` (the sweep measured there, as it was read) or None, ``extrapolated`` (whether α is), and
         ``figures``.
-
-    Raises
-    ------
-    JobError
-        If the rubber has no shift factor there.
     """
     rubber = made_rubber(study, context)
     material, at = rubber.material, options.temperature

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BeforeValidator, ConfigDict, Field
 
 from viscofric.datasets import plain, record
 from viscofric.friction.cases.case import moved
@@ -17,7 +17,7 @@ from viscofric.report.texts.numbers import prefixed
 from viscofric.study.run_file.tables import kelvin
 from viscofric.web.figures.motion import motion_view, pressures
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
-from viscofric.web.jobs.context import JobError
+from viscofric.web.jobs.context import JobError, JobOptions
 from viscofric.web.jobs.rubbers import notes_without_folder, study_rubber
 from viscofric.web.study_text import study_of
 
@@ -36,30 +36,20 @@ MOST_ROWS = 200
 _EACH, _ALL = 60, 240
 
 
-class Row(BaseModel):
-    """What is prescribed at a time; a time given twice is a jump.
+class Row(JobOptions):
+    """What is prescribed at a time; a time given twice is a jump."""
 
-    Parameters
-    ----------
-    time : float
-        s.
-    value : float
-        Of the options' `control`: N (N/m of a line contact), m or Pa.
-    along : float
-        m or m/s.
-    """
+    model_config = ConfigDict(allow_inf_nan=False)
 
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-    time: float
-    value: float
-    along: float = 0.0
+    time: float  # s
+    value: float  # of the options' `control`: N (N/m of a line contact), m or Pa
+    along: float = 0.0  # m or m/s
 
 
-class Impact(BaseModel):
+class Impact(JobOptions):
     """A mass that hits the material, kg and m/s, and the gravity, m/s², that brings it back."""
 
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(allow_inf_nan=False)
 
     mass: float
     speed: float
@@ -67,26 +57,13 @@ class Impact(BaseModel):
     rebounds: int = Field(1, ge=1, le=20)
 
 
-class Rows(BaseModel):
-    """A history as the page has it.
-
-    Parameters
-    ----------
-    rows : list of Row
-    control : {"load", "indentation", "pressure", "gap"}
-        What their values are.
-    path : {"speed", "position"}
-        What their `along` is, along the motion.
-    before : {"untouched", "at rest", "sliding"}
-        See `History`.
-    """
-
-    model_config = ConfigDict(extra="forbid")
+class Rows(JobOptions):
+    """A history as the page has it."""
 
     rows: list[Row] = Field([], max_length=MOST_ROWS)
-    control: Literal["load", "indentation", "pressure", "gap"] = "load"
-    path: Literal["speed", "position"] = "speed"
-    before: Literal["untouched", "at rest", "sliding"] = "untouched"
+    control: Literal["load", "indentation", "pressure", "gap"] = "load"  # what their values are
+    path: Literal["speed", "position"] = "speed"  # what their `along` is, along the motion
+    before: Literal["untouched", "at rest", "sliding"] = "untouched"  # see `History`
 
     def history(self, **more: Any) -> History:
         """Return the history; `more` is passed on to it."""
@@ -104,17 +81,10 @@ def _temperature(value: object) -> object:
 
 
 class Options(Rows):
-    """What the study's first indenter or surface does.
+    """What the study's first indenter or surface does."""
 
-    Parameters
-    ----------
-    impact : Impact, optional
-        Instead of a history.
-    temperature : float or str, optional
-        K, or text with its unit; instead of the study's first one.
-    """
-
-    impact: Impact | None = None
+    impact: Impact | None = None  # instead of a history
+    #: K, or text with its unit; instead of the study's first one
     temperature: Annotated[float | None, BeforeValidator(_temperature)] = Field(None, gt=0.0, lt=1e5)
 
 
@@ -127,11 +97,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         The data set of the solution as plain types, ``steps``, ``rejected_steps``, ``temperature`` (K), ``warnings``
         and ``notes``; of an impact also ``contacts``, what each of them has done.  Then what is shown (`motion_view`,
         `pressures`).
-
-    Raises
-    ------
-    ViscofricError
-        If the study or the history is wrong, or the contact cannot be solved.
     """
     _, checked = study_of(study, context.files)
     first = of_combination(page_sweep(checked), 0)

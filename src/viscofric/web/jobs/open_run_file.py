@@ -9,12 +9,13 @@ from fnmatch import fnmatchcase
 from pathlib import PureWindowsPath
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from viscofric.datasets import plain
 from viscofric.errors import DataFileError, StudyError
 from viscofric.files import parse_toml, read_bytes
 from viscofric.study.run_file.study import LONGEST_RUN_FILE, parse_study
+from viscofric.web.jobs.context import JobOptions
 from viscofric.web.study_files import named_files
 from viscofric.web.study_text import RUN_FILE
 from viscofric.web.workspace import LARGEST_UPLOAD, Workspace, checked_name
@@ -25,20 +26,11 @@ if TYPE_CHECKING:
     from viscofric.web.jobs.context import Context
 
 
-class Options(BaseModel):
-    """What is opened.
+class Options(JobOptions):
+    """What is opened."""
 
-    Parameters
-    ----------
-    text : str
-        Of a run file.
-    archive : str
-        Name of an uploaded zip file instead, of a run file with its data files, as the page packs it.
-    """
-
-    model_config = ConfigDict(extra="forbid")
-
-    text: str = Field("", max_length=LONGEST_RUN_FILE)
+    text: str = Field("", max_length=LONGEST_RUN_FILE)  # of a run file
+    #: Name of an uploaded zip file instead, of a run file with its data files, as the page packs it
     archive: str = Field("", max_length=1_000)
 
 
@@ -50,13 +42,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     dict
         ``study``, its tables; ``missing``, names of data files that are not among the page's own; ``files``, names of
         those that came with it.
-
-    Raises
-    ------
-    StudyError
-        If it is no TOML, or none that a run file can be.
-    DataFileError, InputError
-        If the archive cannot be read, or its files cannot be kept.
     """
     text, files = _unpacked(options.archive, context) if options.archive else (options.text, [])
     text = text.removeprefix("\ufeff")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from viscofric.verification import run_checks
 from viscofric.verification.published import PUBLISHED
 from viscofric.web.figures.spec import Spec, table
-from viscofric.web.jobs.context import NoOptions
+from viscofric.web.jobs.context import JobOptions
 
 if TYPE_CHECKING:
     from viscofric.verification import Comparison, Outcome
@@ -19,17 +19,14 @@ _HEAD = ["case", "quantity", "published", "computed", "difference", "allowed"]
 _SIGNS = {"at least": "≥ ", "at most": "≤ "}
 
 
-Options = NoOptions
+Options = JobOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Compute all comparisons of ``viscofric verify --published``; the study is not used.
 
-    Returns
-    -------
-    dict
-        ``said``, how many numbers agree, where and when they were computed; ``checks``, each with ``title``,
-        ``verdict``, ``origin`` (sentences) and ``table``.
+    Returned: ``said``, how many numbers agree, where and when they were computed; ``checks``, each with
+    ``title``, ``verdict``, ``origin`` (sentences) and ``table``.
     """
     from viscofric import __version__
 

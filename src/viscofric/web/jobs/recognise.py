@@ -5,19 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from viscofric.errors import InputError
+from viscofric.web.jobs.context import JobOptions
 from viscofric.web.jobs.rubbers import insist_on_uploads, named_without_folder
 
 if TYPE_CHECKING:
     from viscofric.web.jobs.context import Context
 
 
-class Options(BaseModel):
+class Options(JobOptions):
     """Names of uploaded files."""
-
-    model_config = ConfigDict(extra="forbid")
 
     files: list[str] = Field(min_length=1, max_length=10_000)
 
@@ -25,15 +24,8 @@ class Options(BaseModel):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Sort uploaded files by the kind of test that they hold.
 
-    Returns
-    -------
-    dict
-        ``kinds``: ``"dma"``, ``"ramps"``, ``"creep"``, ``"relaxation"`` or ``"amplitude"`` -> names of files.
-
-    Raises
-    ------
-    InputError
-        If a file is none of these tests.
+    Returned: ``kinds``: ``"dma"``, ``"ramps"``, ``"creep"``, ``"relaxation"`` or ``"amplitude"`` -> names of
+    files.  Raises `InputError` if a file is none of these tests.
     """
     from viscofric.readers.recognise import by_kind
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict
-
 from viscofric.datasets import plain, record
 from viscofric.notes import listed
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
 from viscofric.web.figures.rubber import rubber_view
+from viscofric.web.jobs.context import JobOptions
 from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber, notes_without_folder, without_folder
 from viscofric.web.jobs.shift_numbers import shift_numbers
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, spectrum_numbers
@@ -21,10 +20,8 @@ if TYPE_CHECKING:
     from viscofric.web.jobs.context import Context
 
 
-class Options(BaseModel):
+class Options(JobOptions):
     """Whether the rubber is drawn anew for its bands."""
-
-    model_config = ConfigDict(extra="forbid")
 
     bands: bool = True
 
@@ -46,11 +43,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         (`shift_numbers`), ``check`` (`check_numbers`; of ramps and step tests alone its verdict; else None),
         ``spectrum`` (`spectrum_numbers`) and ``band`` (`band_numbers`; None where the material's uncertainty is
         unknown, and ``no_band`` then says why).  Then what is shown (`rubber_view`).
-
-    Raises
-    ------
-    StudyError, InputError
-        If the rubber cannot be made.
     """
     table, wanted = checked_tables(study, context)
     context.progress(
@@ -125,11 +117,8 @@ _VERDICTS = {
 def check_numbers(fit: Superposition) -> dict[str, Any]:
     """Return the verdict on a superposition with what it rests on.
 
-    Returns
-    -------
-    dict
-        ``verdict`` (`SuperpositionCheck.verdict`), its ``kind``, ``headline`` and ``sentences``;
-        distances of ``neighbours`` in decades; ``kramers_kronig`` or None.
+    Returned: ``verdict`` (`SuperpositionCheck.verdict`), its ``kind``, ``headline`` and ``sentences``; distances
+    of ``neighbours`` in decades; ``kramers_kronig`` or None.
     """
     check, found = fit.check, fit.check.kramers_kronig
     return {

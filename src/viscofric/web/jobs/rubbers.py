@@ -58,20 +58,8 @@ class _RubberTables(Table):
 def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[MaterialTable, UncertaintyTable]:
     """Check [material] and [uncertainty] of a run file, without the other tables.
 
-    Parameters
-    ----------
-    study : mapping
-        Tables of a run file; of several materials the first counts.
-
-    Returns
-    -------
-    MaterialTable
-        With the paths of uploaded files.
-
-    Raises
-    ------
-    StudyError
-        With every wrong key, unit and range, or if a file is none of the uploaded ones.
+    `study`: tables of a run file; of several materials the first counts.  It is returned with the paths of uploaded
+    files.  Raises `StudyError` with every wrong key, unit and range, or if a file is none of the uploaded ones.
     """
     material = study.get("material")
     if isinstance(material, list) and material:
@@ -102,10 +90,7 @@ def made_rubber(study: Mapping[str, Any], folders: Folders) -> Rubber:
 def friction_bands(study: Mapping[str, Any], folders: Folders) -> FrictionBands:
     """Return the draws of the rubber of [uncertainty], as bands of friction are made of them.
 
-    Returns
-    -------
-    FrictionBands
-        Its `samples` (a `MaterialSamples`) is None where the material's uncertainty is unknown.
+    Its `samples` (a `MaterialSamples`) is None where the material's uncertainty is unknown.
     """
     from viscofric.study.study_rubber import FrictionBands
 
@@ -118,15 +103,8 @@ def friction_bands(study: Mapping[str, Any], folders: Folders) -> FrictionBands:
 def study_rubber(study: Mapping[str, Any], folders: Folders, temperatures: Sequence[float] = ()) -> StudyRubber:
     """Return the rubber ready to be solved with, as a study has it, but for members of its posterior.
 
-    Parameters
-    ----------
-    temperatures : sequence of float
-        K; each must have a shift factor.
-
-    Raises
-    ------
-    StudyError, InputError
-        As `StudyRubber.of` does.
+    `temperatures`: K; each must have a shift factor.  Raises `StudyError` or `InputError` as `StudyRubber.of`
+    does.
     """
     import numpy as np
 
@@ -144,16 +122,8 @@ def kept(
 ) -> Made:
     """Return what was made before of the same settings and the same files, in this process or another; else make it.
 
-    Parameters
-    ----------
-    name : str
-        Kind of thing.
-    settings : sequence
-        What it depends on, each a table or something that JSON holds.
-    inputs : sequence of Path
-        Files that it depends on; their contents count.
-    make : callable
-        Returns it.
+    `name`: kind of thing; `settings`: what it depends on, each a table or something that JSON holds; `inputs`:
+    files that it depends on; their contents count; `make`: returns it.
     """
     key = _key(name, settings, inputs)
     if key in _memory:
@@ -199,17 +169,8 @@ def _made(table: MaterialTable, folders: Folders) -> Rubber:
 def insist_on_uploads(place: str, given: Path | tuple[Path, ...] | None, folder: Path) -> None:
     """Refuse files outside the folder of uploads: a page reads nothing else of the machine that it runs on.
 
-    Parameters
-    ----------
-    place : str
-        Key of the run file that names them.
-    given : Path, tuple of Path, or None
-        As the run file names them; patterns stand for the files that they match.
-
-    Raises
-    ------
-    StudyError
-        If one of them is none of the uploaded ones.
+    `place`: key of the run file that names them; `given`: as the run file names them; patterns stand for the
+    files that they match.  Raises `StudyError` if one of them is none of the uploaded ones.
     """
     paths = given if isinstance(given, tuple) else () if given is None else (given,)
     for path in paths:

@@ -47,16 +47,8 @@ def _not_correctable(rubber: Rubber) -> str:
 def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any] | None:
     """Return α(T) of a rubber: what was found, the laws, and the isotherms shifted.
 
-    Parameters
-    ----------
-    held : mapping of float to float
-        Temperatures (K) whose log10 α was held.
-
-    Returns
-    -------
-    dict or None
-        In SI units; shift factors, lines of laws and vertical shift as their data sets name them, see `with_bars`. None
-        where the rubber has no shift.
+    `held`: temperatures (K) whose log10 α was held.  Numbers are in SI units; shift factors, lines of laws and
+    vertical shift as their data sets name them, see `with_bars`. None where the rubber has no shift.
     """
     law = rubber.material.shift
     if law is None:

@@ -123,12 +123,7 @@ def band_numbers(
 ) -> dict[str, Any]:
     """Return the 95 % band of the moduli, of the modes and of E0 and E_inf.
 
-    Parameters
-    ----------
-    angular_frequency : (n,) array
-        rad/s.
-    temperature : float, optional
-        K; the reference if not given.
+    `angular_frequency` (n,), rad/s; `temperature`: K; the reference if not given.
     """
 
     def tangent(material: Material) -> Array:

@@ -13,18 +13,22 @@ from viscofric.notes import listed, note_of
 from viscofric.readers.dma.isotherms import REPEATS_DIFFER
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.sweep_checks import outliers
-from viscofric.study.make_rubber import read_steps_of
+from viscofric.study.make_rubber import read_ramps_of, read_steps_of
 from viscofric.web.figures.sweeps import sweeps_view
-from viscofric.web.jobs.context import Context, JobError, NoOptions
-from viscofric.web.jobs.other_tests import read_other, step_curves
+from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
+from viscofric.web.jobs.spectrum_numbers import moduli
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from viscofric.arrays import Array
+    from viscofric.ramps import TemperatureRamps
     from viscofric.readers.dma.isotherms import TracedSweeps
     from viscofric.readers.dma.readings import Readings
+    from viscofric.step_tests import StepTests
     from viscofric.study.run_file.material import MaterialTable
+    from viscofric.web.jobs.rubbers import Folders
 
 #: More readings that were left out are counted, not drawn.
 _MOST_FLAGGED = 2_000
@@ -37,7 +41,7 @@ _TESTS = {"dma", "ramps", "creep", "relaxation"}
 _ANY_REFERENCE = "30 degC"
 
 
-Options = NoOptions
+Options = JobOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
@@ -54,15 +58,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         ``source``: "dma", "ramps", "creep", "relaxation", "master_curve", "file" or "catalogue".  Of sweeps ``files``
         (what each was taken for), ``left_open`` (keys of [material] that the files leave open), ``isotherms``,
         ``flagged`` readings, ``notes``, ``reference`` (a temperature that would do, K), their ``range``
-        (K), ``specimens`` (files that
-        differ where they should agree), and ``steps`` (`step_curves`) of tests beside them; of ramps and step tests see
-        `read_other`.  Of other sources ``about`` (words), ``synthetic`` and ``notes``.  Then what is shown
-        (`sweeps_view`).
-
-    Raises
-    ------
-    JobError, StudyError, InputError
-        If a file cannot be used; with the key of [material] that would say what is missing.
+        (K), ``specimens`` (files that differ where they should agree), and ``steps`` (`_step_curves`) of tests beside
+        them; of ramps and step tests see `_read_other`.  Of other sources ``about`` (words), ``synthetic`` and
+        ``notes``.  Then what is shown (`sweeps_view`).
     """
     table, _ = checked_tables(_with_reference(study), context)
     found = _read(table, study, context)
@@ -81,8 +79,8 @@ def _read(table: MaterialTable, study: dict[str, Any], context: Context) -> dict
         return _other(table, study, context)
     try:
         if table.dma is None:
-            return read_other(table, context, _USUAL_REFERENCE)
-        beside = {"steps": step_curves(read_steps_of(table))} if table.steps else {}
+            return _read_other(table, context, _USUAL_REFERENCE)
+        beside = {"steps": _step_curves(read_steps_of(table))} if table.steps else {}
         traced = trace_dma(
             *table.dma,
             deformation=table.deformation,
@@ -115,7 +113,7 @@ def _asking(error: InputError) -> JobError:
 def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> dict[str, Any]:
     sweeps, specimens = traced.sweeps, _specimens(traced)
     notes = [note for note in sweeps.notes if specimens is None or note_of(note).code != "repeats-differ"]
-    nearest = float(sweeps.temperatures[np.argmin(np.abs(sweeps.temperatures - _USUAL_REFERENCE))])
+    nearest = _nearest(sweeps.temperatures, _USUAL_REFERENCE)
     return {
         "source": "dma",
         "format": sweeps.format,
@@ -234,3 +232,74 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
         "flagged": [],
         "left_open": ["deformation"] if table.master_curve and table.deformation else [],
     }
+
+
+#: Points of a curve for each decade of time: no screen shows more.
+_PER_DECADE = 40
+
+
+def _read_other(table: MaterialTable, folders: Folders, near: float) -> dict[str, Any]:
+    """Return the ramps or the step tests of [material].
+
+    Returns
+    -------
+    dict
+        As of sweeps, with ``ramps`` or ``steps`` instead of isotherms: curves with ``temperature`` or
+        ``angular_frequency``.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be used; its field is the key of [material] that states what is missing.
+    """
+    common: dict[str, Any] = {"isotherms": [], "files": [], "flagged": [], "left_out": 0, "synthetic": False}
+    if table.ramps is not None:
+        ramps = read_ramps_of(table)
+        asked = ["assumed_shift"] if len(ramps) == 1 else []
+        low, high = ramps.temperature_range
+        return common | {
+            "source": "ramps",
+            "format": ramps.format,
+            "deformation": ramps.deformation,
+            "left_open": [*_given(table), *asked],
+            "ramps": _ramps(ramps),
+            "reference": plain(round(float(np.clip(near, low, high)), 2)),
+            **listed("notes", notes_without_folder(ramps.notes, folders)),
+        }
+    tests = read_steps_of(table)
+    return common | {
+        "source": tests.kind,
+        "format": tests.format,
+        "deformation": tests.deformation,
+        "left_open": _given(table),
+        "steps": _step_curves(tests),
+        "reference": plain(round(_nearest(tests.temperatures, near), 2)),
+        **listed("notes", notes_without_folder(tests.notes, folders)),
+    }
+
+
+def _step_curves(tests: StepTests) -> dict[str, Any]:
+    """Return step tests as measured: the response over time at each temperature."""
+    curves = [
+        {"temperature": plain(one.temperature), "time": plain(one.time), "response": plain(one.response)}
+        for one in tests.thinned(_PER_DECADE).tests
+    ]
+    points = sum(len(one) for one in tests.tests)
+    return {"kind": tests.kind, "deformation": tests.deformation, "curves": curves, "points": points}
+
+
+def _given(table: MaterialTable) -> list[str]:
+    """Return the keys of [material] that the user gave, since the files leave them open."""
+    return [name for name in ("deformation", "modulus_unit", "temperature") if getattr(table, name) is not None]
+
+
+def _ramps(ramps: TemperatureRamps) -> list[dict[str, Any]]:
+    return [
+        moduli(one.temperature, one.storage_modulus + 1j * one.loss_modulus)
+        | {"temperature": plain(one.temperature), "angular_frequency": plain(one.angular_frequency)}
+        for one in ramps.ramps
+    ]
+
+
+def _nearest(temperatures: Array, near: float) -> float:
+    return float(temperatures[np.argmin(np.abs(temperatures - near))])
