@@ -23,8 +23,8 @@ import numpy as np
 
 from viscofric.errors import ConvergenceError
 from viscofric.motion.history import dense_parts
+from viscofric.motion.memory import StepParts, step_parts
 from viscofric.motion.springs import quadrature_error
-from viscofric.motion.steps import StepParts, step_parts
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -92,14 +92,7 @@ class Contact(NamedTuple):
 
 @dataclass(eq=False)
 class Bounce:
-    """A run of one or several contacts; `meshes` are the steps of each contact of an earlier run.
-
-    Attributes
-    ----------
-    contacts : list of Contact
-    rows : list of tuple
-        Of each step: time, depth, speed, force, radius, stored and dissipated energy, error of the force by springs.
-    """
+    """A run of one or several contacts; `meshes` are the steps of each contact of an earlier run."""
 
     springs: Springs
     mass: float
@@ -110,6 +103,7 @@ class Bounce:
     recorded: bool = False
     contacts: list[Contact] = field(default_factory=list)
     taken: list[list[float]] = field(default_factory=list)
+    #: Of each step: time, depth, speed, force, radius, stored and dissipated energy, error of the force by springs
     rows: list[tuple[float, ...]] = field(default_factory=list)
 
     def run(self, speed: float, rebounds: int) -> Bounce:

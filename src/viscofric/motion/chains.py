@@ -67,39 +67,21 @@ SAME = Difference()
 
 @dataclass(frozen=True, eq=False)
 class Reached(Generic[State]):
-    """How far a march has come: all that another one needs to go on as if there had been no end.
-
-    Attributes
-    ----------
-    pair : Pair
-    time : float or None
-        s; None: the start of the schedule.
-    jumped : bool
-        Whether a jump at this time has been taken.
-    told : float
-        Time of the last moment returned, s.
-    scales : Scales or None
-        Largest values so far.
-    spread : Difference
-        Difference of the chains that errors are estimated from: the present one, or a part of an earlier larger one.
-    pace, share : float
-        Next step, s, or a number of ticks (zero: as after a jump), and the share of the accuracy that a step may add.
-    stored : float or None
-        Energy in the material before the first start, J; None: what it is now.
-    limited : bool
-        Whether a step from tick to tick was longer than the accuracy asks for.
-    """
+    """How far a march has come: all that another one needs to go on as if there had been no end."""
 
     pair: Pair[State]
-    time: float | None = None
-    jumped: bool = False
-    told: float = -math.inf
-    scales: Scales | None = None
+    time: float | None = None  # s; None: the start of the schedule
+    jumped: bool = False  # whether a jump at this time has been taken
+    told: float = -math.inf  # time of the last moment returned, s
+    scales: Scales | None = None  # largest values so far
+    #: Difference of the chains that errors are estimated from: the present one, or a part of an earlier larger one
     spread: Difference = SAME
+    #: pace, share: Next step, s, or a number of ticks (zero: as after a jump), and the share of the accuracy that a
+    #: step may add
     pace: float = 0.0
     share: float | None = None
-    stored: float | None = None
-    limited: bool = False
+    stored: float | None = None  # energy in the material before the first start, J; None: what it is now
+    limited: bool = False  # whether a step from tick to tick was longer than the accuracy asks for
 
 
 def difference(pair: Pair[State]) -> Difference:
@@ -202,27 +184,14 @@ def moment_of(
 
 @dataclass(frozen=True, eq=False)
 class Track(Generic[State]):
-    """What a march has found.
-
-    Attributes
-    ----------
-    moments : list of Moment
-    steps : int
-        Steps taken (of the coarse chain, those of the last march), and those rejected.
-    interrupted : bool
-        Whether the march was interrupted before the end.
-    reached : Reached
-        States of both chains at the last time, from which another march may continue.
-    stored : float
-        Energy in the material before the start.
-    """
+    """What a march has found."""
 
     moments: list[Moment[State]]
-    steps: int
+    steps: int  # steps taken (of the coarse chain, those of the last march), and those rejected
     rejected: int
-    interrupted: bool
-    reached: Reached[State]
-    stored: float = 0.0
+    interrupted: bool  # whether the march was interrupted before the end
+    reached: Reached[State]  # states of both chains at the last time, from which another march may continue
+    stored: float = 0.0  # energy in the material before the start
 
     def joined(self, later: Track[State]) -> Track[State]:
         """Return what this march and a later one that continues it have found."""

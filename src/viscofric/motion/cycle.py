@@ -83,13 +83,8 @@ def solve_cycle(
         Times to return, ascending, within the period, s, with their pressures.  All steps without pressures if omitted.
     accuracy : float or str
         As for `solve_transient`; also the accuracy of the periodic state, in stored energy.
-    layer : Layer, float, str or pint.Quantity, optional
-        Thickness and base of the material, or the thickness of a bonded layer, such as ``"2 mm"``; a half-space if
-        omitted.
-    indenter_modulus : float, str or pint.Quantity, optional
-        Young's modulus of an elastic indenter, Pa; rigid if omitted.
-    indenter_poisson_ratio : float
-        Of an elastic indenter.
+    layer, indenter_modulus, indenter_poisson_ratio : optional
+        As for `solve_transient`.
     coulomb : float or str
         Coulomb friction coefficient of a sliding contact, where it is known.  The contact is solved without its shear;
         the note `tangential-coupling` has the change of friction by it, if above 5 %.

@@ -33,24 +33,12 @@ class Estimate(NamedTuple):
 
 @dataclass(frozen=True)
 class Period:
-    """One marched period: its numbers, extrapolated, and what they lose by steps and points.
+    """One marched period: its numbers, extrapolated, and what they lose by steps and points."""
 
-    Attributes
-    ----------
-    stiffness : complex
-        Ratio of the first harmonics of load and depth; nan without an oscillation.
-    stiffness_steps : float
-    stiffness_points : complex
-        By half of the springs less that by all.
-    rubbed, rubbed_steps : float
-        Work of friction.
-    dissipated : float
-    """
-
-    stiffness: complex
+    stiffness: complex  # ratio of the first harmonics of load and depth; nan without an oscillation
     stiffness_steps: float
-    stiffness_points: complex
-    rubbed: float
+    stiffness_points: complex  # by half of the springs less that by all
+    rubbed: float  # rubbed, rubbed_steps: work of friction
     rubbed_steps: float
     dissipated: float
 

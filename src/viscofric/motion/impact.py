@@ -148,16 +148,8 @@ def restitution_curve(
         At the touch, m/s.
     temperatures : (m,) array of float, str or pint.Quantity, optional
         K if plain numbers.  May be left out for a material without a shift law.
-    mass : float, str or pint.Quantity
-        Of the indenter, kg.
-    gravity : float, str or pint.Quantity
-        Acceleration towards the half-space, not below zero, m/s².
-    accuracy : float or str
-        Largest error of the restitution, absolute.
-    indenter_modulus : float, str or pint.Quantity, optional
-        Young's modulus of an elastic indenter, Pa; rigid without it.
-    indenter_poisson_ratio : float
-        Of an elastic indenter.
+    mass, gravity, accuracy, indenter_modulus, indenter_poisson_ratio
+        As for `solve_impact`.
 
     Returns
     -------

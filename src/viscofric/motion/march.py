@@ -35,7 +35,6 @@ from viscofric.motion.chains import (
     over_scales,
 )
 from viscofric.motion.mover import SHARE, Mover, Scales, State
-from viscofric.motion.steps import even_steps
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -243,8 +242,8 @@ class _March(Generic[State]):
         if ticks is None:
             self._freely(pair, begun, end, least)
         else:
-            edges = even_steps(np.append(start, ticks))
-            self._by_ticks(pair, even_steps(np.append(begun, edges[edges > begun + least])))
+            edges = _even_steps(np.append(start, ticks))
+            self._by_ticks(pair, _even_steps(np.append(begun, edges[edges > begun + least])))
 
     def _freely(self, pair: Pair[State], start: float, end: float, least: float) -> None:
         time, step, failed = start, self._pace or max(least, self._first_step(start, end)), 0
@@ -359,3 +358,13 @@ class _March(Generic[State]):
 
 def _growth(ratio: float) -> float:
     return max(_SHRINK, min(_GROW, float(_SAFETY * max(ratio, 1e-6) ** (-1.0 / 3.0))))
+
+
+def _even_steps(edges: Array) -> Array:
+    """Return the edges of an even number of steps: the first one is divided if their number is odd.
+
+    Steps of whole cells stay whole: after half a cell, friction is off for the next two.
+    """
+    if len(edges) % 2:
+        return edges
+    return np.insert(edges, 1, 0.5 * (edges[0] + edges[1]))

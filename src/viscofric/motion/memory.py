@@ -87,6 +87,38 @@ def step_coefficients(steps: ArrayLike, turn: ArrayLike = 0.0) -> StepCoefficien
     return StepCoefficients(np.exp(z), kappa * (first - second), kappa * second)
 
 
+#: Where series replace differences that would cancel.
+_STEP_SERIES_BELOW = 0.05
+
+
+class StepParts(NamedTuple):
+    """Coefficients of a step Δt = xτ, each (modes,).
+
+    The memory becomes q₁ = decay q₀ + start f₀ + end f₁.  A mode of compliance c dissipates
+    c [own (f₀ − q₀)² + 2 mixed (f₀ − q₀)(f₁ − f₀) + new (f₁ − f₀)²], the integral of c τ q̇².
+    """
+
+    decay: Array
+    start: Array
+    end: Array
+    own: Array
+    mixed: Array
+    new: Array
+
+
+def step_parts(x: Array) -> StepParts:
+    """Return the coefficients of a step of x = Δt/τ, not below zero."""
+    small = x < _STEP_SERIES_BELOW
+    safe = np.where(small, 1.0, x)
+    gone = -np.expm1(-x)  # 1 − e^{−x}
+    decay, start, end = step_coefficients(x)
+    own = -0.5 * np.expm1(-2.0 * x)
+    mixed = 0.5 * gone * (1.0 - end)
+    series = x * (1 / 3 - x * (1 / 4 - x * (7 / 60 - x * (1 / 24 - x * (31 / 2520 - x / 320)))))
+    new = np.where(small, series, (x - 2.0 * gone + own) / np.square(safe))
+    return StepParts(decay, start, end, own, mixed, new)
+
+
 def quickest_time(instantaneous: float, compliances: Array, times: Array) -> float:
     """Return the time in which an instantaneous compliance would double at the first rate of creep, s."""
     return instantaneous / float(compliances @ (1.0 / times)) if len(times) else math.inf

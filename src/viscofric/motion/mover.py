@@ -23,49 +23,29 @@ class Observation(NamedTuple):
     """Observed quantities of a contact at one time.
 
     Forces and energies are per length in a line contact, and per area in a periodic one.
-
-    Attributes
-    ----------
-    load : float
-        N (N/m; mean pressure, Pa).
-    depth : float
-        Indentation, m.
-    friction_force : (float, float)
-        Force of the indenter on the material along x and y, whose work is that of friction.
-    area : float
-        Of contact, m² (m; a fraction).
-    stored, dissipated : float
-        Energy in the material, and what it has dissipated since the start, J (J/m; J/m²), computed from the modes and
-        not from the work of load and friction, which the march adds up itself.
-    extents : mapping
-        ``contact_radius``, or ``front``, ``rear`` and ``half_width``, m.
-    left_out : (float, float, float, float)
-        Errors of load, depth, friction and dissipated energy that shorter steps do not reduce: by the number of
-        springs, and by merged modes.
-    force_on_slopes : (float, float)
-        Friction from the pressure on the indenter's slopes, of contacts on cells; zero for others.
     """
 
-    load: float
-    depth: float
+    load: float  # N (N/m; mean pressure, Pa)
+    depth: float  # indentation, m
+    #: Force of the indenter on the material along x and y, whose work is that of friction
     friction_force: tuple[float, float]
-    area: float
+    area: float  # of contact, m² (m; a fraction)
+    #: stored, dissipated: Energy in the material, and what it has dissipated since the start, J (J/m; J/m²), computed
+    #: from the modes and not from the work of load and friction, which the march adds up itself
     stored: float
     dissipated: float
-    extents: Mapping[str, float]
+    extents: Mapping[str, float]  # ``contact_radius``, or ``front``, ``rear`` and ``half_width``, m
+    #: Errors of load, depth, friction and dissipated energy that shorter steps do not reduce: by the number of
+    #: springs, and by merged modes
     left_out: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    #: Friction from the pressure on the indenter's slopes, of contacts on cells; zero for others
     force_on_slopes: tuple[float, float] = (0.0, 0.0)
 
 
 class Scales(NamedTuple):
-    """Sizes below which errors of a contact are not resolved: accuracies are relative to these, or to larger values.
+    """Sizes below which errors of a contact are not resolved: accuracies are relative to these, or to larger values."""
 
-    Attributes
-    ----------
-    load, depth, friction, energy : float
-        Above zero; of the stiffest response for a depth, of the softest one for a load.
-    """
-
+    #: load, depth, friction, energy: Above zero; of the stiffest response for a depth, of the softest one for a load
     load: float
     depth: float
     friction: float
@@ -74,21 +54,11 @@ class Scales(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """A pressure on its own coordinates (m), relative to the indenter's axis.
+    """A pressure on its own coordinates (m), relative to the indenter's axis."""
 
-    Attributes
-    ----------
-    axes : mapping
-        Name of each dimension (``r``; ``x`` and ``y``) → its points.
-    pressure : array
-        Pa, along these dimensions.
-    error : float
-        Largest error of it by steps, Pa.
-    """
-
-    axes: Mapping[str, Array]
-    pressure: Array = field(repr=False)
-    error: float = 0.0
+    axes: Mapping[str, Array]  # name of each dimension (``r``; ``x`` and ``y``) → its points
+    pressure: Array = field(repr=False)  # Pa, along these dimensions
+    error: float = 0.0  # largest error of it by steps, Pa
 
     def apart(self, other: Field) -> float:
         """Return the largest difference from a pressure on points of the same lattice, where both have points, Pa."""

@@ -25,10 +25,9 @@ import numpy as np
 
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
-from viscofric.motion.memory import quickest_time, recovery_at_depth
+from viscofric.motion.memory import StepParts, quickest_time, recovery_at_depth, step_parts
 from viscofric.motion.mover import SHARE, Field, Observation, Scales
 from viscofric.motion.springs import both_sides, elastic_radius, graded_row, quadrature_error
-from viscofric.motion.steps import StepParts, step_parts
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Mask

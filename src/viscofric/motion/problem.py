@@ -15,27 +15,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A contact in motion.
+    """A contact in motion."""
 
-    Attributes
-    ----------
-    material : Material
-        Its Poisson ratio; the modes are those of the schedule.
-    indenter : Indenter or PeriodicSurface
-    schedule : Schedule
-    accuracy : float
-        Relative, of friction, depth, load and energy.
-    layer : Layer or None
-    counterface : float
-        (1 − ν_i²)/E_i of an elastic indenter, 1/Pa.
-    """
-
-    material: Material
+    material: Material  # its Poisson ratio; the modes are those of the schedule
     indenter: Indenter | PeriodicSurface
     schedule: Schedule
-    accuracy: float
+    accuracy: float  # relative, of friction, depth, load and energy
     layer: Layer | None
-    counterface: float
+    counterface: float  # (1 − ν_i²)/E_i of an elastic indenter, 1/Pa
 
     @property
     def kind(self) -> str:

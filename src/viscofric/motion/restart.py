@@ -31,39 +31,20 @@ _NUMBERS = ("instantaneous", "at_once", "error")
 
 
 class Begun(NamedTuple):
-    """A march that may be continued.
+    """A march that may be continued."""
 
-    Attributes
-    ----------
-    track : Track
-        All that it has found, with the states that it has reached.
-    basis : mapping
-        Places of the springs, modes of the waves, or units, modes and grid of the cells.
-    """
-
-    track: Track[Any]
-    basis: Mapping[str, Array]
+    track: Track[Any]  # all that it has found, with the states that it has reached
+    basis: Mapping[str, Array]  # places of the springs, modes of the waves, or units, modes and grid of the cells
 
 
 @dataclass(frozen=True, eq=False)
 class Restart:
-    """A run from which another one goes on.
+    """A run from which another one goes on."""
 
-    Attributes
-    ----------
-    method : str
-        "springs", "waves" or "grid".
-    history : History
-    marches : tuple of Begun
-        One; on cells those of the last two grids, the finer one last.
-    same : mapping
-        Numbers of the material and the contact, by name, that must be the same.
-    """
-
-    method: str
+    method: str  # "springs", "waves" or "grid"
     history: History
-    marches: tuple[Begun, ...]
-    same: Mapping[str, Array]
+    marches: tuple[Begun, ...]  # one; on cells those of the last two grids, the finer one last
+    same: Mapping[str, Array]  # numbers of the material and the contact, by name, that must be the same
 
     @classmethod
     def of(cls, problem: Problem, history: History, method: str, mover: Mover[Any], track: Track[Any]) -> Restart:

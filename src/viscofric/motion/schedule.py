@@ -40,24 +40,12 @@ _NODES, _WEIGHTS = (0.5 * column for column in np.polynomial.legendre.leggauss(1
 
 
 class Instant(NamedTuple):
-    """What is prescribed at one time, or on one side of a jump; SI.
+    """What is prescribed at one time, or on one side of a jump; SI."""
 
-    Attributes
-    ----------
-    time : float
-        s.
-    clock : float
-        The material's time ξ since the start, s.
-    position : (2,) array
-        m.
-    load, depth, pressure, gap : float or None
-        The one that is prescribed.
-    """
-
-    time: float
-    clock: float
-    position: Array
-    load: float | None = None
+    time: float  # s
+    clock: float  # the material's time ξ since the start, s
+    position: Array  # (2,): m
+    load: float | None = None  # load, depth, pressure, gap: the one that is prescribed
     depth: float | None = None
     pressure: float | None = None
     gap: float | None = None
@@ -65,24 +53,13 @@ class Instant(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Schedule:
-    """A history in SI units for one material.
+    """A history in SI units for one material."""
 
-    Attributes
-    ----------
-    spectrum : RetardationSpectrum
-        Modes that go with the clock: those at the temperature, or at the first one if it changes.
-    control : str
-        "load", "indentation", "pressure" or "gap".
-    before : str
-        "untouched", "at rest" or "sliding".
-    kinks : (m,) array
-        Times at which any rate changes or a value jumps, with the first and the last time; s.
-    """
-
+    #: Modes that go with the clock: those at the temperature, or at the first one if it changes
     spectrum: RetardationSpectrum
-    control: str
-    before: str
-    kinks: Array
+    control: str  # "load", "indentation", "pressure" or "gap"
+    before: str  # "untouched", "at rest" or "sliding"
+    kinks: Array  # (m,): times at which any rate changes or a value jumps, with the first and the last time; s
     _time: Array = field(repr=False)
     _value: Array = field(repr=False)
     _position: Array = field(repr=False)

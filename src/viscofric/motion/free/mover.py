@@ -21,9 +21,8 @@ from viscofric.motion.free.box import Box
 from viscofric.motion.free.carried import Lattice
 from viscofric.motion.free.cells import Cells
 from viscofric.motion.free.energy import Products
+from viscofric.motion.free.first_states import rested, slid, untouched
 from viscofric.motion.free.past import NO_PAST, parted
-from viscofric.motion.free.resting import rested, untouched
-from viscofric.motion.free.sliding import slid
 from viscofric.motion.free.state import FreeState, Place
 from viscofric.motion.memory import Modes, recovery_at_depth
 from viscofric.motion.mover import SHARE, Field, Observation, Scales
