@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
 
 # Tests run side by side, a process for each core: threads of BLAS within them only get in each other's way.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -17,8 +19,22 @@ os.environ.setdefault("MPLCONFIGDIR", str(Path(sys.prefix) / "var" / "matplotlib
 # How long an example takes is not tested: the machine may be busy.
 settings.register_profile("viscofric", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("viscofric")
+# Hypothesis would parse every module of package and tests for constants to draw, in each process: a fifth of the time
+# that collection takes. Without them, what a seed draws does not depend on the modules that a process has loaded.
+providers._get_local_constants = lambda: providers._local_constants
 
 ROOT = Path(__file__).resolve().parent.parent
+
+
+def pytest_sessionstart() -> None:
+    """Collect no garbage while tests are collected: hardly any arises, and each search visits all that exists."""
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Leave what lasts as long as the process, tests and modules, out of every later search for garbage."""
+    gc.freeze()
+    gc.enable()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
