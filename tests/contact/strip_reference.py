@@ -62,14 +62,17 @@ class SlidingStrip:
         """Displacement into the strip by a load of height 1 on one point, at distances from −(points − 1) steps on."""
         pressed, sheared = self._waves()
         # Images are thirty windows away; the tail of the integral is 1e-5 of it.
-        dq = 2.0 * np.pi / (30.0 * points * step)
+        period = 30 * points  # steps
+        dq = 2.0 * np.pi / (period * step)
         q = dq * (0.5 + np.arange(int(80.0 / step / dq)))
         compliance = 1.0 / self.E_inf + (1.0 / self.E0 - 1.0 / self.E_inf) / (1.0 - 1j * q * self.memory)
         depth = np.minimum(q * self.thickness, _DEEP)
         waves = (pressed(depth) - 1j * self.coulomb * sheared(depth)) / q * compliance
         waves *= step * np.square(np.sinc(0.5 * q * step / np.pi)) * dq / np.pi  # of linear pieces
-        away = step * np.arange(1.0 - points, points)
-        return np.array([float((waves * np.exp(1j * q * one)).real.sum()) for one in away])
+        # Σ exp(iqx) at the steps is one FFT: waves whose numbers differ by a period have the same values there.
+        folded = np.append(waves, np.zeros(-len(waves) % period)).reshape(-1, period).sum(axis=0)
+        away = np.arange(1 - points, points)
+        return (np.exp(1j * np.pi * away / period) * period * np.fft.ifft(folded)[away]).real
 
     def _waves(self) -> tuple[CubicSpline, CubicSpline]:
         """E q times the displacement into the strip by pressure 1, and that out of it by shear 1, over qH."""
