@@ -110,15 +110,18 @@ def belongs(module: str, package: str) -> bool:
     return module == package or module.startswith(package + ".")
 
 
-def walk(tree: ast.AST) -> Iterator[tuple[ast.AST, bool]]:
-    """Yield every node, and whether it belongs to the program when it runs."""
-    stack = [(tree, True)]
+def walk(text: str) -> Iterator[tuple[ast.AST, bool]]:
+    """Yield every node of a program, and whether it belongs to it when it runs."""
+    stack: list[tuple[ast.AST, bool]] = [(ast.parse(text), True)]
     while stack:
         node, at_run_time = stack.pop()
         yield node, at_run_time
-        typing_only = isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
-        body = set(map(id, node.body)) if typing_only and isinstance(node, ast.If) else set()
-        stack += [(child, at_run_time and id(child) not in body) for child in ast.iter_child_nodes(node)]
+        children = ast.iter_child_nodes(node)
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in (getattr(node.test, word, "") for word in ("id", "attr")):
+            body = set(map(id, node.body))
+            stack += [(child, at_run_time and id(child) not in body) for child in children]
+        else:
+            stack += [(child, at_run_time) for child in children]
 
 
 def called(call: ast.Call) -> str:
@@ -126,36 +129,61 @@ def called(call: ast.Call) -> str:
     return str(getattr(call.func, "attr", getattr(call.func, "id", "")))
 
 
-def own_imports(module: str, text: str, is_package: bool = False) -> Iterator[Import]:
-    """Yield the imports of viscofric by viscofric, those within functions and by `import_module` too."""
-    for node, at_run_time in walk(ast.parse(text)):
-        names: list[str] = []
-        if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            home = node.module or ""
-            if node.level:
-                parents = module.split(".")
-                keep = len(parents) - node.level + is_package
-                home = ".".join([*parents[:keep], *([home] if home else [])])
-            for alias in node.names:
-                inner = f"{home}.{alias.name}"
-                names.append(inner if inner in MODULES else home)
-        elif isinstance(node, ast.Call) and called(node).endswith(("import_module", "__import__")):
-            names = [str(word.value) for word in node.args[:1] if isinstance(word, ast.Constant)]
-        for name in names:
-            if belongs(name, "viscofric"):
-                yield Import(module, name, getattr(node, "lineno", 0), at_run_time)
+def own_imports(module: str, text: str, is_package: bool = False) -> list[Import]:
+    """Return the imports of viscofric by viscofric, those within functions and by `import_module` too."""
+    found: list[Import] = []
+    for node, at_run_time in walk(text):
+        found += imports_of(module, node, at_run_time, is_package)
+    return found
+
+
+def imports_of(module: str, node: ast.AST, at_run_time: bool, is_package: bool) -> Iterator[Import]:
+    names: list[str] = []
+    if isinstance(node, ast.Import):
+        names = [alias.name for alias in node.names]
+    elif isinstance(node, ast.ImportFrom):
+        home = node.module or ""
+        if node.level:
+            parents = module.split(".")
+            keep = len(parents) - node.level + is_package
+            home = ".".join([*parents[:keep], *([home] if home else [])])
+        for alias in node.names:
+            inner = f"{home}.{alias.name}"
+            names.append(inner if inner in MODULES else home)
+    elif isinstance(node, ast.Call) and called(node).endswith(("import_module", "__import__")):
+        names = [str(word.value) for word in node.args[:1] if isinstance(word, ast.Constant)]
+    for name in names:
+        if belongs(name, "viscofric"):
+            yield Import(module, name, getattr(node, "lineno", 0), at_run_time)
+
+
+class Found(NamedTuple):
+    """What all modules were searched for: imports, and the places of sentences read and of errors without a code."""
+
+    imports: list[Import]
+    sentences: list[str]
+    errors: list[str]
 
 
 @cache
+def searched() -> Found:
+    """Search every module once for all tests."""
+    found = Found([], [], [])
+    for module, path in MODULES.items():
+        foreign, is_package = any(belongs(module, one) for one in FOREIGN_TEXT), path.name == "__init__.py"
+        for node, at_run_time in walk(path.read_text("utf-8")):
+            if not isinstance(node, (ast.Import, ast.ImportFrom, ast.Compare, ast.Call)):
+                continue
+            found.imports.extend(imports_of(module, node, at_run_time, is_package))
+            if not foreign:
+                found.sentences.extend(f"{module}, line {line}" for line in sentences_read(node))
+            if isinstance(node, ast.Call) and lacks_code(node):
+                found.errors.append(f"{module}, line {node.lineno}")
+    return found
+
+
 def all_imports() -> list[Import]:
-    return [
-        found
-        for module, path in MODULES.items()
-        for found in own_imports(module, path.read_text("utf-8"), path.name == "__init__.py")
-        if (found.importer, found.imported) != DRAWING
-    ]
+    return [found for found in searched().imports if (found.importer, found.imported) != DRAWING]
 
 
 def goes_right(found: Import) -> bool:
@@ -431,30 +459,29 @@ FOREIGN_TEXT = (
 SEARCHES = ("startswith", "endswith", "partition", "rpartition", "removeprefix", "removesuffix", "split", "replace")
 
 
-def looks_into_sentences(text: str) -> Iterator[int]:
-    """Yield the lines that search text for several words, an error's for any, compare it with many, or import `re`."""
-    for node in ast.walk(ast.parse(text)):
-        if not isinstance(node, (ast.Import, ast.ImportFrom, ast.Compare, ast.Call)):
-            continue
-        sought: list[ast.expr] = []
-        if isinstance(node, (ast.Import, ast.ImportFrom)):
-            if "re" in [getattr(node, "module", None), *(alias.name for alias in node.names)]:
-                yield node.lineno
-        elif isinstance(node, ast.Compare) and isinstance(node.ops[0], (ast.In, ast.NotIn)):
-            sought, least = [node.left], 3
-            if isinstance(node.left, ast.Constant) and ast.unparse(node.comparators[0]) in ("str(error)", "str(note)"):
-                least = 1
-        elif isinstance(node, ast.Compare):
-            sought, least = [node.left, *node.comparators], 5
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in SEARCHES:
-            sought, least = node.args[:1], 3
-        if any(
-            isinstance(one, ast.Constant) and isinstance(one.value, str) and len(one.value.split()) >= least
-            for one in sought
-        ):
+def sentences_read(node: ast.AST) -> Iterator[int]:
+    """Yield the line that searches text for several words (an error's: any), compares with many, or imports `re`."""
+    if not isinstance(node, (ast.Import, ast.ImportFrom, ast.Compare, ast.Call)):
+        return
+    sought: list[ast.expr] = []
+    if isinstance(node, (ast.Import, ast.ImportFrom)):
+        if "re" in [getattr(node, "module", None), *(alias.name for alias in node.names)]:
             yield node.lineno
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and rewrites_text(node):
-            yield node.lineno
+    elif isinstance(node, ast.Compare) and isinstance(node.ops[0], (ast.In, ast.NotIn)):
+        sought, least = [node.left], 3
+        if isinstance(node.left, ast.Constant) and ast.unparse(node.comparators[0]) in ("str(error)", "str(note)"):
+            least = 1
+    elif isinstance(node, ast.Compare):
+        sought, least = [node.left, *node.comparators], 5
+    elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in SEARCHES:
+        sought, least = node.args[:1], 3
+    if any(
+        isinstance(one, ast.Constant) and isinstance(one.value, str) and len(one.value.split()) >= least
+        for one in sought
+    ):
+        yield node.lineno
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and rewrites_text(node):
+        yield node.lineno
 
 
 def rewrites_text(call: ast.Call) -> bool:
@@ -476,32 +503,31 @@ def rewrites_text(call: ast.Call) -> bool:
     ],
 )
 def test_reading_sentences_is_noticed(line: str) -> None:
-    assert list(looks_into_sentences(line)) == [1]
+    assert [number for node, _ in walk(line) for number in sentences_read(node)] == [1]
 
 
 def test_no_module_reads_the_sentences_of_another() -> None:
     """Notes and errors have codes, so that a sentence can be reworded without breaking a program."""
-    found = [
-        f"{module}, line {line}"
-        for module, path in MODULES.items()
-        if not any(belongs(module, one) for one in FOREIGN_TEXT)
-        for line in looks_into_sentences(path.read_text("utf-8"))
-    ]
+    found = searched().sentences
     assert not found, f"use the codes of notes and errors, and values where the text is made, instead: {found}"
+
+
+def lacks_code(call: ast.Call) -> bool:
+    return (
+        getattr(call.func, "id", "") in {"InputError", "DataFileError", "ConvergenceError"}
+        and any(isinstance(one, (ast.JoinedStr, ast.Constant)) for one in call.args[:2])
+        and not {"code", None} & {one.arg for one in call.keywords}
+    )
+
+
+@pytest.mark.parametrize(("line", "lacks"), [('InputError("no")', True), ('InputError("no", code="no")', False)])
+def test_an_error_without_a_code_is_noticed(line: str, lacks: bool) -> None:
+    assert any(isinstance(node, ast.Call) and lacks_code(node) for node, _ in walk(line)) == lacks
 
 
 def test_every_error_has_a_code() -> None:
     """Errors that are made of a sentence have a code beside it; those that are made of a note have the note's."""
-    errors = {"InputError", "DataFileError", "ConvergenceError"}
-    found = [
-        f"{module}, line {node.lineno}"
-        for module, path in MODULES.items()
-        for node in ast.walk(ast.parse(path.read_text("utf-8")))
-        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in errors
-        if any(isinstance(one, (ast.JoinedStr, ast.Constant)) for one in node.args[:2])
-        if not {"code", None} & {one.arg for one in node.keywords}
-    ]
-    assert not found
+    assert not searched().errors
 
 
 def test_the_page_reads_no_sentences() -> None:
