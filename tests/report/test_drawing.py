@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 import xml.etree.ElementTree as ET
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import matplotlib
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     import xarray as xr
+    from matplotlib.figure import Figure
 
 NAMES = [
     "friction_against_speed",
@@ -68,50 +70,60 @@ def test_same_results_give_the_same_bytes(
     assert first == second
 
 
-@pytest.mark.slow
-@pytest.mark.usefixtures("unrendered")
-def test_drawing_leaves_matplotlibs_settings_alone(tree: xr.DataTree) -> None:
-    before = dict(matplotlib.rcParams)
-    drawing.figure_images(tree, ("svg",))
-    assert dict(matplotlib.rcParams) == before
+@dataclass
+class Words:
+    """What stands in all figures of results, and whether drawing them changed the settings of matplotlib."""
+
+    texts: list[list[str]]
+    legends: list[str]
+    settings_kept: bool
 
 
-@pytest.mark.parametrize(("origin", "said"), [("synthetic", True), ("measured", False)])
-@pytest.mark.slow
-def test_figures_of_synthetic_data_say_so(
-    make_tree: Callable[..., xr.DataTree], monkeypatch: pytest.MonkeyPatch, origin: str, said: bool
-) -> None:
-    seen = []
+@pytest.fixture(scope="module")
+def words(make_tree: Callable[..., xr.DataTree]) -> dict[str, Words]:
+    """Draw all figures of results of either origin, without turning them into images, once for all tests."""
 
-    def words(figure: object, form: str) -> bytes:
-        seen.append([text.get_text() for axes in figure.axes for text in axes.texts])  # type: ignore[attr-defined]
-        return b""
+    def drawn(origin: str) -> Words:
+        found = Words([], [], True)
 
-    monkeypatch.setattr(saving, "_encoded", words)
-    drawing.figure_images(make_tree(data_origin=origin), ("svg",))
-    assert len(seen) == len(NAMES)
-    assert all(("synthetic data" in texts) == said for texts in seen)
+        def read(figure: Figure, form: str) -> bytes:
+            found.texts.append([text.get_text() for axes in figure.axes for text in axes.texts])
+            legends = [axes.get_legend() for axes in figure.axes]
+            found.legends += [
+                text.get_text() for one in legends if one is not None for text in (one.get_title(), *one.get_texts())
+            ]
+            return b""
 
+        before = dict(matplotlib.rcParams)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(saving, "_encoded", read)
+            drawing.figure_images(make_tree(data_origin=origin), ("svg",))
+        found.settings_kept = dict(matplotlib.rcParams) == before
+        return found
 
-@pytest.mark.slow
-def test_legends_of_synthetic_data_call_nothing_measured(tree: xr.DataTree, monkeypatch: pytest.MonkeyPatch) -> None:
-    words: list[str] = []
-
-    def read(figure: object, form: str) -> bytes:
-        legends = [axes.get_legend() for axes in figure.axes]  # type: ignore[attr-defined]
-        words.extend(
-            text.get_text() for one in legends if one is not None for text in (one.get_title(), *one.get_texts())
-        )
-        return b""
-
-    monkeypatch.setattr(saving, "_encoded", read)
-    drawing.figure_images(tree, ("svg",))
-    assert any("synthetic ± scatter" in text for text in words)
-    assert not any("measured" in text for text in words)
+    return {origin: drawn(origin) for origin in ("synthetic", "measured")}
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("unrendered")
+def test_drawing_leaves_matplotlibs_settings_alone(words: dict[str, Words]) -> None:
+    assert all(one.settings_kept for one in words.values())
+
+
+@pytest.mark.slow
+def test_figures_of_synthetic_data_say_so(words: dict[str, Words]) -> None:
+    for origin, found in words.items():
+        assert len(found.texts) == len(NAMES)
+        assert all(("synthetic data" in texts) == (origin == "synthetic") for texts in found.texts)
+
+
+@pytest.mark.slow
+def test_legends_of_synthetic_data_call_nothing_measured(words: dict[str, Words]) -> None:
+    legends = words["synthetic"].legends
+    assert any("synthetic ± scatter" in text for text in legends)
+    assert not any("measured" in text for text in legends)
+
+
+@pytest.mark.usefixtures("unrendered", "few_figures")
 def test_figures_that_cannot_be_written_are_reported(tree: xr.DataTree, tmp_path: Path) -> None:
     (tmp_path / "figures").write_text("a file where the folder should be")
     with refused("not-written", DataFileError):
