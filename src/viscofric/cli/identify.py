@@ -113,12 +113,18 @@ Example:
 """
 
 
-def _shared_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    for name, words in reversed(_SHARED.items()):
-        words = f"Relative standard error of friction {words}."
-        option = f"--{name.replace('_', '-')}"
-        function = click.option(option, type=float, default=0.0, show_default=True, help=words)(function)
-    return function
+_shared_options = together(
+    *(
+        click.option(
+            f"--{name.replace('_', '-')}",
+            type=float,
+            default=0.0,
+            show_default=True,
+            help=f"Relative standard error of friction {words}.",
+        )
+        for name, words in _SHARED.items()
+    )
+)
 
 
 @click.command(name="identify", epilog=_EXAMPLE)
