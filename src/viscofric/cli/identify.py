@@ -101,10 +101,10 @@ def _typed(name: str) -> str:
 _SETTINGS = ("load", "reference", "poisson_ratio", "modes", "samples", "seed", "accuracy", "name", "workers")
 #: Errors of friction that points have in common.
 _SHARED = {
-    "level_error": "shared by the points of a temperature, another one at each",
-    "common_error": "shared by all points, e.g. of the calibration of force and load",
-    "drift_error": "per decade of speed, shared by all points",
-    "coulomb_level_error": "by that of Coulomb friction, as a part of it, shared by all points",
+    "level_error": "of friction that the points of a temperature share, another one at each temperature",
+    "common_error": "of friction that all points share, e.g. of the calibration of force and load",
+    "drift_error": "of friction per decade of speed, shared by all points",
+    "coulomb_level_error": "of the Coulomb friction that was subtracted, shared by all points",
 }
 _EXAMPLE = """\b
 Example:
@@ -120,7 +120,7 @@ _shared_options = together(
             type=float,
             default=0.0,
             show_default=True,
-            help=f"Relative standard error of friction {words}.",
+            help=f"Relative standard error {words}.",
         )
         for name, words in _SHARED.items()
     )
