@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tracemalloc
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,7 @@ from marks import apart, slow
 from refusals import refused
 from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.operator import PeriodicOperator
-from viscofric.contact.periodic.solve import solve_periodic
+from viscofric.contact.periodic.solve import BYTES_PER_POINT, solve_periodic
 from viscofric.contact.periodic.splitting import split_steps
 from viscofric.contact.periodic.surface import PeriodicSurface, interpolated
 from viscofric.contact.periodic.transfer import SlidingSolid
@@ -526,6 +527,27 @@ def test_interpolation_keeps_the_points_it_has() -> None:
 def test_wrong_values_are_refused(settings: dict[str, object], about: str) -> None:
     with refused(about):
         solve_periodic(broad(), rough(16), speed=1.0, **settings)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("speed", [0.0, 1.0])
+def test_arrays_of_a_solve_stay_within_the_stated_memory(speed: float) -> None:
+    surface = rough(128)
+    solve_periodic(broad(), surface, speed=speed, pressure=0.1)  # imports and caches
+    tracemalloc.start()
+    try:
+        solve_periodic(broad(), surface, speed=speed, pressure=0.1)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    stated = BYTES_PER_POINT[speed > 0.0] * surface.z.size
+    assert 0.7 * stated < peak < stated
+
+
+def test_a_surface_that_exceeds_the_memory_is_refused_before_it_is_solved(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viscofric.contact.periodic.solve._memory", lambda: 110.0 * 64**2)
+    assert solve_periodic(broad(), rough(64), speed=0.0, pressure=0.1).mean_pressure == 0.1  # needs less at rest
+    with refused("not-enough-memory"):
+        solve_periodic(broad(), rough(64), speed=1.0, pressure=0.1)
 
 
 @pytest.mark.parametrize("z", [[[1.0, np.nan]], [1.0], np.zeros((4, 4)), np.zeros((2, 2, 2)), "rough"])

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import functools
+import logging
 import math
+import os
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -44,6 +46,8 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
 
 
+logger = logging.getLogger(__name__)
+
 TIGHTEST, LOOSEST = 1e-12, 1e-2  # of the complementarity, in rms heights
 #: Friction is resolved relative to its own value, but not below this fraction of the slope of the longest wave.
 FRICTION_FLOOR = 1e-3
@@ -54,6 +58,9 @@ LIKENESS = 1e-10
 _UNSURE_AT_EDGES = 0.25
 # Least factor by which errors fall where points are twice as close: pressures rise like square roots at the edges.
 _FADING = 0.5**1.5
+#: Bytes of memory for each point while an elastic and a viscoelastic contact is solved with up to a fifth of the area
+#: in contact: those of the arrays and of the surface, and what the allocator keeps.  In full contact up to 30 more.
+BYTES_PER_POINT = (100, 120)
 
 
 @one_blas_thread
@@ -120,12 +127,14 @@ def solve_periodic(
     Raises
     ------
     InputError
-        If a value cannot be used.
+        If a value cannot be used, or the computer has less memory than the contact needs.
     ConvergenceError
         If the solver fails.
 
     Notes
     -----
+    A viscoelastic contact needs about 120 bytes of memory per point: 2 GB for 4096², 8 GB for 8192².
+
     û = 2(1−ν²) S(−q·v) p̂/|q| holds exactly for each wave, so that a table of moduli needs no modes.  The surface
     repeats itself and so does the pressure: an isolated contact is better solved by `solve_steady`.
 
@@ -180,6 +189,7 @@ def solve_periodic(
         math.copysign(1.0, sliding) * coulomb,
         half_space_coupling(indenter_poisson_ratio),
     )
+    _insist_on_memory(surface.shape, BYTES_PER_POINT[not solid.is_symmetric], where)
     given = _Given.of(surface, pressure, gap)
     depth = surface.rms_height
     finest = solid.transfer(surface.shape, surface.spacing)
@@ -201,6 +211,26 @@ def solve_periodic(
     solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
     strains = _large_strains(solution, steepness, layer)
     return replace(solution, coulomb=coulomb, warnings=(*solution.warnings, *strains))
+
+
+def _insist_on_memory(shape: tuple[int, int], bytes_per_point: int, backend: Backend) -> None:
+    """Refuse a surface that does not fit into this computer's memory."""
+    needed = bytes_per_point * math.prod(shape)
+    logger.info("%s x %s points: about %.2g GB of memory", *shape, needed / 1e9)
+    if backend.is_numpy and needed > (there := _memory()):
+        raise InputError(
+            f"A contact of {shape[0]} x {shape[1]} points needs about {needed / 1e9:.2g} GB of memory, and this "
+            f"computer has {there / 1e9:.2g} GB; give fewer points.",
+            code="not-enough-memory",
+        )
+
+
+def _memory() -> float:
+    """Return the bytes of memory of this computer; infinity where the system does not say."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    except (AttributeError, ValueError, OSError):
+        return math.inf
 
 
 def _isothermal(material: Material, call: dict[str, Any], speed: float, kelvin: float, _: float) -> PeriodicSolution:
