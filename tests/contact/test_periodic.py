@@ -15,6 +15,7 @@ from contact.made_surfaces import refined, self_affine
 from marks import apart, slow
 from refusals import refused
 from viscofric.contact.bodies import Layer
+from viscofric.contact.periodic import one_grid
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.solve import BYTES_PER_POINT, solve_periodic
 from viscofric.contact.periodic.splitting import split_steps
@@ -499,6 +500,15 @@ def test_work_does_not_grow_with_the_grid(kind: str, speed: float) -> None:
 def test_failure_is_an_error() -> None:
     with refused("not-converged", vf.ConvergenceError):
         solve_periodic(broad(), rough(64), speed=1.0, pressure=0.1, most_products=2)
+
+
+def test_an_active_set_that_is_nearly_right_is_not_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Here its products are used up before the last linear problem, with a small residual."""
+    whole = solve_periodic(broad(), rough(64), speed=1.0, pressure=0.1, tolerance=1e-12)
+    monkeypatch.setattr(one_grid, "_FEW_PRODUCTS", whole.diagnostics.products - whole.diagnostics.splitting_steps - 8)
+    stopped = solve_periodic(broad(), rough(64), speed=1.0, pressure=0.1, tolerance=1e-12)
+    assert stopped.diagnostics.splitting_steps == whole.diagnostics.splitting_steps
+    assert stopped.friction_coefficient == pytest.approx(whole.friction_coefficient, rel=1e-9)
 
 
 def test_interpolation_keeps_the_points_it_has() -> None:

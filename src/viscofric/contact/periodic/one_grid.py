@@ -29,6 +29,8 @@ _PATIENCE = 3  # updates of the contact set without a smaller residual before sp
 _FEW_DIRECTIONS = (6, 12)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
 _MANY_DIRECTIONS = 40
 _FEW_PRODUCTS = 300  # enough for most contacts, without the following methods
+# Residual, in rms heights, from which on the active set continues for as long as it halves it: its set is nearly right.
+_NEARLY = 1e-5
 _FIRST_STEPS = (3, 5)  # of the splitting on each grid, likewise
 _DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not converge; then twice as many, and so on
@@ -142,6 +144,16 @@ class OneGrid:
         return self.exact.products + self.single.products
 
     def _active_set(self, pressure: AnyArray, patience: int, directions: int, most: int) -> ComplementaritySolution:
+        result = self._few_sets(pressure, patience, directions, most)
+        residual = math.inf
+        while not result.converged and result.complementarity < min(_NEARLY, 0.5 * residual):
+            if self.products >= self.most_products:
+                break
+            residual = result.complementarity
+            result = self._few_sets(result.pressure, patience, directions, most)
+        return result
+
+    def _few_sets(self, pressure: AnyArray, patience: int, directions: int, most: int) -> ComplementaritySolution:
         result = solve_complementarity(
             self.exact,
             self.height,
