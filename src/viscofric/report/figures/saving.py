@@ -58,7 +58,11 @@ def images(
             return {}
         if synthetic:
             mark_synthetic([axes for axes in figure.axes if axes.get_label() != "<colorbar>"])
-        return {form: _encoded(figure, form) for form in formats}
+        found: dict[str, bytes] = {}
+        for form in formats:
+            found[form] = _encoded(figure, form)
+            figure.set_layout_engine("none")  # the other formats keep the places of all parts, which take long to find
+        return found
 
 
 def _encoded(figure: Figure, form: str) -> bytes:
