@@ -18,7 +18,7 @@ from viscofric.contact.operators.convolution import ConvolutionOperator
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.contact.periodic.transfer import SlidingSolid
 from viscofric.errors import ConvergenceError
-from viscofric.motion import bounce, normal, steps
+from viscofric.motion import bounce, memory, normal
 from viscofric.rheology import material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification import CHECKS, Check, Comparison, run_checks, select
@@ -140,9 +140,9 @@ def late_modes(patch: pytest.MonkeyPatch) -> None:
 
 def half_a_memory(patch: pytest.MonkeyPatch) -> None:
     """Let half of the force at the end of a step pass for its mean in the memory of springs."""
-    original = steps.step_parts
+    original = memory.step_parts
 
-    def parts(x: NDArray[Any]) -> steps.StepParts:
+    def parts(x: NDArray[Any]) -> memory.StepParts:
         found = original(x)
         return found._replace(end=0.5 * found.end)
 
