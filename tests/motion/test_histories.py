@@ -116,6 +116,25 @@ def test_a_linear_speed_integrates_to_a_parabola():
     assert schedule.velocity(0.5) == pytest.approx([0.0, 0.5])
 
 
+def test_rates_of_the_clock_are_those_of_the_temperatures_within_an_interval_and_after_a_jump():
+    law = vf.WLF(8.0, 50.0, "300 K")
+    rubber = vf.Material(RUBBER.spectrum, shift=law)
+    kelvin = [300.0, 320.0, 290.0, 290.0, 310.0]
+    schedule = vf.motion.History([0.0, 1.0, 1.0, 2.0, 3.0], load=1.0, temperature=kelvin).schedule(rubber, "point")
+
+    def rate(warmth: float) -> float:
+        return float(10.0 ** -law.log10(warmth))
+
+    for (start, end), expected in {
+        (0.0, 1.0): (300.0, 320.0),
+        (0.25, 0.5): (305.0, 310.0),
+        (1.0, 1.0): (290.0, 290.0),
+        (0.5, 3.0): (290.0, 320.0),
+        (3.0, 3.0): (310.0, 310.0),
+    }.items():
+        assert schedule.rates(start, end) == pytest.approx([rate(one) for one in expected], rel=1e-12)
+
+
 def test_at_a_constant_temperature_the_modes_are_shifted_and_the_clock_is_time():
     schedule = vf.motion.History(TIME, load=1.0, temperature="60 degC").schedule(WARM, "point")
     assert schedule.spectrum.tau == pytest.approx(WARM.at("60 degC").tau)

@@ -226,6 +226,25 @@ def test_temperature_runs_the_clock():
     assert run.temperature == pytest.approx([301.0, 305.0, 310.0])
 
 
+def test_warming_by_many_decades_is_that_of_lee_and_radok_at_any_times_asked_for():
+    """δ = (9/16 F' ∫J(ξ(t) − ξ(s)) ds)^(2/3)/R^(1/3) under a growing load; α falls by 12 decades, ten of them later."""
+    law, kelvin = vf.WLF(8.0, 50.0, "300 K"), [275.0, 380.0]
+    tau = np.geomspace(1e-9, 10.0, 12)
+    rubber = vf.Material(vf.RetardationSpectrum(1e6, 1e8, np.full(12, 0.99e-6 / 12), tau), shift=law)
+    history = vf.motion.History([0.0, 1.0], load=[0.0, 0.05], temperature=kelvin)
+    spectrum = rubber.modes_at(kelvin[0])
+    for times in ([1e-2], [1e-4, 1e-3, 1e-2]):
+        run = vf.motion.solve_transient(rubber, BALL, history, times=times, accuracy=3e-3)
+        for time, depth, error in zip(times, run.indentation, run.errors.indentation, strict=True):
+            edges = np.linspace(0.0, time, 4001)
+            rate = 10.0 ** (law.log10(kelvin[0]) - law.log10(np.interp(edges, [0.0, 1.0], kelvin)))
+            clock = np.append(0.0, np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(edges)))
+            creep = spectrum.creep_compliance(clock[-1] - 0.5 * (clock[1:] + clock[:-1]))
+            exact = (0.75 * 0.75 * 0.01 * 0.05 * float(creep @ np.diff(edges))) ** (2.0 / 3.0) / 0.01
+            assert abs(depth - exact) < error
+            assert error < 0.05 * run.indentation[-1]
+
+
 def test_scales_do_not_matter():
     """Moduli by 1e6, lengths by 1e-3, times by 1e9."""
     E, L, T = 1e6, 1e-3, 1e9

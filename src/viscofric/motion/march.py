@@ -276,8 +276,8 @@ class _March(Generic[State]):
         The two chains could not show an error of both of them.
         """
         step = _FIRST * (end - start)
-        clock = self.schedule.at(start + step).clock - self.schedule.at(start).clock
-        return min(step, step / clock * _FIRST_AFTER_JUMP * self.mover.quickest)
+        _, fastest = self.schedule.rates(start, start + step)
+        return min(step, _FIRST_AFTER_JUMP * self.mover.quickest / fastest)
 
     def _by_ticks(self, pair: Pair[State], edges: Array) -> None:
         """March by whole ticks, an even number of them for the coarse chain, half as many for the fine one."""

@@ -101,11 +101,10 @@ class NormalMotion:
             spacing=edge / count,
         )  # fmt: skip
 
-    @cached_property
-    def _quick(self) -> Mask:
-        """Modes that follow a jump before any time of the schedule."""
-        ends = [self.schedule.at(float(time)) for time in self.schedule.kinks[[0, -1]]]
-        return np.asarray(self.tau < _QUICK * (ends[1].clock - ends[0].clock))
+    def _quick(self, start: float, end: float) -> Mask:
+        """Return the modes that follow a jump between two times before any later time of the schedule."""
+        slowest, _ = self.schedule.rates(start, end)
+        return np.asarray(self.tau < _QUICK * slowest * (self.schedule.end - self.schedule.start))
 
     def floor(self, largest: Scales) -> Scales:
         """Return zeros: the contact conditions are met to rounding."""
@@ -114,10 +113,10 @@ class NormalMotion:
     def tighten(self) -> None:
         """Do nothing: the contact conditions are met to rounding."""
 
-    @property
+    @cached_property
     def quickest(self) -> float:
         """Time in which the response to a jump changes noticeably, s of the clock."""
-        c, quick = self.compliances, self._quick
+        c, quick = self.compliances, self._quick(self.schedule.start, self.schedule.end)
         return quickest_time(self.glassy + float(c[quick].sum()), c[~quick], self.tau[~quick])
 
     @cached_property
@@ -173,7 +172,7 @@ class NormalMotion:
 
     def settle(self, state: SpringState, instant: Instant) -> SpringState:
         """Return the state soon after a jump; what is not stored of the work at a constant load has been dissipated."""
-        quick = self._quick
+        quick = self._quick(instant.time, instant.time)
         if not quick.any():
             return state
         known = state.memory[:, ~quick] @ self.compliances[~quick]

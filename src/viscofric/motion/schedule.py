@@ -126,6 +126,17 @@ class Schedule:
         share = (time - start) / (end - start)
         return np.asarray((1.0 - share) * self._speed[place] + share * self._speed[place + 1])
 
+    def rates(self, start: float, end: float) -> tuple[float, float]:
+        """Return the least and the largest dξ/dt between two times; equal times mean the side after a jump."""
+        first, last = self._interval(start, after=True), self._interval(end, after=False)
+        found = [
+            clock.rate(min(max(time, clock.start), clock.until))  # monotone within an interval
+            for clock in self._clocks[first : max(first, last) + 1]
+            if clock.until > clock.start
+            for time in (start, end)
+        ]
+        return min(found), max(found)
+
     def since_jump(self, instant: Instant) -> float:
         """Return the time since the last jump, or the first contact with an untouched body, s of the clock; or inf."""
         before = self._jumps[self._jumps <= instant.time]
@@ -213,8 +224,19 @@ class _Clock:
     first: float | None
 
     @property
+    def start(self) -> float:
+        return float(self.time[0])
+
+    @property
+    def until(self) -> float:
+        return float(self.time[-1])
+
+    @property
     def end(self) -> float:
         return float(self.value[-1])
+
+    def rate(self, time: float) -> float:
+        return 1.0 if self.law is None else float(self._rate(np.asarray(time)))
 
     def at(self, time: float) -> float:
         place = int(np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, max(len(self.time) - 2, 0)))

@@ -54,7 +54,8 @@ def resolved_times(problem: Problem) -> tuple[float, float]:
     assert isinstance(surface, PeriodicSurface)
     cell, shortest = min(surface.spacing), math.inf
     for start, end in itertools.pairwise(schedule.kinks.tolist()):
-        clock = schedule.at(end, after=False).clock - schedule.at(start).clock
+        slowest, _ = schedule.rates(start, end)
+        clock = slowest * (end - start)
         speed = max(float(np.hypot(*schedule.velocity(time, after=time == start))) for time in (start, end))
         passing = clock * cell / (speed * (end - start)) if speed > 0.0 else math.inf
         shortest = min(shortest, passing if passing < _QUICK * clock else _SHORTEST * clock)

@@ -205,16 +205,15 @@ class Setting:
                     least = min(least, _FIRST_TICK * self.body.quickest)
         stops = np.unique(np.concatenate([self.schedule.kinks, np.asarray(times or [], dtype=float)]))
         for start, end in itertools.pairwise(stops):
-            first, last = self.schedule.at(float(start)), self.schedule.at(float(end), after=False)
-            least = min(least, _OF_INTERVAL * (last.clock - first.clock))
+            slowest, _ = self.schedule.rates(float(start), float(end))
+            least = min(least, _OF_INTERVAL * slowest * float(end - start))
         for start, end in itertools.pairwise(self.schedule.given):
-            first, last = self.schedule.at(float(start)), self.schedule.at(float(end), after=False)
             speed = max(
                 math.hypot(*self.turned(self.schedule.velocity(float(time), after=side)))
                 for time, side in ((start, True), (end, False))
             )
-            rate = (last.clock - first.clock) / float(end - start)
-            least = min(least, rate * spacing / speed if speed > 0.0 else math.inf)
+            slowest, _ = self.schedule.rates(float(start), float(end))
+            least = min(least, slowest * spacing / speed if speed > 0.0 else math.inf)
         return least
 
     @property
@@ -226,11 +225,9 @@ class Setting:
     @property
     def first_speed(self) -> float:
         """Return the speed at the start, lengths per second of the clock."""
-        begin, next_ = self.schedule.start, float(self.schedule.kinks[1])
-        velocity = self.turned(self.schedule.velocity(begin))
-        little = begin + 1e-6 * (next_ - begin)
-        rate = (self.schedule.at(little).clock - self.schedule.at(begin).clock) / (little - begin)
-        return math.hypot(*velocity) / rate
+        begin = self.schedule.start
+        rate, _ = self.schedule.rates(begin, begin)
+        return math.hypot(*self.turned(self.schedule.velocity(begin))) / rate
 
     def ticks(self, start: Instant, end: Instant, cell: float) -> Array:
         """Return times at which the indenter is a whole number of cells away, or graded ones where it rests."""
@@ -304,7 +301,8 @@ class Setting:
         if begun > schedule.start and not schedule.starts_at(begun):
             return np.zeros(0)
         longest = min(passing, end.time - begun)
-        response = _FIRST_TICK * self.body.quickest / (end.clock - start.clock) * (end.time - start.time)
+        _, fastest = schedule.rates(begun, begun + longest)
+        response = _FIRST_TICK * self.body.quickest / fastest
         first = min(max(response / longest, _LEAST_OF_START), _MOST_OF_START)
         count = math.ceil(-math.log(first) / math.log(_NEXT_OF_START))
         return np.asarray(begun + longest * _NEXT_OF_START ** -np.arange(float(count)))
@@ -317,8 +315,8 @@ class Setting:
 
     def _after_jump(self, start: Instant, end: Instant) -> Array:
         duration = end.time - start.time
-        rate = (end.clock - start.clock) / duration
-        first = min(_FIRST_TICK * self.body.quickest / rate, 0.1 * duration)
+        _, fastest = self.schedule.rates(start.time, end.time)
+        first = min(_FIRST_TICK * self.body.quickest / fastest, 0.1 * duration)
         count = 1 + math.ceil(_OF_TIME * math.log(duration / first))
         return np.asarray(start.time + np.concatenate([[0.5 * first], np.geomspace(first, duration, count)]))
 
