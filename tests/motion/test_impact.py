@@ -263,6 +263,27 @@ def test_the_error_of_the_largest_force_includes_springs_that_are_touched_one_by
     assert abs(hit.peak_force - finer.peak_force) <= hit.run.errors.load[0] < 0.05 * hit.peak_force
 
 
+@pytest.mark.parametrize("speed", [1e-6, 1e-3])
+def test_a_ball_that_is_laid_down_falls_to_the_depth_that_its_weight_alone_gives(speed: float) -> None:
+    """An elastic half-space: m g δ = 2/5 κ δ^(5/2), κ = 4√R E*/3: (5/2)^(2/3) of the depth at rest."""
+    elastic = rubber(1e-2, E_inf=1.0001e6)
+    hit = vf.motion.solve_impact(elastic, BALL, mass=0.03, speed=speed, gravity=9.81, accuracy=1e-2)
+    still = (0.75 * 0.75 * 0.03 * 9.81 / (1e6 * 0.1)) ** (2.0 / 3.0)
+    assert hit.largest_indentation == pytest.approx(2.5 ** (2.0 / 3.0) * still, rel=2e-3)
+    assert hit.peak_force == pytest.approx(2.5 * 0.03 * 9.81, rel=2e-3)
+
+
+@pytest.mark.parametrize(("ratio", "tau", "speed"), [(9.93e3, 0.0183, 5.05e-3), (1.9e3, 0.11, 0.0352)])
+def test_the_error_of_the_energy_of_an_impact_includes_its_imbalance(ratio: float, tau: float, speed: float) -> None:
+    one, finer = (
+        vf.motion.solve_impact(rubber(tau, E_inf=ratio * 1e6), BALL, mass=0.03, speed=speed, accuracy=accuracy).run
+        for accuracy in (1e-3, 1e-5)
+    )
+    off = abs(one.dissipated[-1] - finer.dissipated[-1])
+    assert off <= one.errors.energy[-1] < 1e-3 * one.dissipated[-1]
+    assert np.all(one.errors.energy >= np.abs(one.errors.balance))
+
+
 def test_motion_faster_than_the_material_was_measured_is_noted() -> None:
     solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
     material = vf.Material(replace(solid, fit=SpectrumFit(None, None, False, False, (100.0, 2e3))))

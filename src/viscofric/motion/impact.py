@@ -250,9 +250,12 @@ class _Falling(NamedTuple):
             impact_radius(indenter, 0.5 * self.mass * speed**2, self.mass * self.gravity, 1.0 / one)
             for one in (glassy, relaxed)
         )
-        # A punch touches over its whole face at once: its depth follows from its constant stiffness.
-        depth = float(profile(indenter, np.array(hard))) or speed * math.sqrt(0.5 * self.mass * glassy / hard)
-        shortest = _RESOLVED * depth / speed
+        depth = float(profile(indenter, np.array(hard)))
+        if depth == 0.0:  # a punch touches over its whole face at once, with a constant stiffness
+            period = math.sqrt(0.5 * self.mass * glassy / hard)
+            depth = speed * period + self.gravity * period**2
+        duration = depth / max(speed, math.sqrt(self.gravity * depth))  # an indenter that is laid down falls, too
+        shortest = _RESOLVED * duration
         longest = 10.0 * shortest / _RESOLVED * (relaxed / glassy) ** 0.5
         modes = Modes.of(spectrum)
         if rebounds == 1:
@@ -261,7 +264,7 @@ class _Falling(NamedTuple):
         s, g, weights = row(indenter, soft if indenter.has_walls else _MARGIN * soft, count)
         instantaneous = plane_strain * modes.instantaneous + self.counterface
         springs = Springs(g, s, weights, instantaneous, plane_strain * modes.C, modes.tau, indenter.has_walls)
-        first = Bounce(springs, self.mass, self.gravity, _FIRST * depth / speed).run(speed, rebounds)
+        first = Bounce(springs, self.mass, self.gravity, _FIRST * duration).run(speed, rebounds)
         coarse = None
         least = max(_LEAST_DIVISION, round(_STEPS / max(len(mesh) for mesh in first.taken)))
         for division in (least * 2**halving for halving in range(_HALVINGS)):
@@ -299,6 +302,7 @@ class _Falling(NamedTuple):
         kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
         # By Newton's law, independently of the springs: the loss of kinetic energy plus the work of gravity.
         work = 0.5 * self.mass * (velocity[0] ** 2 - velocity**2) + self.mass * self.gravity * (depth - depth[0])
+        balance = work - stored - dissipated
         still = np.zeros_like(time)
         peaks = [max(one.peak_force for one in run.contacts) for run in (coarse, fine)]
         depths = [max(one.largest_depth for one in run.contacts) for run in (coarse, fine)]
@@ -308,8 +312,8 @@ class _Falling(NamedTuple):
             load=still + abs(peaks[1] - peaks[0]) / 3.0 + off[np.argmax(force)] * peaks[1] + by_springs.max(),
             indentation=still + abs(depths[1] - depths[0]) / 3.0 + off[np.argmax(depth)] * depths[1],
             friction_force=still,
-            energy=still + lost,
-            balance=work - stored - dissipated,
+            energy=np.maximum.accumulate(lost + np.abs(balance)),
+            balance=balance,
         )
         run = TransientSolution(
             time=time, load=force, indentation=depth, position=np.zeros((len(time), 2)),
