@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -136,6 +137,16 @@ class Schedule:
             for time in (start, end)
         ]
         return min(found), max(found)
+
+    def fastest(self, start: float, end: float) -> Array:
+        """Return the largest velocity (2,) per time of the material's clock, between two times; m/s."""
+        times = [start, *self.kinks[(self.kinks > start) & (self.kinks < end)].tolist(), end]
+        found = [
+            self.velocity(time, after=time == begin) / self.rates(begin, until)[0]
+            for begin, until in pairwise(times)
+            for time in {begin, until}
+        ]
+        return max(found, key=lambda velocity: math.hypot(*velocity))
 
     def since_jump(self, instant: Instant) -> float:
         """Return the time since the last jump, or the first contact with an untouched body, s of the clock; or inf."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from dataclasses import replace
+from itertools import pairwise
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -412,36 +413,35 @@ def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]]) ->
 
 
 def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
-    """Return a note where an indenter slides faster than its material was measured; each start is slow."""
-    fit = problem.schedule.spectrum.fit
-    if fit is None or len(moments) < 2:
+    """Return a note where an indenter slides faster than its material was measured, also between the moments."""
+    schedule, times = problem.schedule, [one.instant.time for one in moments]
+    fit = schedule.spectrum.fit
+    if fit is None or not moments:
         return ()
-    place, clock = (np.array([getattr(one.instant, name) for one in moments]) for name in ("position", "clock"))
+    velocities = [schedule.fastest(start, end) for start, end in pairwise([schedule.start, *times])]
     if isinstance(problem.indenter, PeriodicSurface):
-        return _beyond_on_waves(problem, problem.indenter, moments[1:], np.diff(place, axis=0), np.diff(clock))
-    extents = [one.seen.extents for one in moments[1:]]
+        return _beyond_on_waves(problem, problem.indenter, moments, velocities)
+    extents = [one.seen.extents for one in moments]
     half = np.array(
         [0.5 * (one["front"] + one["rear"]) if "front" in one else one["contact_radius"] for one in extents]
     )
-    path = np.hypot(*np.diff(place, axis=0).T)
-    scale = half * np.diff(clock)
-    rate = np.divide(path, scale, out=np.zeros_like(path), where=scale > 0.0)
+    speed = np.hypot(*np.transpose(velocities))
+    rate = np.divide(speed, half, out=np.zeros_like(half), where=half > 0.0)
     return fit.beyond(np.where(rate > fit.frequency_range[1], rate, 0.0))
 
 
 def _beyond_on_waves(
-    problem: Problem, surface: PeriodicSurface, moments: list[Moment[Any]], paths: Array, clocks: Array
+    problem: Problem, surface: PeriodicSurface, moments: list[Moment[Any]], velocities: list[Array]
 ) -> tuple[Note, ...]:
     """Return the note on the pressure of the largest friction, as if it slid on at the reduced speed of that moment."""
     friction = [
-        math.hypot(*one.seen.friction_force) if one.field is not None and clock > 0.0 and path.any() else 0.0
-        for one, path, clock in zip(moments, paths, clocks, strict=True)
+        math.hypot(*one.seen.friction_force) if one.field is not None and velocity.any() else 0.0
+        for one, velocity in zip(moments, velocities, strict=True)
     ]
     chosen = int(np.argmax(friction))
-    field = moments[chosen].field
+    field, velocity = moments[chosen].field, velocities[chosen]
     if field is None or friction[chosen] == 0.0:
         return ()
-    velocity = paths[chosen] / clocks[chosen]
     toward = tuple((velocity / math.hypot(*velocity)).tolist())
     material, layer = problem.material, problem.layer
     solid = SlidingSolid(
