@@ -118,13 +118,17 @@ def released_below(contact: vf.contact.ContactSolution, modes: Modes) -> float:
 
 @pytest.mark.parametrize("seed", [1, pytest.param(60, marks=pytest.mark.apart)])
 def test_all_of_the_loss_is_released_over_the_whole_memory(seed: int) -> None:
-    """The loss below random contacts without end is friction times speed, to 1e-3: the accuracy of the contact."""
+    """The loss below random contacts without end is friction times speed, to 1e-3: twice the accuracy of the contact.
+
+    The sum over waves leaves out more beyond the cells than the friction does.
+    """
     generator = np.random.default_rng(seed)
     for _ in range(seed):
         count = int(generator.integers(1, 5))
         tau, C = 10.0 ** generator.uniform(-5.0, -1.0, count), 10.0 ** generator.uniform(-7.0, -6.0, count)
         solid = vf.Material(vf.RetardationSpectrum(1.0 / (1e-7 + C.sum()), 1e7, C, tau))
-        contact = vf.solve_steady(solid, CYLINDER, speed=1.0, load=float(10.0 ** generator.uniform(1.0, 3.0)))
+        load = float(10.0 ** generator.uniform(1.0, 3.0))
+        contact = vf.solve_steady(solid, CYLINDER, speed=1.0, load=load, accuracy=5e-4)
         loss = released_below(contact, Modes(C, tau))
         assert loss == pytest.approx(contact.friction_force * contact.speed, rel=1e-3)
 

@@ -79,7 +79,9 @@ class Tab:
         """Return what JavaScript finds; ``page`` holds modules: state, jobs, units, figures, fields, reactive."""
         modules = "const page = {}; for (const name of ['state', 'jobs', 'units', 'figures', 'fields', 'reactive']) "
         modules += "page[name] = await import(`/static/js/${name}.js`);"
-        return self.page.evaluate(f"async (given) => {{ {modules} return ({expression}); }}", list(arguments))
+        answer = f"(async () => {{ {modules} return ({expression}); }})()"
+        # The window holds the promise: browsers may forget one that nothing in the page waits for.
+        return self.page.evaluate(f"(given) => window.answer = {answer}", list(arguments))
 
     def findings(self) -> list[str]:
         """Return what axe finds serious."""
