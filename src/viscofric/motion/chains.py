@@ -76,10 +76,8 @@ class Reached(Generic[State]):
     scales: Scales | None = None  # largest values so far
     #: Difference of the chains that errors are estimated from: the present one, or a part of an earlier larger one
     spread: Difference = SAME
-    #: pace, share: Next step, s, or a number of ticks (zero: as after a jump), and the share of the accuracy that a
-    #: step may add
-    pace: float = 0.0
-    share: float | None = None
+    pace: float = 0.0  # next step, s, or a number of ticks; zero: as after a jump
+    share: float | None = None  # of the accuracy, that a step may add
     stored: float | None = None  # energy in the material before the first start, J; None: what it is now
     limited: bool = False  # whether a step from tick to tick was longer than the accuracy asks for
 
@@ -187,7 +185,7 @@ class Track(Generic[State]):
     """What a march has found."""
 
     moments: list[Moment[State]]
-    steps: int  # steps taken (of the coarse chain, those of the last march), and those rejected
+    steps: int  # taken (of the coarse chain, those of the last march)
     rejected: int
     interrupted: bool  # whether the march was interrupted before the end
     reached: Reached[State]  # states of both chains at the last time, from which another march may continue

@@ -38,8 +38,8 @@ class Period:
     stiffness: complex  # ratio of the first harmonics of load and depth; nan without an oscillation
     stiffness_steps: float
     stiffness_points: complex  # by half of the springs less that by all
-    rubbed: float  # rubbed, rubbed_steps: work of friction
-    rubbed_steps: float
+    rubbed: float  # work of friction
+    rubbed_steps: float  # what it loses by steps
     dissipated: float
 
     @classmethod

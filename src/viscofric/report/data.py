@@ -58,10 +58,10 @@ def as_dataset(source: Any, *arguments: Any) -> xr.Dataset:
 class Moduli(NamedTuple):
     """Moduli, one row per reading."""
 
-    temperature: Array  # temperature, angular_frequency: (n,), K, rad/s
-    angular_frequency: Array
-    storage: Array  # storage, loss: (n,), Pa
-    loss: Array
+    temperature: Array  # (n,), K
+    angular_frequency: Array  # (n,), rad/s
+    storage: Array  # (n,), Pa
+    loss: Array  # (n,), Pa
     symbol: str  # E, or G for moduli measured in shear
     reference: float  # K; NaN where none is stated
 
@@ -183,12 +183,12 @@ def law_residuals(law: ShiftLaw, table: ShiftTable) -> xr.Dataset:
 class Predicted(NamedTuple):
     """Predicted friction, one row per case."""
 
-    speed: Array  # speed, temperature, load: (n,), m/s, K, N
-    temperature: Array
-    load: Array
+    speed: Array  # (n,), m/s
+    temperature: Array  # (n,), K
+    load: Array  # (n,), N
     friction: Array  # (n,)
-    lower: Array  # lower, upper: (n,), limits of the 95 % band; NaN where there is none
-    upper: Array
+    lower: Array  # (n,), limit of the 95 % band; NaN where there is none
+    upper: Array  # likewise
     extrapolated: Mask  # (n,): whether a case rests on frequencies that were not measured
 
     def rows(self, mask: Mask) -> Predicted:

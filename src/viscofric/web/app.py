@@ -248,8 +248,8 @@ _WORTH_PACKING = 1_000  # bytes
 class StaticFile(NamedTuple):
     """A file of the page."""
 
-    content: bytes  # content, packed: as it is, and by gzip; the latter empty where it is not worth it
-    packed: bytes
+    content: bytes
+    packed: bytes  # by gzip; empty where it is not worth it
     media_type: str
     tag: str  # hash of the content
 

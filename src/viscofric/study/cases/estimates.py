@@ -60,13 +60,11 @@ _ROUNDS = 8
 class Expectation:
     """Estimated effort of a set of cases; all but the number of cases within a factor of about two."""
 
-    cases: int  # cases, solves: cases, and contacts to be solved for them
-    solves: int
+    cases: int
+    solves: int  # contacts to be solved for them
     seconds: float  # processor time of all, on one core of 2020, s
-    #: memory, memory_per_process: Of the study with all records and fields, and of each solving process at most,
-    #: bytes
-    memory: float
-    memory_per_process: float
+    memory: float  # of the study with all records and fields, bytes
+    memory_per_process: float  # of each solving process at most, bytes
 
 
 def estimate(

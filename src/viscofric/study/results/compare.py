@@ -48,12 +48,12 @@ class VariableDifference:
     name: str
     unit: str
     points: int  # cases that both solved
-    largest: float  # largest, rms: relative to the larger of the two values
-    rms: float
+    largest: float  # relative to the larger of the two values
+    rms: float  # likewise
     in_errors: float | None  # the largest difference over the combined stated error; None without a stated error
     where: dict[str, float | str]  # coordinates of the largest difference, SI
-    first: float  # first, second: the values there
-    second: float
+    first: float  # value there
+    second: float  # likewise
     #: Whether all differences are within the tolerance, or without one within twice the combined stated errors
     equal: bool
 

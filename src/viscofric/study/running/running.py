@@ -32,12 +32,11 @@ class Event:
     #: could not be solved; ``"waiting"``: a cluster has no workers for the time being
     event: str
     stage: str | None = None  # Of the study: "measurement", "material", "contacts", "report" …
-    #: done, total: Steps of the stage; for contacts, the number of cases with a result and of all cases
-    done: int | None = None
-    total: int | None = None
+    done: int | None = None  # steps of the stage; for contacts, cases with a result
+    total: int | None = None  # steps of the stage; for contacts, all cases
     solves: int | None = None  # contacts solved so far
-    label: str | None = None  # label, key: the contact in words, and the name of its file
-    key: str | None = None
+    label: str | None = None  # the contact in words
+    key: str | None = None  # name of its file
     seconds: float | None = None  # duration
     reason: str | None = None  # why it failed, what is wrong with the stored contact, or what the run waits for
 
