@@ -12,7 +12,7 @@ from __future__ import annotations
 import os
 import time
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+os.environ.update(OPENBLAS_NUM_THREADS="1", VISCOFRIC_FFT_THREADS="1")
 import viscofric as vf
 from viscofric.contact.reference import hertz_ball
 from viscofric.verification.published.contacts import BALL_LOAD, BALL_POINTS, BALL_RADIUS, BALL_TAU

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from viscofric.arguments import whole_number
 from viscofric.errors import InputError, ViscofricError
+from viscofric.threads import usable_threads
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterator, Sequence
@@ -101,7 +102,7 @@ class Workers:
 
     def _start(self) -> Child:
         assert self._started is not None
-        child = started(self._needed)
+        child = started(self._needed, VISCOFRIC_FFT_THREADS=str(max(1, usable_threads() // self.number)))
         self._started.callback(end, child)
         return child
 

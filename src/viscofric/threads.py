@@ -1,15 +1,25 @@
-"""BLAS limited to one thread: threads slow down iterative solvers, many-fold on a busy machine."""
+"""Threads: one for BLAS, which slows down iterative solvers many-fold on a busy machine; several for large FFTs."""
 
 from __future__ import annotations
 
 import functools
+import os
 import sys
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
+
+from viscofric.arguments import whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from threadpoolctl import ThreadpoolController
+
+#: Environment variable with the number of threads of the FFTs of large arrays.
+THREADS_VARIABLE = "VISCOFRIC_FFT_THREADS"
+#: What a number of threads has to be.
+THREADS = "a whole number from 1, such as 2"
+
+_LARGE = 2**19  # elements from which on several threads are faster
 
 _Parameters = ParamSpec("_Parameters")
 _Result = TypeVar("_Result")
@@ -32,3 +42,22 @@ def _libraries(modules: int) -> ThreadpoolController:
     from threadpoolctl import ThreadpoolController
 
     return ThreadpoolController()
+
+
+def usable_threads() -> int:
+    """Return the number of threads of large FFTs.
+
+    It is that of the environment variable, or one for each processor that this process may use, no more than OpenMP's.
+    """
+    text = os.environ.get(THREADS_VARIABLE)
+    if text is None:
+        processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        of_openmp = os.environ.get("OMP_NUM_THREADS", "")  # one in the workers of a cluster
+        return min(processors, int(of_openmp) or 1) if of_openmp.isdecimal() else processors
+    short = len(text) < 7 and text.strip().isdecimal()
+    return whole_number(int(text) if short else text, THREADS_VARIABLE, 1, right=THREADS)
+
+
+def threads_for(elements: int, threads: int | None = None) -> int:
+    """Return how many threads the FFT of so many real numbers is to have, of those given or usable."""
+    return 1 if elements < _LARGE else threads or usable_threads()

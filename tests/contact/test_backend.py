@@ -15,7 +15,7 @@ import pytest
 import viscofric as vf
 from contact.made_surfaces import self_affine
 from refusals import refused
-from viscofric.contact.arrays.backend import THREADS_VARIABLE, Backend
+from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.complementarity import solve_complementarity
 from viscofric.contact.free.grids import Window
 from viscofric.contact.operators.convolution import SteadyMaterial
@@ -23,6 +23,8 @@ from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
 from viscofric.errors import InputError
+from viscofric.processes import Workers, call_all
+from viscofric.threads import THREADS_VARIABLE, threads_for, usable_threads
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -252,12 +254,18 @@ def test_threads_are_whole_numbers(threads: int) -> None:
         Backend("scipy", threads=threads)
 
 
-def test_ffts_have_one_thread_unless_set_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_large_ffts_have_a_thread_for_each_processor_unless_set_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.sched_getaffinity", lambda _: {0, 1, 2, 3}, raising=False)
     monkeypatch.delenv(THREADS_VARIABLE, raising=False)
-    assert Backend().threads == 1
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    large, small = 2048 * 2048, 256 * 256
+    assert threads_for(large) == 4
+    assert threads_for(large, 3) == 3
+    assert threads_for(small, 3) == 1
+    monkeypatch.setenv("OMP_NUM_THREADS", "1")  # as in the workers of a cluster
+    assert threads_for(large) == 1
     monkeypatch.setenv(THREADS_VARIABLE, "2")
-    assert Backend().threads == 2
-    assert Backend("scipy", threads=3).threads == 3
+    assert threads_for(large) == 2
     monkeypatch.setenv(THREADS_VARIABLE, "many")
     with refused(THREADS_VARIABLE):
         Backend()
@@ -265,10 +273,25 @@ def test_ffts_have_one_thread_unless_set_otherwise(monkeypatch: pytest.MonkeyPat
         Backend("array_api_strict", threads=2)
 
 
-def test_threads_change_no_digit() -> None:
-    expected = by_scipy("rough, viscoelastic")
-    found = rough(Backend("scipy", threads=2), speed=1.0)
-    np.testing.assert_array_equal(found.pressure, expected.pressure)
+def test_processes_share_the_processors(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(THREADS_VARIABLE, "5")
+    with Workers(2) as workers:
+        assert call_all(usable_threads, [{}, {}], workers=workers) == [2, 2]
+
+
+@pytest.mark.parametrize("name", ["scipy", "ducc0", "pyfftw"])
+def test_threads_change_no_digit(name: str) -> None:
+    values = np.random.default_rng(1).normal(size=(900, 640))  # more than enough for several threads
+    available(name)
+    one, two = (Backend(name, threads=threads).transforms for threads in (1, 2))
+    assert threads_for(values.size, 2) == 2
+    factor = one.forward_padded(values, (1800, 1280))
+    for transformed in (
+        lambda by: by.forward(values),
+        lambda by: by.inverse(one.forward(values), values.shape),
+        lambda by: by.convolved(values, factor, (1800, 1280)),
+    ):
+        np.testing.assert_array_equal(transformed(one), transformed(two))
 
 
 def test_backends_are_values() -> None:

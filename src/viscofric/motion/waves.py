@@ -15,6 +15,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
+from viscofric.threads import threads_for
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -83,7 +84,7 @@ class Waves:
 
     def of(self, field: Array) -> ComplexArray:
         """Waves of a field (nx, ny)."""
-        found = scipy.fft.rfft2(field)
+        found = scipy.fft.rfft2(field, workers=threads_for(field.size))
         if self._has_two_senses:
             found = np.concatenate([found, found[self.shape[0] // 2, None]])
         return np.asarray(found)
@@ -100,4 +101,6 @@ class Waves:
     def unfolded_field(self, waves: ComplexArray) -> Array:
         """Field (nx, ny) of folded waves, which are overwritten."""
         # One axis after the other: irfft2 would take a copy.
-        return np.asarray(scipy.fft.irfft(scipy.fft.ifft(waves, axis=0, overwrite_x=True), self.shape[1], axis=1))
+        threads = threads_for(2 * waves.size)
+        lines = scipy.fft.ifft(waves, axis=0, overwrite_x=True, workers=threads)
+        return np.asarray(scipy.fft.irfft(lines, self.shape[1], axis=1, workers=threads))

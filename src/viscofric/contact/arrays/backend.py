@@ -9,8 +9,6 @@ overwrite, and gathering and scattering on the cells in contact.  All that comes
 from __future__ import annotations
 
 import importlib
-import os
-import re
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -21,15 +19,13 @@ from viscofric.arguments import whole_number
 from viscofric.contact.arrays.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
 from viscofric.errors import InputError, not_imported, wrong_argument
 from viscofric.showing import Shown
+from viscofric.threads import THREADS, usable_threads
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     #: An array of whichever library the backend has.
     AnyArray: TypeAlias = Any
-
-#: Environment variable with the number of threads of FFTs on NumPy arrays.
-THREADS_VARIABLE = "VISCOFRIC_FFT_THREADS"
 
 _ON_NUMPY = ("scipy", "ducc0", "pyfftw")
 _OTHERS = ("torch", "cupy", "array_api_strict")
@@ -54,7 +50,8 @@ class Backend(Shown):
         its FFTs: "cupy", or "torch", if need be with a device, as in "torch:cuda"; all in double precision.
         "array_api_strict" shows that the array standard is kept to, slowly.
     threads : int, optional
-        Of the FFTs on NumPy arrays; that of the environment variable VISCOFRIC_FFT_THREADS if not given, otherwise one.
+        Of the FFTs of large NumPy arrays; if not given, the number in the environment variable VISCOFRIC_FFT_THREADS,
+        otherwise one for each processor that this process may use, no more than OMP_NUM_THREADS.
 
     Raises
     ------
@@ -87,8 +84,8 @@ class Backend(Shown):
             raise InputError(
                 f"threads = {self.threads!r}: is for FFTs on NumPy arrays, not for {self._library}.", code="no-threads"
             )
-        if self._library in _ON_NUMPY:
-            object.__setattr__(self, "threads", _threads(self.threads))
+        if self.threads is not None:
+            whole_number(self.threads, "threads", 1, right=THREADS)
         _ = self.device, self.xp, self.transforms  # now rather than in the middle of a solve
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -126,12 +123,13 @@ class Backend(Shown):
     @cached_property
     def transforms(self) -> Any:
         """FFTs of these arrays."""
+        threads = self.threads or usable_threads()
         if self._library == "scipy":
-            return ScipyTransforms(self._imported("scipy.fft"), self.threads or 1)
+            return ScipyTransforms(self._imported("scipy.fft"), threads)
         if self._library == "ducc0":
-            return DuccTransforms(self._imported("ducc0.fft"), self.threads or 1)
+            return DuccTransforms(self._imported("ducc0.fft"), threads)
         if self._library == "pyfftw":
-            return FftwTransforms(self._imported("pyfftw"), self.threads or 1)
+            return FftwTransforms(self._imported("pyfftw"), threads)
         return StandardTransforms(self.xp.fft)
 
     @cached_property
@@ -250,14 +248,6 @@ class MaskedCells(Cells):
         order = xp.cumulative_sum(xp.astype(xp.reshape(self.chosen, (-1,)), xp.int64)) - 1
         field = xp.reshape(xp.take(values, xp.clip(order, min=0)), self.chosen.shape)
         return xp.where(self.chosen, field, xp.zeros_like(field))
-
-
-def _threads(given: int | None) -> int:
-    right = "a whole number from 1, such as 2"
-    if given is not None:
-        return whole_number(given, "threads", 1, right=right)
-    text = os.environ.get(THREADS_VARIABLE, "1")
-    return whole_number(int(text) if re.fullmatch(r"\d{1,6}", text.strip()) else text, THREADS_VARIABLE, 1, right=right)
 
 
 def _torch_device(torch: Any, name: str) -> Any:

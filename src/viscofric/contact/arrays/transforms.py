@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
+
+from viscofric.threads import threads_for
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -75,11 +79,11 @@ class ScipyTransforms(Transforms):
     """SciPy's FFTs."""
 
     def __init__(self, fft: Any, threads: int) -> None:
-        self._fft, self._threads = fft, threads
+        self._fft, self._threads = fft, partial(threads_for, threads=threads)
 
     def forward(self, values: AnyArray) -> AnyArray:
         """Spectrum of real values."""
-        return self._fft.rfft2(values, workers=self._threads)  # type: ignore[no-any-return]
+        return self._fft.rfft2(values, workers=self._threads(values.size))  # type: ignore[no-any-return]
 
     def inverse(self, spectrum: AnyArray, shape: Shape) -> AnyArray:
         """Real values of the given shape."""
@@ -88,13 +92,15 @@ class ScipyTransforms(Transforms):
 
     def forward_padded(self, values: AnyArray, padded: Shape) -> AnyArray:
         """Spectrum of real values with zeros behind them up to a shape."""
-        lines = self._fft.rfft(values, padded[1], axis=1, workers=self._threads)
-        return self._fft.fft(lines, padded[0], axis=0, overwrite_x=True, workers=self._threads)  # type: ignore[no-any-return]
+        threads = self._threads(math.prod(padded))
+        lines = self._fft.rfft(values, padded[1], axis=1, workers=threads)
+        return self._fft.fft(lines, padded[0], axis=0, overwrite_x=True, workers=threads)  # type: ignore[no-any-return]
 
     def inverse_cropped(self, spectrum: AnyArray, padded: Shape, shape: Shape) -> AnyArray:
         """First `shape` of the real values whose spectrum, of the padded shape, is given."""
-        lines = self._fft.ifft(spectrum, axis=0, overwrite_x=True, workers=self._threads)[: shape[0]]
-        return self._fft.irfft(lines, padded[1], axis=1, workers=self._threads)[:, : shape[1]]  # type: ignore[no-any-return]
+        threads = self._threads(math.prod(padded))
+        lines = self._fft.ifft(spectrum, axis=0, overwrite_x=True, workers=threads)[: shape[0]]
+        return self._fft.irfft(lines, padded[1], axis=1, workers=threads)[:, : shape[1]]  # type: ignore[no-any-return]
 
     def convolved(self, values: AnyArray, factor: AnyArray, padded: Shape) -> AnyArray:
         """First of the real values, as many as are given, whose spectrum is the factor times that of those given.
@@ -105,22 +111,23 @@ class ScipyTransforms(Transforms):
         if factor.nbytes < _LARGE:
             return super().convolved(values, factor, padded)  # type: ignore[no-any-return]
         (nx, ny), (px, py), waves = values.shape, padded, factor.shape[1]
-        rows = max(1, _BLOCK // (py * values.itemsize))
-        columns = max(4, _BLOCK // (px * factor.itemsize))
+        threads = self._threads(px * py)
+        rows = max(1, threads * _BLOCK // (py * values.itemsize))
+        columns = max(4, threads * _BLOCK // (px * factor.itemsize))
         lines = np.empty((nx, waves), factor.dtype)
         for i in range(0, nx, rows):
-            lines[i : i + rows] = self._fft.rfft(values[i : i + rows], py, axis=1, workers=self._threads)
+            lines[i : i + rows] = self._fft.rfft(values[i : i + rows], py, axis=1, workers=threads)
         block = np.empty((px, columns), factor.dtype)
         for j in range(0, waves, columns):
             part = lines[:, j : j + columns]
             some = block[:, : part.shape[1]]
             some[:nx], some[nx:] = part, 0.0
-            some = self._fft.fft(some, axis=0, overwrite_x=True, workers=self._threads)
+            some = self._fft.fft(some, axis=0, overwrite_x=True, workers=threads)
             some *= factor[:, j : j + columns]
-            part[...] = self._fft.ifft(some, axis=0, overwrite_x=True, workers=self._threads)[:nx]
+            part[...] = self._fft.ifft(some, axis=0, overwrite_x=True, workers=threads)[:nx]
         found = np.empty_like(values)
         for i in range(0, nx, rows):
-            found[i : i + rows] = self._fft.irfft(lines[i : i + rows], py, axis=1, workers=self._threads)[:, :ny]
+            found[i : i + rows] = self._fft.irfft(lines[i : i + rows], py, axis=1, workers=threads)[:, :ny]
         return found
 
 
@@ -128,33 +135,34 @@ class DuccTransforms(Transforms):
     """FFTs of ducc0, which pad nothing by themselves but write into given arrays."""
 
     def __init__(self, fft: Any, threads: int) -> None:
-        self._fft, self._threads = fft, threads
+        self._fft, self._threads = fft, partial(threads_for, threads=threads)
 
     def forward(self, values: AnyArray) -> AnyArray:
         """Spectrum of real values."""
-        return self._fft.r2c(values, axes=(0, 1), nthreads=self._threads)  # type: ignore[no-any-return]
+        return self._fft.r2c(values, axes=(0, 1), nthreads=self._threads(values.size))  # type: ignore[no-any-return]
 
     def inverse(self, spectrum: AnyArray, shape: Shape) -> AnyArray:
         """Real values of the given shape."""
         return self._fft.c2r(  # type: ignore[no-any-return]
-            spectrum, axes=(0, 1), lastsize=shape[1], forward=False, inorm=2, nthreads=self._threads,
-            allow_overwriting_input=True,
+            spectrum, axes=(0, 1), lastsize=shape[1], forward=False, inorm=2,
+            nthreads=self._threads(math.prod(shape)), allow_overwriting_input=True,
         )  # fmt: skip
 
     def forward_padded(self, values: AnyArray, padded: Shape) -> AnyArray:
         """Spectrum of real values with zeros behind them up to a shape."""
-        nx, ny = values.shape
+        (nx, ny), threads = values.shape, self._threads(math.prod(padded))
         lines = np.zeros((nx, padded[1]), values.dtype)
         lines[:, :ny] = values
         spectrum = np.zeros((padded[0], padded[1] // 2 + 1), np.result_type(values.dtype, np.complex64))
-        self._fft.r2c(lines, axes=(1,), nthreads=self._threads, out=spectrum[:nx])
-        return self._fft.c2c(spectrum, axes=(0,), nthreads=self._threads, out=spectrum)  # type: ignore[no-any-return]
+        self._fft.r2c(lines, axes=(1,), nthreads=threads, out=spectrum[:nx])
+        return self._fft.c2c(spectrum, axes=(0,), nthreads=threads, out=spectrum)  # type: ignore[no-any-return]
 
     def inverse_cropped(self, spectrum: AnyArray, padded: Shape, shape: Shape) -> AnyArray:
         """First `shape` of the real values whose spectrum, of the padded shape, is given."""
-        self._fft.c2c(spectrum, axes=(0,), forward=False, inorm=2, nthreads=self._threads, out=spectrum)
+        threads = self._threads(math.prod(padded))
+        self._fft.c2c(spectrum, axes=(0,), forward=False, inorm=2, nthreads=threads, out=spectrum)
         values = self._fft.c2r(
-            spectrum[: shape[0]], axes=(1,), lastsize=padded[1], forward=False, inorm=2, nthreads=self._threads
+            spectrum[: shape[0]], axes=(1,), lastsize=padded[1], forward=False, inorm=2, nthreads=threads
         )
         return values[:, : shape[1]]  # type: ignore[no-any-return]
 
@@ -183,7 +191,9 @@ class FftwTransforms(Transforms):
             flags = ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT") if back else ("FFTW_ESTIMATE",)
             if len(self._plans) == _MOST_PLANS:
                 del self._plans[next(iter(self._plans))]  # the oldest; plans hold arrays of their size
-            self._plans[key] = self._fftw.FFTW(first, last, axes, direction, flags, self._threads)
+            self._plans[key] = self._fftw.FFTW(
+                first, last, axes, direction, flags, threads_for(found.size, self._threads)
+            )
         return self._plans[key](given, found)  # type: ignore[no-any-return]
 
     def _spectrum(self, shape: Shape, like: AnyArray) -> AnyArray:

@@ -29,7 +29,7 @@ from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSol
 from viscofric.contact.periodic.surface import PeriodicSurface, Topographic, wave_number
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, wrong_argument
-from viscofric.threads import one_blas_thread
+from viscofric.threads import one_blas_thread, threads_for
 from viscofric.units import Quantity, checked_poisson_ratio, number, positive, to_si, velocity
 
 if TYPE_CHECKING:
@@ -318,7 +318,7 @@ def _assemble(
     gap *= units.depth
     by_pressure, steepness = _on_slopes(surface, pressure, toward)
     transfer *= units.compliance
-    waves = scipy.fft.rfft2(pressure)
+    waves = scipy.fft.rfft2(pressure, workers=threads_for(pressure.size))
     by_energy = dissipation(transfer, surface.shape, surface.spacing, toward, waves)
     lateral = dissipation(transfer, surface.shape, surface.spacing, (-toward[1], toward[0]), waves)
     extrapolated = beyond_measured(surface, solid, transfer, waves, by_energy)
@@ -420,5 +420,5 @@ def _friction_on(
     pressure = (units.depth / units.compliance) * pressure
     shape, spacing = pressure.shape, coarser.spacing
     by_pressure, _ = _on_slopes(PeriodicSurface(*coarser), pressure, toward)
-    waves = scipy.fft.rfft2(pressure)
+    waves = scipy.fft.rfft2(pressure, workers=threads_for(pressure.size))
     return by_pressure, dissipation(solid.transfer(shape, spacing), shape, spacing, toward, waves)

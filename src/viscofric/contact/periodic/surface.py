@@ -10,6 +10,7 @@ import scipy.fft
 
 from viscofric.errors import InputError
 from viscofric.showing import Shown
+from viscofric.threads import threads_for
 from viscofric.units import Quantity, in_si, two_lengths
 
 if TYPE_CHECKING:
@@ -122,22 +123,22 @@ class PeriodicSurface(Shown):
 
     def slope(self, direction: tuple[float, float]) -> Array:
         """Return the derivative of the heights along a unit vector, by their Fourier series; (nx, ny) array."""
-        found = np.zeros(self.shape)
+        found, threads = np.zeros(self.shape), threads_for(self.z.size)
         for axis, part in enumerate(direction):
             points = self.shape[axis]
             if part != 0.0 and points > 1:
                 q: Array = 2.0 * np.pi * np.fft.rfftfreq(points, self.spacing[axis]).astype(np.float64)
                 factor = 1j * part * without_nyquist(q, points)
-                waves = scipy.fft.rfft(self.z, axis=axis)
+                waves = scipy.fft.rfft(self.z, axis=axis, workers=threads)
                 waves *= factor[:, None] if axis == 0 else factor
-                found += scipy.fft.irfft(waves, points, axis=axis, overwrite_x=True)
+                found += scipy.fft.irfft(waves, points, axis=axis, overwrite_x=True, workers=threads)
         return found
 
     def coarser(self, shapes: Sequence[tuple[int, int]]) -> list[Coarser]:
         """Return the surface on fewer points of the same period, without its shortest waves."""
         if not shapes:
             return []
-        fine = scipy.fft.rfft2(self.z)
+        fine = scipy.fft.rfft2(self.z, workers=threads_for(self.z.size))
         fine /= self.z.size
         return [self._on_points(fine, shape) for shape in shapes]
 
@@ -150,7 +151,8 @@ class PeriodicSurface(Shown):
         if behind:
             coarse[-behind:, :across] = fine[-behind:, :across]
         coarse *= mx * my
-        return Coarser(scipy.fft.irfft2(coarse, shape, overwrite_x=True), (self.period[0] / mx, self.period[1] / my))
+        heights = scipy.fft.irfft2(coarse, shape, overwrite_x=True, workers=threads_for(mx * my))
+        return Coarser(heights, (self.period[0] / mx, self.period[1] / my))
 
 
 def interpolated(values: Array, shape: tuple[int, int]) -> Array:
