@@ -54,7 +54,8 @@ def test_a_coulomb_coefficient_from_elsewhere_is_taken_off(
     np.testing.assert_allclose(off, -0.01 * configuration[0] * configuration[1], atol=ROUNDING)
     assert curves.assumption in curves.notes
     assert curves.assumption.code == "coulomb-assumed"
-    assert (curves.assumption.values["coulomb"], curves.assumption.values["error"]) == (coulomb, error)
+    values = curves.assumption.values
+    assert (values["coulomb"], values["error"], values["senses"]) == (coulomb, error, 1)
 
 
 @pytest.mark.parametrize("configuration", FOUR)

@@ -22,10 +22,14 @@ from friction.synthetic_curves import synthetic_curves
 from marks import apart
 from refusals import refused
 from viscofric.errors import SuperpositionError
+from viscofric.friction.curve_files import read_friction_curves, write_friction_curves
 from viscofric.friction.identification.solving import Contacts
-from viscofric.notes import codes
+from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
+from viscofric.notes import Note, codes
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from numpy.typing import NDArray
 
 SETTINGS = {"indenter": BALL, "accuracy": 1e-2, "samples": 40, "modes": 15}
@@ -268,6 +272,37 @@ def test_the_fitted_friction_is_that_of_the_material_without_errors_in_common() 
     # Errors of opposite sign at three temperatures nearly cancel in their common curve.
     assert np.max(np.abs(np.log(found.friction.viscoelastic / exact.viscoelastic))) < 0.045
     assert found.rms < 0.01
+
+
+@pytest.mark.usefixtures("closed_form")
+def test_the_error_of_an_assumed_coulomb_friction_is_one_that_points_share(tmp_path: Path) -> None:
+    """Coulomb friction was assumed too small by its error, 6 % of the friction; the file of the curves keeps that."""
+    exact = closed_form_curves(*WARM)
+    coulomb, error = 0.05, 0.06 * exact.viscoelastic.mean()
+    scatter = 0.005 * exact.viscoelastic * np.random.default_rng(3).standard_normal(len(exact))
+    assumed = {"coulomb": coulomb, "error": error, "senses": 1}
+    note = Note(COULOMB_ASSUMED, "Coulomb friction is assumed.", values=assumed)
+    same = {"coulomb": np.full(len(exact), coulomb), "coulomb_error": np.full(len(exact), error)}
+    curves = replace(
+        exact,
+        viscoelastic=exact.viscoelastic + error + scatter,
+        viscoelastic_error=np.hypot(0.005 * exact.viscoelastic, error),
+        coulomb_scatter=np.zeros(len(exact)),
+        notes=(note,),
+        **same,
+    )
+    write_friction_curves(curves, tmp_path / "curves.csv")
+    given = {"anchor": planted_anchor(), "shift": RUBBER.shift, **FEW}
+    found = vf.identify_material(read_friction_curves(tmp_path / "curves.csv"), **given)
+    declared = vf.identify_material(
+        replace(curves, viscoelastic_error=0.005 * exact.viscoelastic, notes=()),
+        coulomb_level_error=error / coulomb,
+        **given,
+    )
+    assert "errors-not-scatter" not in codes(found.notes)
+    omega = np.geomspace(*found.frequency_range, 12)
+    for one, other in zip(found.samples.materials, declared.samples.materials, strict=True):
+        np.testing.assert_allclose(one.complex_modulus(omega), other.complex_modulus(omega), rtol=1e-3)
 
 
 @pytest.mark.parametrize(

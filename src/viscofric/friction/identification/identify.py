@@ -90,6 +90,7 @@ def identify_material(
         Relative standard error of friction per decade of speed, the same at all temperatures.
     coulomb_level_error : float or str
         Relative standard error, shared by all points, of the Coulomb friction of the curves, which was subtracted.
+        Without it, the standard error of one that `separate` was told to assume.
     reference : float, str or pint.Quantity, optional
         Temperature at which the material is described, K if a plain number; without it, that of `shift`, or of the
         shift factors that are found.
@@ -183,7 +184,8 @@ def identify_material(
     text(name, "name")
     insist_on_function(progress, "progress")
     anchors = alone_or_many(anchor)
-    points = usable_points(curves, indenter, load, SOLVED_ERROR * accuracy)
+    assumed = errors.coulomb_level == 0.0
+    points = usable_points(curves, indenter, load, SOLVED_ERROR * accuracy, assumed=assumed)
     kelvin = None if reference is None else positive(reference, "K", "reference")
     points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
     points, shifts = with_shared_errors(points, shifts, errors.columns(points, curves))

@@ -10,9 +10,10 @@ import numpy as np
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import error_freedom, scatter_about_parabolas
+from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
-from viscofric.notes import Note, Remedy
+from viscofric.notes import Note, Remedy, note_of
 from viscofric.units import positive, shown_celsius, shown_number, shown_speed
 
 if TYPE_CHECKING:
@@ -66,11 +67,14 @@ class Points:
         return replace(self, **{name: getattr(self, name)[keep] for name in columns})
 
 
-def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | None, least_error: float) -> Points:
+def usable_points(
+    curves: FrictionCurves, indenter: Indenter, load: Quantity | None, least_error: float, *, assumed: bool = True
+) -> Points:
     """Return the usable points of friction curves.
 
     `load` is that of all points; without it, each has its own.  `least_error` is the smallest relative error of a
-    point: that of the solved contacts.  Raises InputError if points are too few, friction is not above zero, or the
+    point: that of the solved contacts.  With `assumed`, the error of a Coulomb friction that was assumed is one that
+    points share.  Raises InputError if points are too few, friction is not above zero, or the
     loads differ and the indenter has no similarity.
     """
     unit = indenter.geometry.load_unit
@@ -115,6 +119,9 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
             "more, better ten per decade of reduced speed.",
             code="too-few-points",
         )
+    shared = _errors_assumed(curves) if assumed else np.zeros((len(curves), 0))
+    own = np.sqrt(np.maximum(curves.viscoelastic_error**2 - np.sum(shared**2, axis=1), 0.0))
+    curves = replace(curves, viscoelastic_error=own)
     friction = curves.viscoelastic[rows]
     if not np.all(friction > 0.0):
         worst = rows[int(np.argmin(friction))]
@@ -156,9 +163,23 @@ def usable_points(curves: FrictionCurves, indenter: Indenter, load: Quantity | N
         forces=forces,
         raised=rule.strain * relative,
         rows=rows,
-        shared=np.zeros((len(rows), 0)),
+        shared=shared[rows] / friction[:, None],
         notes=tuple(notes),
     )
+
+
+def _errors_assumed(curves: FrictionCurves) -> Array:
+    """Return errors of viscoelastic friction by assumed Coulomb friction, (n, k), one column for each assumption."""
+    if curves.coulomb is None or curves.coulomb_error is None:
+        return np.zeros((len(curves), 0))
+    found: list[Array] = []
+    assumptions = [note.values for note in map(note_of, curves.notes) if note.code == COULOMB_ASSUMED]
+    for value, error in sorted(
+        {(one["coulomb"], one["error"]) for one in assumptions if one["error"] and one["senses"] == 1}
+    ):
+        there = np.isclose(curves.coulomb, value, rtol=1e-6) & np.isclose(curves.coulomb_error, error, rtol=1e-6)
+        found.append(np.where(there, error, 0.0))
+    return np.array(found).reshape(-1, len(curves)).T
 
 
 class SharedErrors(NamedTuple):

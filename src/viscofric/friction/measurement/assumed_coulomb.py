@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from viscofric.friction.measurement.zeros import Zeros
 
 
+#: Code of the note on an assumed coefficient, whose values are `coulomb` and its standard error `error`.
+COULOMB_ASSUMED = "coulomb-assumed"
+
+
 @dataclass(frozen=True)
 class Assumed:
     """Coulomb friction that is assumed."""
@@ -121,10 +125,16 @@ class Assumed:
             else shown_number(self.value or 0.0, "g")
         )
         return Note(
-            "coulomb-assumed",
+            COULOMB_ASSUMED,
             f"{where(some, total)} one direction of slip was measured and a Coulomb friction coefficient of {size} is "
             "assumed; its error is in viscoelastic friction in full.",
-            values={**counted, "coulomb": self.value, "error": self.error},
+            values={
+                **counted,
+                "coulomb": self.value,
+                "error": self.error,
+                # Conditions share an error with the same sign if the disc is faster in all of them or in none.
+                "senses": len({_sense(one) for one in some}),
+            },
         )
 
 
