@@ -59,9 +59,7 @@ Example:
 @click.option(
     "--tolerance",
     type=float,
-    default=1e-8,
-    show_default=True,
-    help="Largest residual gap or overlap over the indentation.",
+    help="Largest residual gap or overlap over the indentation [default: 1e-8, or less if the accuracy needs it].",
 )
 @click.option("--finest", type=int, help="Largest number of cells along the window's longer edge.")
 @click.option(

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from viscofric.units import Quantity
 
 LEAST_FINEST = 128  # three grids, so that the friction has an error estimate
-TIGHTEST, LOOSEST = 1e-13, 1e-3  # of the solver's tolerance; the latter relative to the accuracy
+TIGHTEST, USUAL = 1e-13, 1e-8  # of the solver's tolerance
+LOOSEST = 1e-3  # likewise, relative to the accuracy
 
 
 class ContactOptions(TypedDict, total=False):
@@ -28,7 +29,7 @@ class ContactOptions(TypedDict, total=False):
     direction: Sequence[float]
     indenter_modulus: Quantity | None
     indenter_poisson_ratio: float
-    tolerance: float
+    tolerance: float | None
     finest: int | None
     window: Sequence[Quantity] | None
     grid: int | None
@@ -44,7 +45,7 @@ class ContactSettings:
     """
 
     accuracy: float = 1e-3
-    tolerance: float = 1e-8
+    tolerance: float | None = None  # 1e-8, or a thousandth of a smaller accuracy
     finest: int | None = None
     window: Sequence[Quantity] | None = None
     grid: int | None = None
@@ -56,8 +57,7 @@ class ContactSettings:
     coulomb: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("accuracy", "tolerance"):
-            object.__setattr__(self, name, number(getattr(self, name), name))
+        object.__setattr__(self, "accuracy", number(self.accuracy, "accuracy"))
         ratio = checked_poisson_ratio(self.indenter_poisson_ratio, "indenter_poisson_ratio", above=-1.0)
         object.__setattr__(self, "indenter_poisson_ratio", ratio)
         least, loosest = TIGHTEST / LOOSEST, LOOSEST * self.accuracy
@@ -65,7 +65,9 @@ class ContactSettings:
             raise wrong_argument(
                 "accuracy", self.accuracy, f"must be a number from {least:g} to below 1, such as 1e-3.", "out-of-range"
             )
-        if not TIGHTEST <= self.tolerance <= loosest:
+        if self.tolerance is not None:
+            object.__setattr__(self, "tolerance", number(self.tolerance, "tolerance"))
+        if not TIGHTEST <= self.residual <= loosest:
             raise InputError(
                 f"tolerance = {brief(self.tolerance)}: must be a number from {TIGHTEST:g} to {LOOSEST:g} times the "
                 f"accuracy, which is {loosest:g} for accuracy = {self.accuracy:g}.",
@@ -80,6 +82,11 @@ class ContactSettings:
         object.__setattr__(self, "layer", Layer.of(self.layer))
         object.__setattr__(self, "coulomb", checked_coulomb(self.coulomb))
         self._derived  # noqa: B018  raises where indenter, direction or backend cannot be used
+
+    @property
+    def residual(self) -> float:
+        """The tolerance, as given or as the accuracy needs it."""
+        return min(USUAL, LOOSEST * self.accuracy) if self.tolerance is None else self.tolerance
 
     @property
     def counterface(self) -> float:

@@ -63,7 +63,7 @@ def solve_steady(
     indentation: Quantity | None = None,
     temperature: Quantity | None = None,
     accuracy: Quantity = 1e-3,
-    tolerance: Quantity = 1e-8,
+    tolerance: Quantity | None = None,
     finest: int | None = None,
     window: Sequence[Quantity] | None = None,
     grid: int | None = None,
@@ -98,9 +98,9 @@ def solve_steady(
     accuracy : float or str
         Largest relative error of the friction coefficient (of 1e-6 a0/R where it is smaller, a0 the Hertz radius at
         E0): grids are refined until its changes from one to the next are small enough.
-    tolerance : float or str
+    tolerance : float or str, optional
         Of the complementarity: largest gap under pressure or overlap without it over the indentation; from 1e-13
-        to a thousandth of the accuracy.
+        to a thousandth of the accuracy.  1e-8, or less if the accuracy needs it, if not given.
     finest : int, optional
         Most cells along the window's longer edge: 2048 if not given, 65536 for a line contact.
     window : three lengths, optional
@@ -341,7 +341,7 @@ def _solve(
     shape = ScaledIndenter(indenter, scale, (ahead * toward[0], ahead * toward[1]))
     loose = settings.accuracy >= LOOSE and settings.grid is None and geometry.dimension > 1
     cells = COARSEST // 2 if loose else COARSEST
-    problem = Problem(geometry, solid, shape, control, settings.tolerance, settings.where, coarsest=cells)
+    problem = Problem(geometry, solid, shape, control, settings.residual, settings.where, coarsest=cells)
     if layer is not None:
         scaled = ScaledLayer.of(layer, scale.length, material.poisson_ratio)
         problem = replace(problem, geometry=scaled.geometry(geometry, counterface), layer=scaled)
