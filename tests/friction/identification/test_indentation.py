@@ -184,7 +184,7 @@ def test_the_approach_to_the_surface_is_left_out() -> None:
     load, depth = load + 2e-3 * random.standard_normal(1050), depth + 1e-6 * random.standard_normal(1050)
     record = vf.friction.IndentationRecord(time, load, depth, KELVIN, control="load")
     contact = contact_of(record)
-    assert (contact.count.sum(), contact.rows.unclear) == (1000, 0)
+    assert (contact.count.sum(), contact.unclear) == (1000, 0)
     # The step was put on between two rows, within 10 ms: 5 ms of 40, or 0.2 % of J after a second.
     value = np.exp(contact.functional(planted(KELVIN).tau)(planted(KELVIN)).log_value)
     late = contact.along > 1.5

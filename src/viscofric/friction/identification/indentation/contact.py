@@ -1,9 +1,10 @@
-"""What every measured contact offers: its points, and their logarithms for a material, with derivatives."""
+"""Measured contacts: their points, and the logarithms of these for a material, with derivatives."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -20,19 +21,11 @@ if TYPE_CHECKING:
 
 
 class Shared(NamedTuple):
-    """Standard deviations of errors that all rows share; zero where they are taken as exact.
+    """Standard deviations of errors that all rows share; zero where they are taken as exact."""
 
-    Attributes
-    ----------
-    radius, gain : float
-        Of the indenter's radius and of the load cell, relative, the same for all records.
-    zero : float
-        Of the zero of the depth, m, of its own for every record.
-    """
-
-    radius: float = 0.0
-    gain: float = 0.0
-    zero: float = 0.0
+    radius: float = 0.0  # of the indenter, relative, the same for all records
+    gain: float = 0.0  # of the load cell, relative, the same for all records
+    zero: float = 0.0  # of the zero of the depth, m, of its own for every record
 
 
 EXACT = Shared()
@@ -72,60 +65,39 @@ class Answer(NamedTuple):
     shared: Array  # (n, 3), by the errors in common, in their standard deviations; modelled less measured
 
 
-class Contact(Protocol):
-    """The points of one record."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Points:
+    """The n measured points of one record."""
+
+    along: Array  # (n,), time, s; angular frequency, rad/s; speed of the impact, m/s
+    response: Array  # (n,), measured values
+    error: Array | None  # (n,), relative standard errors; None where they are to be found from the residuals
+    count: Array  # (n,), rows averaged
+    lags: tuple[float, float]  # shortest and longest time of what was measured, s
+    parts: tuple[tuple[str, slice], ...]  # names of the measured quantities, and their points
 
     def __len__(self) -> int:
-        """Return the number of points."""
-        ...
+        return len(self.along)
 
-    @property
-    def along(self) -> Array:
-        """Where they were measured (n,): time, s; angular frequency, rad/s; speed of the impact, m/s."""
-        ...
 
-    @property
-    def response(self) -> Array:
-        """Measured values (n,)."""
-        ...
+class Contact(Points, ABC):
+    """The points of one record, and their response to a material."""
 
-    @property
-    def error(self) -> Array | None:
-        """Relative standard errors (n,); None where they are to be found from the residuals."""
-        ...
+    #: Whether the response is solved by springs for one material, and extrapolated to others.
+    by_springs: ClassVar[bool] = False
 
-    @property
-    def count(self) -> Array:
-        """Rows averaged (n,)."""
-        ...
-
-    @property
-    def lags(self) -> tuple[float, float]:
-        """Shortest and longest time, s, of what was measured."""
-        ...
-
+    @abstractmethod
     def ends(self, trial: Trial) -> tuple[float, float, float]:
         """Return the lowest angular frequency, rad/s, and the highest ones of E'' and of |E|, that were measured."""
-        ...
 
     @property
-    def parts(self) -> tuple[tuple[str, slice], ...]:
-        """Names of the measured quantities, and their points."""
-        ...
-
-    @property
+    @abstractmethod
     def log_elastic(self) -> float | None:
         """Ln of (1−ν²)/E of a similar elastic contact, 1/Pa; None where it does not show."""
-        ...
 
-    @property
-    def by_springs(self) -> bool:
-        """Whether the response is solved by springs for one material, and extrapolated to others."""
-        ...
-
+    @abstractmethod
     def functional(self, tau: Array) -> Callable[[Trial], Answer]:
         """Return the response as a function of the material, for retardation times (m,) at the reference."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -44,7 +44,7 @@ BLOCK = 500_000  # lags at once
 SAME = 1e-6
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Growing(RowsContact):
     """The usable rows of a record, averaged, as linear functionals of J (load prescribed) or E (depth prescribed)."""
 
@@ -56,14 +56,13 @@ class Growing(RowsContact):
     # in relaxation: the same weights of the change of X by one standard deviation of the zero
     zero_weights: Array | None
     gain: float  # standard deviation of the load cell's gain
-    by_springs: bool = False
 
     @property
     def log_elastic(self) -> float:
         """Ln of the plane-strain compliance of an elastic contact."""
         of_elastic = np.maximum(self.weights @ np.ones(self.weights.shape[1]), 1e-300)
         elastic = float(np.median(np.log(self.response / of_elastic)))
-        return elastic if self.rows.creep else -elastic
+        return elastic if self.creep else -elastic
 
     def functional(self, tau: Array) -> Functional:
         """Return the response as a function of the material, for retardation times (m,) at the reference."""
@@ -94,7 +93,7 @@ class Functional:
         strengths, contact = np.exp(trial.compliances), self.contact
         glass, C = float(strengths[0]), strengths[1:]
         value, changes, moved = self._response(glass, C, trial.log_alpha, trial.extra)
-        sign = 1.0 if contact.rows.creep else -1.0
+        sign = 1.0 if contact.creep else -1.0
         shared = np.zeros((len(contact), 3))
         shared[:, 0], shared[:, 1], shared[:, 2] = -sign * contact.by_radius, sign * contact.gain, -contact.by_zero
         if contact.zero_weights is not None:
@@ -109,7 +108,7 @@ class Functional:
         `glass` and `C` (m,) are compliances at the reference, `extra` that of an elastic indenter, 1/Pa.
         """
         kernel = self._at(log_alpha)
-        if self.contact.rows.creep:
+        if self.contact.creep:
             changes = np.concatenate([(self._total * glass)[:, None], kernel.creep * C], axis=1)
             value = changes.sum(axis=1) + self._total * extra
             moved = self._weighted((C * kernel.relaxed * (kernel.relaxed - 1.0)).sum(axis=1)[:, None])[:, 0]
@@ -126,7 +125,7 @@ class Functional:
     def _at(self, log_alpha: float) -> _Kernel:
         if self._kernel is None or abs(self._kernel.log_alpha - log_alpha) > SAME:
             relaxed = 1.0 / (1.0 + np.outer(self._s, np.exp(log_alpha) * self.tau))
-            creep = self._weighted(relaxed) if self.contact.rows.creep else np.zeros((0, 0))
+            creep = self._weighted(relaxed) if self.contact.creep else np.zeros((0, 0))
             self._kernel = _Kernel(log_alpha, relaxed, creep)
         return self._kernel
 
@@ -155,8 +154,15 @@ def growing(rows: Rows, reduced: Reduced, shared: Shared = EXACT, by_radius: flo
         by_zero = rows.average @ (shared.zero * reduced.slope(rows.depth)) / rows.response
     elif shared.zero > 0.0 and moved is not None:
         zero_weights = rows.average @ _weights(rows.time, knots, *moved, grid)[1]
-    weights = rows.average @ weights
-    return Growing(rows, grid, weights, shared.radius * by_radius, by_zero, zero_weights, shared.gain)
+    return Growing(
+        **vars(rows),
+        grid=grid,
+        weights=rows.average @ weights,
+        by_radius=shared.radius * by_radius,
+        by_zero=by_zero,
+        zero_weights=zero_weights,
+        gain=shared.gain,
+    )
 
 
 def _subdivided(knots: Array, depths: Array) -> tuple[Array, Array]:

@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from viscofric.errors import ConvergenceError
-from viscofric.friction.identification.indentation.contact import EXACT, Answer, Shared, Trial, logarithm, wider
+from viscofric.friction.identification.indentation.contact import (
+    EXACT,
+    Answer,
+    Contact,
+    Shared,
+    Trial,
+    logarithm,
+    wider,
+)
 from viscofric.motion.bounce import Bounce
 from viscofric.motion.springs import elastic_radius, impact_radius, profile
 from viscofric.motion.tangents import Falling, Followed, follow
@@ -33,56 +41,35 @@ _HALF_SINE = math.pi
 _NOMINAL = 5e6
 
 
-@dataclass(frozen=True, eq=False)
-class Impacts:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Impacts(Contact):
     """The impacts of one record: each measured quantity at every speed, one after the other."""
+
+    by_springs: ClassVar[bool] = True
 
     record: ReboundRecord
     indenter: Indenter
     shared: Shared = EXACT
-    by_springs: bool = True
 
-    def __len__(self) -> int:
-        return len(self.response)
-
-    @property
-    def quantities(self) -> tuple[str, ...]:
-        """Those that were measured."""
-        return self.record.quantities
-
-    @property
-    def along(self) -> Array:
-        """Speeds (n,), m/s."""
-        return np.tile(self.record.speed, len(self.quantities))
-
-    @property
-    def response(self) -> Array:
-        """Measured values (n,)."""
-        return np.concatenate([getattr(self.record, name) for name in self.quantities])
-
-    @property
-    def error(self) -> Array:
-        """Relative standard errors (n,)."""
-        return np.repeat([self.record.error[name] for name in self.quantities], len(self.record))
-
-    @property
-    def count(self) -> Array:
-        """One for every value."""
-        return np.ones(len(self))
-
-    @property
-    def parts(self) -> tuple[tuple[str, slice], ...]:
-        """Names of the measured quantities, and their points."""
-        size = len(self.record)
-        return tuple((name, slice(n * size, (n + 1) * size)) for n, name in enumerate(self.quantities))
-
-    @property
-    def lags(self) -> tuple[float, float]:
-        """The least and the largest contact time over π, measured or of a similar elastic impact."""
-        times = self.record.contact_time
+    @classmethod
+    def of(cls, record: ReboundRecord, indenter: Indenter, shared: Shared = EXACT) -> Impacts:
+        """Return the impacts of a record; the lags are contact times over π, measured or of similar elastic ones."""
+        names, size = record.quantities, len(record)
+        times = record.contact_time
         if times is None:
-            times = np.array([_ELASTIC_TIME * self._depth(place) / v for place, v in enumerate(self.record.speed)])
-        return float(times.min()) / _HALF_SINE, float(times.max()) / _HALF_SINE
+            depths = [_depth(record, indenter, place) for place in range(size)]
+            times = _ELASTIC_TIME * np.array(depths) / record.speed
+        return cls(
+            along=np.tile(record.speed, len(names)),
+            response=np.concatenate([getattr(record, name) for name in names]),
+            error=np.repeat([record.error[name] for name in names], size),
+            count=np.ones(size * len(names)),
+            lags=(float(times.min()) / _HALF_SINE, float(times.max()) / _HALF_SINE),
+            parts=tuple((name, slice(n * size, (n + 1) * size)) for n, name in enumerate(names)),
+            record=record,
+            indenter=indenter,
+            shared=shared,
+        )
 
     def ends(self, trial: Trial) -> tuple[float, float, float]:
         """Return angular frequencies of half-sines as long as the contacts with a material, rad/s."""
@@ -99,23 +86,11 @@ class Impacts:
         nodes, weights = np.polynomial.legendre.leggauss(20)
         found = []
         for place, speed in enumerate(self.record.speed):
-            depth = self._depth(place)
+            depth = _depth(self.record, self.indenter, place)
             radius = elastic_radius(self.indenter, depth, None, 1.0)
             inside = depth - profile(self.indenter, 0.5 * radius * (nodes + 1.0))
             found.append(radius * 0.5 * float(weights @ np.square(inside)) / (0.5 * self.record.mass * speed**2))
         return float(np.median(np.log(found)))
-
-    def _depth(self, place: int) -> float:
-        """Return the largest depth of an impact, measured, or as follows from contact time or force."""
-        record, speed = self.record, float(self.record.speed[place])
-        if record.indentation is not None:
-            return float(record.indentation[place])
-        if record.contact_time is not None:
-            return float(record.contact_time[place]) * speed / _ELASTIC_TIME
-        if record.peak_force is not None:  # E = ∫F dδ = (2/5) F δ of a ball
-            return 1.25 * record.mass * speed**2 / float(record.peak_force[place])
-        radius = impact_radius(self.indenter, 0.5 * record.mass * speed**2, 0.0, _NOMINAL)
-        return float(profile(self.indenter, np.array(radius))) or 0.1 * radius
 
     def functional(self, tau: Array) -> Callable[[Trial], Answer]:
         """Return the response as a function of the material."""
@@ -152,8 +127,21 @@ class Impacts:
         if self.shared.radius > 0.0:
             others = trial.springs(wider(self.indenter, self.shared.radius), edge, _SPRINGS, 1.0)
             moved = _features(follow(others, time, falling, derivatives=False), time, falling)
-        names = self.quantities
+        names = self.record.quantities
         return [features[n][0] for n in names], [features[n][1] for n in names], [moved[n][0] for n in names]
+
+
+def _depth(record: ReboundRecord, indenter: Indenter, place: int) -> float:
+    """Return the largest depth of an impact, m, measured, or as follows from contact time or force."""
+    speed = float(record.speed[place])
+    if record.indentation is not None:
+        return float(record.indentation[place])
+    if record.contact_time is not None:
+        return float(record.contact_time[place]) * speed / _ELASTIC_TIME
+    if record.peak_force is not None:  # E = ∫F dδ = (2/5) F δ of a ball
+        return 1.25 * record.mass * speed**2 / float(record.peak_force[place])
+    radius = impact_radius(indenter, 0.5 * record.mass * speed**2, 0.0, _NOMINAL)
+    return float(profile(indenter, np.array(radius))) or 0.1 * radius
 
 
 def _reach(trial: Trial, indenter: Indenter, mass: float, speed: float, gravity: float) -> tuple[float, float, float]:

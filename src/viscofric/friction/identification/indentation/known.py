@@ -3,49 +3,49 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.friction.identification.indentation.contact import EXACT, Answer, Shared, Trial
+from viscofric.friction.identification.indentation.contact import EXACT, Answer, Contact, Shared, Trial
 from viscofric.friction.identification.moduli import compliance, log_modulus
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from viscofric.arrays import Array
 
 
-@dataclass(frozen=True, eq=False)
-class Known:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Known(Contact):
     """Moduli over angular frequencies, times the contact diameter over 1−ν² for a stiffness.
 
     A small oscillation about a depth δ keeps its contact radius a, so that the stiffness is 2a E(ω)/(1−ν²) (I. N.
     Sneddon, Int. J. Eng. Sci. 3 (1965) 47, with the correspondence principle).
     """
 
-    along: Array  # (n,), angular frequencies, rad/s
-    response: Array  # (n,), N/m or Pa
-    error: Array  # (n,)
-    parts: tuple[tuple[str, slice], ...]  # quantity: "storage_…", "loss_…" or "magnitude_…"
     diameter: float | None = None  # 2a; None for moduli, which have no indenter
     by_radius: float = 0.0  # d ln a/d ln R at a given depth
     by_depth: float = 0.0  # d ln a/dδ, 1/m
     shared: Shared = EXACT
-    by_springs: bool = False
 
-    def __len__(self) -> int:
-        return len(self.along)
+    @classmethod
+    def of(cls, frequency: Array, values: Mapping[str, tuple[Array, float]], **contact: Any) -> Known:
+        """Return values over angular frequency (k,), rad/s, N/m or Pa, with their relative standard errors, by name.
 
-    @property
-    def count(self) -> Array:
-        """One for every value."""
-        return np.ones(len(self))
-
-    @property
-    def lags(self) -> tuple[float, float]:
-        """One over the highest and the lowest angular frequency, s."""
-        return 1.0 / float(self.along.max()), 1.0 / float(self.along.min())
+        Names begin with "storage", "loss" or "magnitude".
+        """
+        size = len(frequency)
+        along = np.tile(frequency, len(values))
+        return cls(
+            along=along,
+            response=np.concatenate([column for column, _ in values.values()]),
+            error=np.repeat([error for _, error in values.values()], size),
+            count=np.ones(len(along)),
+            lags=(1.0 / float(frequency.max()), 1.0 / float(frequency.min())),
+            parts=tuple((name, slice(n * size, (n + 1) * size)) for n, name in enumerate(values)),
+            **contact,
+        )
 
     def ends(self, trial: Trial) -> tuple[float, float, float]:
         """Return the measured frequencies, rad/s."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -38,27 +38,28 @@ _EARLY = np.geomspace(0.03, 1.0, 10)
 _OSCILLATES, _TURN = 4, 0.02
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Moving(RowsContact):
-    """The usable rows of a record, averaged."""
+    """The usable rows of a record in which the contact shrinks, averaged."""
+
+    by_springs: ClassVar[bool] = True
 
     indenter: Indenter
     reduced: Reduced
     shared: Shared = EXACT
-    by_springs: bool = True
 
     @property
     def log_elastic(self) -> float:
         """Ln of the plane-strain compliance of an elastic contact."""
-        prescribed = np.interp(self.rows.time, self.rows.knots, self.rows.values)
-        other = prescribed if self.rows.creep else self.reduced(prescribed)
-        ratio = (self.rows.average @ other) / self.response
-        return float(np.median(np.log(np.maximum(ratio, 1e-300)))) * (-1.0 if self.rows.creep else 1.0)
+        prescribed = np.interp(self.time, self.knots, self.values)
+        other = prescribed if self.creep else self.reduced(prescribed)
+        ratio = (self.average @ other) / self.response
+        return float(np.median(np.log(np.maximum(ratio, 1e-300)))) * (-1.0 if self.creep else 1.0)
 
     def ends(self, trial: Trial) -> tuple[float, float, float]:
         """Return the angular frequencies, rad/s, of steps over the measured times, and of oscillations."""
         low, high, fastest = super().ends(trial)
-        turns = _turns(self.rows.knots, self.rows.values)
+        turns = _turns(self.knots, self.values)
         if len(turns) < _OSCILLATES:
             return low, high, fastest
         shortest = np.pi / float(np.diff(turns).min())
@@ -71,7 +72,7 @@ class Moving(RowsContact):
     def answer(self, trial: Trial) -> Answer:
         """Return the response of a material, solved by springs."""
         time, edge = self._steps(trial)
-        value, change = self._response(trial, time, edge, self.indenter, self.rows.values, derivatives=True)
+        value, change = self._response(trial, time, edge, self.indenter, self.values, derivatives=True)
         log_value, slope = logarithm(value, self.response)
         change = change * slope[:, None]
         change[:, 0] *= trial.plane_strain * float(np.exp(trial.compliances[0]))
@@ -79,10 +80,8 @@ class Moving(RowsContact):
         for place, (indenter, values) in self._moved.items():
             moved, _ = self._response(trial, time, edge, indenter, values, derivatives=False)
             columns[:, place] = logarithm(moved, self.response)[0] - log_value
-        if self.rows.creep:
-            columns[:, 2] = (
-                -self.shared.zero * (self.rows.average @ self.reduced.slope(self.rows.depth)) / self.response
-            )
+        if self.creep:
+            columns[:, 2] = -self.shared.zero * (self.average @ self.reduced.slope(self.depth)) / self.response
         else:
             columns[:, 1] = -self.shared.gain
         return Answer(log_value, change[:, :-1], change[:, -1], columns)
@@ -94,13 +93,13 @@ class Moving(RowsContact):
         if self.shared.radius > 0.0:
             found[0] = (
                 wider(self.indenter, self.shared.radius),
-                self.rows.values,
+                self.values,
             )
-        if self.rows.creep and self.shared.gain > 0.0:
-            found[1] = self.indenter, (1.0 + self.shared.gain) * self.rows.values
-        if not self.rows.creep and self.shared.zero > 0.0:
+        if self.creep and self.shared.gain > 0.0:
+            found[1] = self.indenter, (1.0 + self.shared.gain) * self.values
+        if not self.creep and self.shared.zero > 0.0:
             # The first value is zero, before the contact.
-            found[2] = self.indenter, np.append(0.0, self.rows.values[1:] + self.shared.zero)
+            found[2] = self.indenter, np.append(0.0, self.values[1:] + self.shared.zero)
         return found
 
     def _response(
@@ -109,25 +108,23 @@ class Moving(RowsContact):
         """Return the averaged response (n,), and its derivatives as `follow` has them (n, 2 + m)."""
         springs = trial.springs(indenter, edge, _SPRINGS, _POWER)
         given = self._given(time, values)
-        control = "load" if self.rows.creep else "indentation"
+        control = "load" if self.creep else "indentation"
         found = follow(springs, time, given, control, derivatives=derivatives)
-        value, change = (found.depth, found.depth_change) if self.rows.creep else (found.load, found.load_change)
-        place = np.clip(np.searchsorted(time, self.rows.time, side="right") - 1, 0, len(time) - 2)
-        share = (self.rows.time - time[place]) / np.where(
-            time[place + 1] > time[place], time[place + 1] - time[place], 1.0
-        )
+        value, change = (found.depth, found.depth_change) if self.creep else (found.load, found.load_change)
+        place = np.clip(np.searchsorted(time, self.time, side="right") - 1, 0, len(time) - 2)
+        share = (self.time - time[place]) / np.where(time[place + 1] > time[place], time[place + 1] - time[place], 1.0)
         value = (1.0 - share) * value[place] + share * value[place + 1]
         change = (1.0 - share)[:, None] * change[place] + share[:, None] * change[place + 1]
-        if self.rows.creep:
+        if self.creep:
             change = self.reduced.slope(value)[:, None] * change
             value = self.reduced(value)
-        return self.rows.average @ value, self.rows.average @ change
+        return self.average @ value, self.average @ change
 
     def _given(self, time: Array, values: Array) -> Array:
         """Return what was prescribed at the ends of steps, which have jumps twice."""
-        given = np.interp(time, self.rows.knots, values)
-        for place in np.flatnonzero(np.diff(self.rows.knots) == 0.0):
-            twice = np.flatnonzero(time == self.rows.knots[place])
+        given = np.interp(time, self.knots, values)
+        for place in np.flatnonzero(np.diff(self.knots) == 0.0):
+            twice = np.flatnonzero(time == self.knots[place])
             given[twice] = values[place : place + 2]
         return given
 
@@ -138,17 +135,17 @@ class Moving(RowsContact):
         E0 = 1.0 / float(strengths.sum())
         ratio = float(np.sqrt(1.0 - trial.plane_strain))
         material = Material(RetardationSpectrum(E0, E_inf, strengths[1:], tau), None, ratio)
-        control = "load" if self.rows.creep else "indentation"
-        still = np.zeros((len(self.rows.knots), 2))
-        schedule = make_schedule(material, self.rows.knots, control, self.rows.values, still, None, None, "untouched")
+        control = "load" if self.creep else "indentation"
+        still = np.zeros((len(self.knots), 2))
+        schedule = make_schedule(material, self.knots, control, self.values, still, None, None, "untouched")
         problem = Problem(material, self.indenter, schedule, _ACCURACY, None, trial.plane_strain * trial.extra)
         track = march(NormalMotion.of(problem), schedule, accuracy=_ACCURACY, fields=False)
         steps = np.unique([moment.instant.time for moment in track.moments])
         widest = max(moment.seen.extents["contact_radius"] for moment in track.moments)
-        jumps = self.rows.knots[:-1][np.diff(self.rows.knots) == 0.0]
-        rows = self.rows.time if len(self.rows.time) <= _MOST_ROWS else self.rows.time[:0]
-        first = self.rows.knots[0] + (self.rows.time[0] - self.rows.knots[0]) * _EARLY
-        time = np.unique(np.concatenate([steps, 0.5 * (steps[1:] + steps[:-1]), first, rows, self.rows.knots]))
+        jumps = self.knots[:-1][np.diff(self.knots) == 0.0]
+        rows = self.time if len(self.time) <= _MOST_ROWS else self.time[:0]
+        first = self.knots[0] + (self.time[0] - self.knots[0]) * _EARLY
+        time = np.unique(np.concatenate([steps, 0.5 * (steps[1:] + steps[:-1]), first, rows, self.knots]))
         return np.sort(np.concatenate([time, jumps])), _MARGIN * widest
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.friction.identification.indentation.contact import Contact, Points
 from viscofric.motion.springs import elastic_radius, profile
 from viscofric.rheology.spectra.step_misfit import REACH
 
@@ -72,75 +73,31 @@ class Reduced:
         return self._radius
 
 
-@dataclass(frozen=True, eq=False)
-class Rows:
-    """Usable rows of a record."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Rows(Points):
+    """Usable rows of a record, averaged to its points."""
 
-    creep: bool
+    creep: bool  # whether the load was prescribed: the response is then X in m², else the load in N
     time: Array  # (r,), since the start, s
     depth: Array  # (r,), m, not below zero
-    along: Array  # (n,), mean time of the rows averaged, s
-    lags: tuple[float, float]  # shortest and longest time since a change of what was prescribed, s
-    response: Array  # (n,), X in m², or load in N
-    error: Array | None  # (n,), relative standard error; None where it is not known
-    count: Array  # (n,), rows averaged
     average: Array  # (n, r)
     knots: Array  # (k,), s
     values: Array  # (k,), what was prescribed, linear between the knots
     unclear: int  # rows of the contact left out, as the response is not clearly above its scatter
 
-    def __len__(self) -> int:
-        return len(self.along)
 
-
-@dataclass(frozen=True, eq=False)
-class RowsContact:
-    """What contacts of averaged rows have in common (`Contact`)."""
-
-    rows: Rows
-
-    def __len__(self) -> int:
-        return len(self.rows)
-
-    @property
-    def along(self) -> Array:
-        """Mean times of the rows averaged (n,), s."""
-        return self.rows.along
-
-    @property
-    def response(self) -> Array:
-        """X in m², or load in N (n,)."""
-        return self.rows.response
-
-    @property
-    def error(self) -> Array | None:
-        """Relative standard errors (n,)."""
-        return self.rows.error
-
-    @property
-    def count(self) -> Array:
-        """Rows averaged (n,)."""
-        return self.rows.count
-
-    @property
-    def lags(self) -> tuple[float, float]:
-        """Shortest and longest time since a change of what was prescribed, s."""
-        return self.rows.lags
-
-    @property
-    def parts(self) -> tuple[tuple[str, slice], ...]:
-        """The one measured quantity."""
-        return ((("X" if self.rows.creep else "load"), slice(0, len(self))),)
+class RowsContact(Rows, Contact):
+    """What contacts of averaged rows have in common."""
 
     def ends(self, trial: Trial) -> tuple[float, float, float]:
         """Return the angular frequencies, rad/s, of which steps over the measured times hold E'' and |E|."""
         short, long = self.lags
-        high = REACH["creep" if self.rows.creep else "relaxation"] / short
+        high = REACH["creep" if self.creep else "relaxation"] / short
         return 1.0 / long, max(high, 1.0 / long), 1.0 / short
 
 
-def usable_rows(record: IndentationRecord, reduced: Reduced, shrinks: int) -> Rows:
-    """Return the usable rows of a record, whose contact shrinks from a row on."""
+def usable_rows(record: IndentationRecord, reduced: Reduced, shrinks: int) -> Rows | None:
+    """Return the usable rows of a record, whose contact shrinks from a row on; None without any."""
     time = record.time - record.start
     creep = record.control == "load"
     load, depth = (np.maximum(column, 0.0) for column in (record.load, record.indentation))
@@ -166,8 +123,7 @@ def usable_rows(record: IndentationRecord, reduced: Reduced, shrinks: int) -> Ro
     clear &= ~late | ((load > ENDING * load.max()) & (response > ENDING * response.max()))
     unclear = int(np.count_nonzero(after & ~clear))
     if not (len(kinks) and np.any(clear)):
-        none, square = np.zeros(0), np.zeros((0, 0))
-        return Rows(creep, none, none, none, (np.inf, 0.0), none, None, none, square, knots, values, unclear)
+        return None
     time, response = time[clear], response[clear]
     last = np.searchsorted(kinks, time, side="left") - 1 if len(kinks) <= MOST_KINKS else np.zeros(len(time), int)
     since = time - kinks[last]
@@ -176,11 +132,21 @@ def usable_rows(record: IndentationRecord, reduced: Reduced, shrinks: int) -> Ro
     average = np.zeros((len(count), len(number)))
     average[number, np.arange(len(number))] = 1.0 / count[number]
     mean = average @ response
-    spread = None
-    if error is not None:
-        spread = np.sqrt((average**2) @ (error[clear] * response) ** 2) / mean
-    lags = float(since.min()), float(time.max() - kinks[0])
-    return Rows(creep, time, depth[clear], average @ time, lags, mean, spread, count, average, knots, values, unclear)
+    return Rows(
+        along=average @ time,
+        response=mean,
+        error=None if error is None else np.sqrt((average**2) @ (error[clear] * response) ** 2) / mean,
+        count=count,
+        lags=(float(since.min()), float(time.max() - kinks[0])),
+        parts=(("X" if creep else "load", slice(0, len(count))),),
+        creep=creep,
+        time=time,
+        depth=depth[clear],
+        average=average,
+        knots=knots,
+        values=values,
+        unclear=unclear,
+    )
 
 
 def _contact(prescribed: Array) -> int:

@@ -94,14 +94,13 @@ def usable_records(records: Sequence[Record], indenter: Indenter, shared: Shared
                 )
                 notes.append(Note("unclear-left-out", said, values={"record": number, "rows": unclear}))
         elif isinstance(record, ReboundRecord):
-            contacts.append(Impacts(record, indenter, shared))
+            contacts.append(Impacts.of(record, indenter, shared))
         elif isinstance(record, OscillationRecord):
             contacts.append(_of_stiffness(record, indenter, shared))
             deepest = max(deepest, record.indentation)
         else:
             frequency, modulus = (np.array([float(one)]) for one in (record.angular_frequency, record.modulus))
-            parts = ((f"{record.part}_modulus", slice(0, 1)),)
-            contacts.append(Known(frequency, modulus, np.array([record.error]), parts))
+            contacts.append(Known.of(frequency, {f"{record.part}_modulus": (modulus, record.error)}))
     if deepest > 0.0:
         widest = Reduced(indenter, deepest).radius
         strained = indenter.strain_warning(Extent(widest, widest, widest), deepest)
@@ -125,31 +124,30 @@ def _of_rows(
     reduced = Reduced(indenter, largest)
     end = len(record) if indenter.has_walls else shrinks(record)
     rows = usable_rows(record, reduced, end)
-    if len(rows) < LEAST_POINTS:
+    count = 0 if rows is None else len(rows)
+    if rows is None or count < LEAST_POINTS:
         raise InputError(
-            f"record {number}: in only {len(rows)} averaged rows the response is clearly above its scatter; at least "
+            f"record {number}: in only {count} averaged rows the response is clearly above its scatter; at least "
             f"{LEAST_POINTS} are needed.",
             code="no-clear-response",
             field="records",
         )
     if end < len(record):
-        return Moving(rows, indenter, reduced, shared), rows.unclear
+        return Moving(**vars(rows), indenter=indenter, reduced=reduced, shared=shared), rows.unclear
     return growing(rows, reduced, shared, by_radius), rows.unclear
 
 
 def _of_stiffness(record: OscillationRecord, indenter: Indenter, shared: Shared) -> Known:
     """Return the contact of an oscillation about a depth."""
-    size, depth = len(record), record.indentation
+    depth = record.indentation
     radius = elastic_radius(indenter, depth, None, 1.0)
     step = 1e-4
     by_depth = np.log(elastic_radius(indenter, depth * (1.0 + step), None, 1.0) / radius) / (step * depth)
     # At a given depth a body of revolution with n parts of X by its radius has a contact radius ∝ R^n.
     by_radius = _by_radius(indenter) if shared.radius > 0.0 else 0.0
-    parts = (("storage_stiffness", slice(0, size)), ("loss_stiffness", slice(size, 2 * size)))
-    response = np.concatenate([record.storage_stiffness, record.loss_stiffness])
-    error = np.repeat([record.error[name] for name, _ in parts], size)
-    along = np.tile(record.angular_frequency, 2)
-    return Known(along, response, error, parts, 2.0 * radius, by_radius, float(by_depth), shared)
+    values = {name: (getattr(record, name), record.error[name]) for name in ("storage_stiffness", "loss_stiffness")}
+    contact = {"diameter": 2.0 * radius, "by_radius": by_radius, "by_depth": float(by_depth), "shared": shared}
+    return Known.of(record.angular_frequency, values, **contact)
 
 
 def _by_radius(indenter: Indenter) -> float:
