@@ -16,7 +16,8 @@ from friction.synthetic_curves import synthetic_curves
 from friction.test_curve_files import FOREIGN
 from friction.test_tribometry import rows_of, runs_from
 from viscofric.errors import InputError
-from viscofric.friction.identification.conclusions import _anchor_notes, with_origin
+from viscofric.friction.identification.conclusions import _anchor_notes
+from viscofric.friction.identification.identified import with_origin
 from viscofric.friction.identification.points import usable_points
 from viscofric.friction.shifting.collapse import Collapse
 
@@ -283,7 +284,7 @@ def test_identification_says() -> None:
         "The anchor or prior differs from the fit by 5 of its standard errors: it contradicts the friction or itself.",
     )
     band = SimpleNamespace(low=1.0, high=10.0)
-    found = SimpleNamespace(material=RUBBER, identified=band, middle=3.0, known=())
+    found = SimpleNamespace(material=RUBBER, identified=band, middle=3.0, known=(), METHOD="friction", UNMEASURED="")
     (origin,) = with_origin(found, "curves.csv").spectrum.fit.notes
     assert origin == "The material was identified from friction (curves.csv); none of its moduli was measured."
     assert origin.code == "identified-from-friction"

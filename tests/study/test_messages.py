@@ -12,7 +12,7 @@ import viscofric as vf
 from study.wrong_run_files import NO_TOML, WRONG, Wrong
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.cases.surfaces import step_of
-from viscofric.friction.identification.conclusions import with_origin
+from viscofric.friction.identification.identified import with_origin
 from viscofric.study.run_file.study import parse_study
 
 
@@ -54,7 +54,12 @@ def test_origin_of_an_identified_rubber(source: str, behind: str) -> None:
     solid = vf.Material.standard_linear_solid("2 MPa", "6 MPa", "10 ms")
     band = SimpleNamespace(low=3.0, high=400.0)
     found: Any = SimpleNamespace(
-        material=vf.Material(solid.modes_at()), identified=band, middle=30.0, known=("Known.",)
+        material=vf.Material(solid.modes_at()),
+        identified=band,
+        middle=30.0,
+        METHOD="friction",
+        UNMEASURED="",
+        known=("Known.",),
     )
     spectrum = with_origin(found, source).spectrum
     assert isinstance(spectrum, vf.RetardationSpectrum)

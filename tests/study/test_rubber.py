@@ -11,7 +11,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import DataFileError, InputError, LiquidError
-from viscofric.friction.identification.conclusions import with_origin
+from viscofric.friction.identification.identified import with_origin
 from viscofric.notes import codes
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber_datasets import rubber_groups
@@ -168,6 +168,8 @@ def test_a_rubber_identified_from_friction_says_so_after_its_file(tmp_path: Path
     found: Any = SimpleNamespace(
         material=vf.Material(solid.modes_at(), name="mine"),
         identified=SimpleNamespace(low=3.0, high=400.0),
+        METHOD="friction",
+        UNMEASURED="",
         middle=30.0,
         known=("|E(ω)| is known to 5 % from 3 to 400 rad/s.",),
     )

@@ -11,26 +11,18 @@ from viscofric.friction.assumption_check import ContactSize
 from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curve_checks import implausible
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.identification.drawn_materials import (
-    MaterialOf,
-    Posterior,
-    band,
-    level_family,
-    limits,
-    prior_materials,
-)
-from viscofric.friction.identification.identified import IdentifiedBand
+from viscofric.friction.identification.drawn_materials import Findings, level_family, limits
+from viscofric.friction.identification.identified import IdentifiedBand, with_origin
 from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedMaterial, LevelFit
 from viscofric.notes import Note, Remedy, codes
-from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array
+    from viscofric.friction.identification.drawn_materials import Posterior
     from viscofric.friction.identification.problem import Problem
     from viscofric.friction.identification.solving import Contacts
     from viscofric.rheology.material import Material
@@ -57,32 +49,6 @@ CONTRADICTED = 4.0
 BEYOND = 3.0
 
 
-def with_origin(found: IdentifiedMaterial, source: str) -> Material:
-    """Return the identified material with its origin, for its file; `source` of the friction curves may be empty."""
-    spectrum, band = found.material.spectrum, found.identified
-    if not isinstance(spectrum, RetardationSpectrum):
-        raise TypeError("an identified material is one of retardation modes.")
-    # Known nowhere: everything but the middle is extrapolated.
-    ends = (band.low, band.high) if band.high > band.low else (found.middle, found.middle)
-    behind = f" ({source})" if source else ""
-    origin = Note(
-        "identified-from-friction",
-        f"The material was identified from friction{behind}; none of its moduli was measured.",
-        values={"source": source},
-    )
-    fit = SpectrumFit(
-        None,
-        None,
-        E0_extrapolated=True,
-        E_inf_extrapolated=True,
-        frequency_range=(float(ends[0]), float(ends[1])),
-        notes=(origin, *found.known),
-        method=FROM_FRICTION,
-        modes=len(spectrum),
-    )
-    return replace(found.material, spectrum=replace(spectrum, fit=fit))
-
-
 @dataclass(frozen=True, eq=False)
 class Outcome:
     """A converged identification."""
@@ -100,55 +66,45 @@ class Outcome:
 def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels: Sequence[float]) -> IdentifiedMaterial:
     """Return the result; see `identify_material` for the arguments."""
     fits, error_scale = _with_enlarged_errors(outcome.fits)
-    random = np.random.default_rng(seed)
-    posterior = Posterior.of(fits, samples, random)
-    best = posterior.best
-    problem, shifts = best.problem, best.problem.shifts
-    law = outcome.shift.at_reference(shifts.reference) if outcome.shift is not None and shifts.exact else None
-    material_of = MaterialOf(problem, law, outcome.contacts.poisson_ratio, outcome.name)
-    low, middle, high = _frequencies(best)
-    drawn = material_of.samples(posterior.drawn, (low, high))
-    expected = prior_materials(material_of, best, samples, random)
+    best = most_evident(fits)
+    low, high = _frequencies(best)
+    ratio, anchored = outcome.contacts.poisson_ratio, outcome.anchored
+    found = Findings.of(
+        fits, (low, high), shift=outcome.shift, poisson_ratio=ratio, name=outcome.name, samples=samples, seed=seed
+    )
+    middle, drawn, points = found.middle, found.drawn, best.problem.observations.points
     doubts = _doubts(outcome, error_scale, best, limit)
     bands = [
-        IdentifiedBand(middle, middle, limit, not outcome.anchored)
+        IdentifiedBand(middle, middle, limit, not anchored)
         if codes(doubts) & NOTHING_IDENTIFIED
-        else band(drawn, expected, part, middle, (low / BEYOND, high * BEYOND), limit, not outcome.anchored)
+        else found.band(part, (low / BEYOND, high * BEYOND), limit, relative=not anchored)
         for part in ("magnitude", "storage", "loss")
     ]
     family: tuple[LevelFit, ...] = ()
-    if not outcome.anchored:
-        family = level_family(best, outcome.contacts, material_of, middle, levels, outcome.iterations + 1)
-    of_anchors = _anchor_notes(best, drawn, middle, limit) if outcome.anchored else ()
-    material = material_of(best.minimum.place, posterior.covariance)
-    sheared = _coupling(outcome, material)
-    fitted, residuals = _fitted(outcome, posterior)
-    levels_drawn = np.abs([one.complex_modulus(middle) for one in drawn.materials])
-    points = problem.observations.points
-    found = IdentifiedMaterial(
-        material=material,
-        samples=drawn,
-        shift_factors=material.shift,
-        shift_found=shifts.found and material.shift is not None,
+    if not anchored:
+        family = level_family(best, outcome.contacts, found.material_of, middle, levels, outcome.iterations + 1)
+    of_anchors = _anchor_notes(best, drawn, middle, limit) if anchored else ()
+    common = found.common()
+    fitted, residuals = _fitted(outcome, found.posterior)
+    level_range = limits(np.abs([one.complex_modulus(middle) for one in drawn.materials]))
+    result = IdentifiedMaterial(
+        **common,
         identified=bands[0],
         identified_storage=bands[1],
         identified_loss=bands[2],
-        anchored=outcome.anchored,
-        middle=middle,
-        frequency_range=(low, high),
-        level_range=(float(limits(levels_drawn)[0]), float(limits(levels_drawn)[1])),
+        anchored=anchored,
+        level_range=(float(level_range[0]), float(level_range[1])),
         family=family,
         friction=fitted,
         residuals=residuals,
         chi2=float(residuals @ residuals),
-        freedom=freedom_of(best, len(best.problem.observations.points)),
+        freedom=freedom_of(best, len(points)),
         rms=float(np.sqrt(np.mean((residuals * points.error) ** 2))),
         error_scale=error_scale,
-        roughness=problem.smoothness.roughness,
         iterations=outcome.iterations,
-        notes=(*points.notes, *doubts, *sheared, *of_anchors),
+        notes=(*points.notes, *doubts, *_coupling(outcome, common["material"]), *of_anchors),
     )
-    return replace(found, material=with_origin(found, outcome.curves.source))
+    return replace(result, material=with_origin(result, outcome.curves.source))
 
 
 def _with_enlarged_errors(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], float]:
@@ -256,15 +212,15 @@ def _anchor_notes(best: Weighed[Problem], drawn: MaterialSamples, middle: float,
     return tuple(notes)
 
 
-def _frequencies(best: Weighed[Problem]) -> tuple[float, float, float]:
-    """Return the lowest, the middle and the highest of the contacts' frequencies v/a at the reference, rad/s."""
+def _frequencies(best: Weighed[Problem]) -> tuple[float, float]:
+    """Return the lowest and the highest of the contacts' frequencies v/a at the reference, rad/s."""
     problem = best.problem
     compliances, log_alpha = problem.split(best.minimum.place)
     points = problem.observations.points
     reduced = points.log_speed + log_alpha[points.number]
     ends = np.array([reduced.min(), reduced.max()])
     low, high = np.exp(ends - problem.friction.first(compliances, ends).log_radius)
-    return float(low), float(np.sqrt(low * high)), float(high)
+    return float(low), float(high)
 
 
 def _fitted(outcome: Outcome, posterior: Posterior[Problem]) -> tuple[FrictionCurves, Array]:

@@ -163,6 +163,63 @@ def _spread(samples: MaterialSamples, omega: Array, part: str, middle: float, re
     return np.asarray(rows.std(axis=0, ddof=1))
 
 
+@dataclass(frozen=True, eq=False)
+class Findings(Generic[AnyProblem]):
+    """What every identification concludes from its fits."""
+
+    posterior: Posterior[AnyProblem]
+    material_of: MaterialOf
+    drawn: MaterialSamples
+    expected: MaterialSamples  # drawn before anything was measured
+    frequency_range: tuple[float, float]  # lowest and highest angular frequency measured, rad/s
+
+    @classmethod
+    def of(
+        cls,
+        fits: Sequence[Weighed[AnyProblem]],
+        frequency_range: tuple[float, float],
+        *,
+        shift: ShiftLaw | None,
+        poisson_ratio: float,
+        name: str,
+        samples: int,
+        seed: int,
+    ) -> Findings[AnyProblem]:
+        """Draw materials after and before the measurement; `shift` is as given."""
+        random = np.random.default_rng(seed)
+        posterior = Posterior.of(fits, samples, random)
+        problem, shifts = posterior.best.problem, posterior.best.problem.shifts
+        law = shift.at_reference(shifts.reference) if shift is not None and shifts.exact else None
+        material_of = MaterialOf(problem, law, poisson_ratio, name)
+        drawn = material_of.samples(posterior.drawn, frequency_range)
+        expected = prior_materials(material_of, posterior.best, samples, random)
+        return cls(posterior, material_of, drawn, expected, frequency_range)
+
+    @property
+    def middle(self) -> float:
+        """Of the measured frequencies, rad/s."""
+        low, high = self.frequency_range
+        return float(np.sqrt(low * high))
+
+    def band(self, part: str, reach: tuple[float, float], limit: float, *, relative: bool) -> IdentifiedBand:
+        """Return the frequencies over which a modulus is identified; see `band`."""
+        return band(self.drawn, self.expected, part, self.middle, reach, limit, relative)
+
+    def common(self) -> dict[str, Any]:
+        """Return what the results of all identifications have in common, by its name in `Identified`."""
+        best = self.posterior.best
+        material = self.material_of(best.minimum.place, self.posterior.covariance)
+        return {
+            "material": material,
+            "samples": self.drawn,
+            "shift_factors": material.shift,
+            "shift_found": best.problem.shifts.found and material.shift is not None,
+            "middle": self.middle,
+            "frequency_range": self.frequency_range,
+            "roughness": best.problem.smoothness.roughness,
+        }
+
+
 #: Relative error of a fixed level.
 HELD = 1e-3
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from viscofric.arguments import flag
 from viscofric.datasets import dataset
+from viscofric.notes import Note
+from viscofric.rheology.shifts.shift_law import LN10
+from viscofric.rheology.spectra.quality import FROM_INDENTATION, SpectrumFit
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.showing import Plotted
 from viscofric.units import in_si, shown_celsius
 
@@ -32,22 +36,12 @@ _FREQUENCIES = 300
 
 @dataclass(frozen=True)
 class IdentifiedBand:
-    """Angular frequencies at the reference over which a modulus is determined.
+    """Angular frequencies at the reference over which a modulus is determined."""
 
-    Attributes
-    ----------
-    low, high : float
-        rad/s; equal where there is none.
-    limit : float
-        Largest relative standard error of the modulus between them.
-    relative : bool
-        Whether it is the modulus over that at the middle frequency, as its magnitude is not known.
-    """
-
-    low: float
-    high: float
-    limit: float
-    relative: bool
+    low: float  # rad/s
+    high: float  # equal to `low` where there is none
+    limit: float  # largest relative standard error of the modulus between them
+    relative: bool  # whether it is the modulus over that at the middle frequency, as its magnitude is not known
 
     @property
     def decades(self) -> float:
@@ -93,6 +87,10 @@ class Identified(Plotted):
     notes : tuple of str
         One sentence each.
     """
+
+    #: What it is identified from (`SpectrumFit.method`), and the end of the sentence on unmeasured moduli.
+    METHOD: ClassVar[str]
+    UNMEASURED: ClassVar[str] = ""
 
     material: Material
     samples: MaterialSamples
@@ -224,3 +222,29 @@ class Identified(Plotted):
 
     def __str__(self) -> str:
         return "\n".join((repr(self.material.at()), *self.sentences))
+
+
+def with_origin(found: Identified, source: str) -> Material:
+    """Return the identified material with its origin, for its file; `source` of the measurement may be empty."""
+    spectrum, band = found.material.spectrum, found.identified
+    assert isinstance(spectrum, RetardationSpectrum)
+    # Known nowhere: everything but the middle is extrapolated.
+    ends = (band.low, band.high) if band.high > band.low else (found.middle, found.middle)
+    behind = f" ({source})" if source else ""
+    origin = Note(
+        f"identified-from-{found.METHOD}",
+        f"The material was identified from {found.METHOD}{behind}; none of its moduli was measured{found.UNMEASURED}.",
+        values={"source": source},
+    )
+    fit = SpectrumFit(
+        None,
+        None,
+        E0_extrapolated=True,
+        E_inf_extrapolated=True,
+        frequency_range=(float(ends[0]), float(ends[1])),
+        notes=(origin, *found.known),
+        method=found.METHOD,
+        modes=len(spectrum),
+        rms_step=found.rms / LN10 if found.METHOD == FROM_INDENTATION else None,
+    )
+    return replace(found.material, spectrum=replace(spectrum, fit=fit))

@@ -11,7 +11,6 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.nominal import SAME_TEMPERATURE
-from viscofric.rheology.shifts.parametric_law import ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.units import shown_celsius
@@ -45,6 +44,14 @@ EXPECTED, EXPECTED_SPREAD = 0.15, 1.0
 #: Roughness near the ends of the contact's frequencies and beyond, where no data determine it: a spectrum may end, or
 #: rise to the glass transition, within a third of a decade.
 OUTSIDE = 1.5
+#: Decades to which retardation times extend beyond what was measured; modes beyond act as a spring or not at all.
+MARGIN = 1.9
+#: Fewest modes per decade with which E(ω) and J(t) do not ripple.
+LEAST_PER_DECADE = 2.5
+#: Friction averages over two decades of τ (K of the theory): modes within a decade of the first or the last of the
+#: measured times or frequencies affect it from one side only, and a spectrum may end there, or rise to the glass
+#: transition, so that no smoothness is assumed for them.  Of a narrow band this is a quarter on either side.
+ONE_SIDED, ONE_SIDED_SHARE = 1.0, 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +75,7 @@ class Shifts:
             return cls(temperatures, reference, np.zeros(1), np.eye(1) / EXACT, True)
         about = overlap.at_reference(reference)
         away = np.abs(temperatures - reference) >= _SAME
-        covariance = (OVERLAPPING * LN10) ** 2 * _covariance(about, temperatures) * np.outer(away, away)
+        covariance = (OVERLAPPING * LN10) ** 2 * about.covariance_at(temperatures) * np.outer(away, away)
         covariance += np.diag(np.where(away, OVERLAPPING_LEAST**2, 0.0))
         return cls(temperatures, reference, LN10 * np.asarray(about.log10(temperatures)), _whitening(covariance), True)
 
@@ -76,7 +83,7 @@ class Shifts:
     def known(cls, temperatures: Array, shift: ShiftLaw) -> Shifts:
         """Return the shifts of a law or table at temperatures (t,), with its covariance where it has one."""
         middle = LN10 * np.asarray(shift.log10(temperatures))
-        covariance = LN10**2 * _covariance(shift, temperatures)
+        covariance = LN10**2 * shift.covariance_at(temperatures)
         return cls(temperatures, float(shift.reference), middle, _whitening(covariance), False, not covariance.any())
 
     def widened(self, log_alpha_error: Array) -> Shifts:
@@ -107,18 +114,6 @@ def _whitening(covariance: Array) -> Array:
     return np.asarray(vectors.T / np.sqrt(np.maximum(values, 0.0) + EXACT**2)[:, None])
 
 
-def _covariance(shift: ShiftLaw, temperatures: Array) -> Array:
-    """Return the covariance of log10 α at temperatures (t,), zero where the law has none."""
-    if isinstance(shift, ShiftFactors):
-        inverse = 1.0 / shift.temperatures[::-1]
-        rows = np.array([np.interp(1.0 / temperatures, inverse, unit) for unit in np.eye(len(inverse))[::-1]]).T
-        return np.asarray(rows @ shift.covariance @ rows.T)
-    if isinstance(shift, ParametricLaw) and shift.covariance is not None:
-        gradient = shift.gradient(temperatures)
-        return np.asarray(gradient @ np.asarray(shift.covariance) @ gradient.T)
-    return np.zeros((len(temperatures), len(temperatures)))
-
-
 @dataclass(frozen=True, eq=False)
 class Smoothness:
     """Normal prior of x = (ln(1/E_inf), ln C_1 … ln C_m): a random walk of second order with a broad level and slope.
@@ -130,7 +125,16 @@ class Smoothness:
     compliance: float  # first guess of 1/|E|, 1/Pa
     # shortest and longest retardation time whose modes affect the friction from both sides, s
     inside: tuple[float, float]
-    roughness: float  # standard deviation of the change of d ln C/d ln τ over an e-fold of τ, inside
+    roughness: float = EXPECTED  # standard deviation of the change of d ln C/d ln τ over an e-fold of τ, inside
+
+    @classmethod
+    def about(cls, low: float, high: float, compliance: float, modes: int) -> Smoothness:
+        """Return the prior on a grid of `modes` retardation times or more, about measured times, ln s."""
+        shortest, longest = low - MARGIN * LN10, high + MARGIN * LN10
+        count = max(modes, int(np.ceil(LEAST_PER_DECADE * (longest - shortest) / LN10)) + 1)
+        one_sided = min(ONE_SIDED * LN10, ONE_SIDED_SHARE * (high - low))
+        inside = float(np.exp(low + one_sided)), float(np.exp(high - one_sided))
+        return cls(np.exp(np.linspace(shortest, longest, count)), compliance, inside)
 
     @cached_property
     def middle(self) -> Array:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from viscofric.datasets import dataset
 from viscofric.friction.identification.identified import Identified
 from viscofric.notes import codes
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.spectra.quality import FROM_FRICTION
 
 if TYPE_CHECKING:
     import xarray
@@ -22,29 +25,14 @@ NOTHING_IDENTIFIED = frozenset({"not-one-rubber", "too-steep", "constant-frictio
 
 @dataclass(frozen=True, eq=False)
 class LevelFit:
-    """The best-fitting material of a given magnitude of the modulus.
+    """The best-fitting material of a given magnitude of the modulus."""
 
-    Attributes
-    ----------
-    factor : float
-        |E| at the middle frequency over that of the identified material.
-    modulus : float
-        That |E|, Pa.
-    material : Material
-    chi2 : float
-        Sum of the squared residuals of the friction, in standard errors.
-    rms : float
-        Root mean square of the relative residuals.
-    penalty : float
-        Rise of chi2, including the prior of the spectrum, over the best level; 3.84 is the 95 % limit.
-    """
-
-    factor: float
-    modulus: float
+    factor: float  # |E| at the middle frequency over that of the identified material
+    modulus: float  # that |E|, Pa
     material: Material = field(repr=False)
-    chi2: float
-    rms: float
-    penalty: float
+    chi2: float  # sum of the squared residuals of the friction, in standard errors
+    rms: float  # root mean square of the relative residuals
+    penalty: float  # rise of chi2, including the prior of the spectrum, over the best level; 3.84 is the 95 % limit
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -70,6 +58,8 @@ class IdentifiedMaterial(Identified):
         Steps made, with contacts solved in each.
     """
 
+    METHOD: ClassVar[str] = FROM_FRICTION
+
     level_range: tuple[float, float]
     family: tuple[LevelFit, ...]
     friction: FrictionCurves
@@ -87,8 +77,6 @@ class IdentifiedMaterial(Identified):
 
     def shift_dataset(self) -> xarray.Dataset | None:
         """Return α(T) at the temperatures of the friction as a labelled data set; None for one temperature."""
-        from viscofric.datasets import dataset
-
         law = self.shift_factors
         if law is None:
             return None
@@ -143,8 +131,6 @@ class IdentifiedMaterial(Identified):
         )
 
     def _shift_words(self) -> tuple[str, ...]:
-        from viscofric.rheology.shifts.shift_factors import ShiftFactors
-
         if not self.shift_found or not isinstance(self.shift_factors, ShiftFactors):
             return ()
         largest = float(self.shift_factors.standard_errors.max())

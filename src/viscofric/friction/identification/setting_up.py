@@ -12,12 +12,12 @@ from viscofric.errors import InputError
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.forward import CorrectedFriction, FirstOrder
 from viscofric.friction.identification.moduli import ModulusObservation
-from viscofric.friction.identification.problem import EXPECTED, OVERLAPPING, Observations, Problem, Shifts, Smoothness
+from viscofric.friction.identification.problem import OVERLAPPING, Observations, Problem, Shifts, Smoothness
 from viscofric.friction.shifting.refusals import LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import codes
-from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -31,15 +31,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
 
-#: Decades to which retardation times extend beyond the contact's frequencies; modes beyond act as a spring or not at
-#: all.
-MARGIN = 1.9
-#: Fewest modes per decade with which E(ω) does not ripple.
-LEAST_PER_DECADE = 2.5
-#: Friction averages over two decades of τ (K of the theory): modes within a decade of the first or the last of the
-#: contact's frequencies affect it from one side only, and a spectrum may end there, so that no smoothness is assumed
-#: for them.  Of a narrow band this is a quarter on either side.
-ONE_SIDED, ONE_SIDED_SHARE = 1.0, 0.25
 #: A smaller slope d ln μ/d ln v counts as this where errors in common move a curve along it.
 LEAST_SLOPE = 0.05
 #: Slope of the indenter at the contact's edge for a first guess of the level, and the standard deviation of ln |E|
@@ -152,18 +143,14 @@ def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contac
     radius = Scale.for_load(contacts.indenter, 1.0 / (plane_strain * compliance), points.load).length
     log_frequency = points.log_speed + shifts.middle[points.number] - np.log(radius)
     inside = -float(log_frequency.max()), -float(log_frequency.min())
-    shortest, longest = inside[0] - MARGIN * LN10, inside[1] + MARGIN * LN10
-    count = max(modes, int(np.ceil(LEAST_PER_DECADE * (longest - shortest) / LN10)) + 1)
-    tau = np.exp(np.linspace(shortest, longest, count))
-    one_sided = min(ONE_SIDED * LN10, ONE_SIDED_SHARE * (inside[1] - inside[0]))
-    smooth = float(np.exp(inside[0] + one_sided)), float(np.exp(inside[1] - one_sided))
     if not moduli and not contacts.anchors:
         moduli = (_guess(-0.5 * sum(inside), shifts.reference, compliance),)
+    smoothness = Smoothness.about(*inside, compliance, modes)
     return Problem(
-        friction=CorrectedFriction(FirstOrder(contacts.indenter, points.load, plane_strain, tau)),
+        friction=CorrectedFriction(FirstOrder(contacts.indenter, points.load, plane_strain, smoothness.tau)),
         observations=Observations(points, moduli),
         shifts=shifts,
-        smoothness=Smoothness(tau, compliance, smooth, EXPECTED),
+        smoothness=smoothness,
     )
 
 

@@ -7,24 +7,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.identification.drawn_materials import MaterialOf, Posterior, band, limits, prior_materials
-from viscofric.friction.identification.identified import IdentifiedBand
+from viscofric.friction.identification.drawn_materials import Findings, limits
+from viscofric.friction.identification.identified import IdentifiedBand, with_origin
 from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
 from viscofric.friction.identification.indentation.setting_up import LEAST_POINTS
 from viscofric.friction.identification.indentation.tables import ReboundRecord
-from viscofric.friction.identification.iteration import freedom_of
+from viscofric.friction.identification.iteration import freedom_of, most_evident
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import ROUGHNESS
 from viscofric.notes import Note
-from viscofric.rheology.spectra.quality import FROM_INDENTATION, SpectrumFit
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
+    from viscofric.friction.identification.drawn_materials import Posterior
     from viscofric.friction.identification.indentation.problem import IndentationProblem
     from viscofric.friction.identification.indentation.setting_up import Usable
     from viscofric.friction.identification.iteration import Weighed
-    from viscofric.rheology.material import Material
     from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 
@@ -49,47 +47,36 @@ def conclude(
     seed: int,
 ) -> MaterialFromIndentation:
     """Return the result; see `identify_from_indentation` for the arguments."""
-    random = np.random.default_rng(seed)
-    posterior = Posterior.of(fits, samples, random)
-    best = posterior.best
-    problem, shifts = best.problem, best.problem.shifts
-    law = shift.at_reference(shifts.reference) if shift is not None and shifts.exact else None
-    material_of = MaterialOf(problem, law, poisson_ratio, name)
+    best = most_evident(fits)
+    problem = best.problem
     low, high, fastest = _ends(problem, best.minimum.place)
-    middle = float(np.sqrt(low * high))
-    drawn = material_of.samples(posterior.drawn, (low, high))
-    expected = prior_materials(material_of, best, samples, random)
+    findings = Findings.of(
+        fits, (low, high), shift=shift, poisson_ratio=poisson_ratio, name=name, samples=samples, seed=seed
+    )
+    middle, posterior = findings.middle, findings.posterior
     highest = {"magnitude": fastest, "storage": fastest, "loss": max(high, middle)}
-    bands = [
-        band(drawn, expected, part, middle, (low / BEYOND, end), limit, relative=False) for part, end in highest.items()
-    ]
-    material = material_of(best.minimum.place, posterior.covariance)
+    bands = [findings.band(part, (low / BEYOND, end), limit, relative=False) for part, end in highest.items()]
     residuals = -problem.measured(best.minimum.place)[0]
     fitted = _fitted(usable, posterior)
     narrow = _narrow(problem)
     if narrow:
         bands[2] = IdentifiedBand(middle, middle, limit, relative=False)
     found = MaterialFromIndentation(
-        material=material,
-        samples=drawn,
-        shift_factors=material.shift,
-        shift_found=shifts.found and material.shift is not None,
+        **findings.common(),
         identified=bands[0],
         identified_storage=bands[1],
         identified_loss=bands[2],
         anchored=True,
-        middle=middle,
-        frequency_range=(low, high),
         records=fitted,
         chi2=float(residuals @ residuals),
         freedom=freedom_of(best, len(problem.errors)),
         rms=float(np.sqrt(np.mean((residuals * problem.errors) ** 2))),
         error_scale=error_scale,
-        roughness=problem.smoothness.roughness,
         common_errors=_common_errors(usable, posterior),
         notes=(*usable.notes, *_doubts(fitted, error_scale), *_shared(best, residuals, error_scale), *narrow),
     )
-    return replace(found, material=_with_origin(found))
+    sources = dict.fromkeys(source for one in fitted if (source := getattr(one.record, "source", "")))
+    return replace(found, material=with_origin(found, ", ".join(sources)))
 
 
 def _ends(problem: IndentationProblem, place: Array) -> tuple[float, float, float]:
@@ -185,24 +172,3 @@ def _narrow(problem: IndentationProblem) -> list[Note]:
         "modes to the response instead."
     )
     return [Note("narrow-spectrum", said, values={"roughness": problem.smoothness.roughness})]
-
-
-def _with_origin(found: MaterialFromIndentation) -> Material:
-    """Return the material with its origin, for its file."""
-    spectrum, ends = found.material.spectrum, found.identified
-    if not isinstance(spectrum, RetardationSpectrum):
-        raise TypeError("an identified material is one of retardation modes.")
-    reach = (ends.low, ends.high) if ends.high > ends.low else (found.middle, found.middle)
-    behind = ", ".join(dict.fromkeys(source for one in found.records if (source := getattr(one.record, "source", ""))))
-    origin = Note(
-        "identified-from-indentation",
-        f"The material was identified from indentation{f' ({behind})' if behind else ''}; none of its moduli was "
-        "measured in a homogeneous test.",
-        values={"source": behind},
-    )
-    fit = SpectrumFit(
-        None, None, E0_extrapolated=True, E_inf_extrapolated=True, frequency_range=(float(reach[0]), float(reach[1])),
-        notes=(origin, *found.known), method=FROM_INDENTATION, modes=len(spectrum),
-        rms_step=found.rms / float(np.log(10.0)),
-    )  # fmt: skip
-    return replace(found.material, spectrum=replace(spectrum, fit=fit))

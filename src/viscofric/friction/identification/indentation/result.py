@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.friction.identification.identified import Identified
+from viscofric.rheology.spectra.quality import FROM_INDENTATION
 from viscofric.showing import Plotted
 
 if TYPE_CHECKING:
@@ -148,6 +149,9 @@ class MaterialFromIndentation(Identified):
         error, of the ``radius`` and the ``load``, relative, and of the depth's zero of every record, ``zero 1`` …, m;
         the true value is the measured one plus the error.
     """
+
+    METHOD: ClassVar[str] = FROM_INDENTATION
+    UNMEASURED: ClassVar[str] = " in a homogeneous test"
 
     records: tuple[FittedRecord, ...]
     common_errors: Mapping[str, tuple[float, float]]

@@ -22,12 +22,11 @@ from viscofric.friction.identification.indentation.rows import Reduced, shrinks,
 from viscofric.friction.identification.indentation.tables import OscillationRecord, ReboundRecord
 from viscofric.friction.identification.iteration import identify, most_evident
 from viscofric.friction.identification.posterior import descend
-from viscofric.friction.identification.problem import EXPECTED, Shifts, Smoothness
+from viscofric.friction.identification.problem import Shifts, Smoothness
 from viscofric.friction.identification.solving import spectrum_of
 from viscofric.motion.springs import elastic_radius
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.notes import Note
-from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.rheology.superposition.superpose import superpose
 from viscofric.step_tests import StepTest, StepTests
 from viscofric.units import shown_celsius
@@ -47,13 +46,6 @@ Record: TypeAlias = IndentationRecord | ReboundRecord | OscillationRecord | Modu
 FIRST_ERROR = 0.01
 #: Fewest averaged rows of a record.
 LEAST_POINTS = 5
-#: Decades to which retardation times extend beyond the measured times.
-MARGIN = 1.9
-#: Fewest modes per decade for a J(t) without ripple.
-LEAST_PER_DECADE = 2.5
-#: Modes within a decade of the first or the last time affect the response from one side only, and a spectrum may end,
-#: or rise to the glass transition, there.  Smoothness is not assumed for them; in a narrow range, for this part of it.
-ONE_SIDED, ONE_SIDED_SHARE = 1.0, 0.25
 #: Times per decade at which J(t) of one temperature is superposed.
 SUPERPOSED = 10
 
@@ -166,12 +158,7 @@ def problem_of(
     alpha = shifts.middle[list(usable.number)]
     low = min(np.log(one.lags[0]) - by for one, by in zip(usable.contacts, alpha, strict=True))
     high = max(np.log(one.lags[1]) - by for one, by in zip(usable.contacts, alpha, strict=True))
-    shortest, longest = low - MARGIN * LN10, high + MARGIN * LN10
-    count = max(modes, int(np.ceil(LEAST_PER_DECADE * (longest - shortest) / LN10)) + 1)
-    one_sided = min(ONE_SIDED * LN10, ONE_SIDED_SHARE * (high - low))
-    inside = float(np.exp(low + one_sided)), float(np.exp(high - one_sided))
-    tau = np.exp(np.linspace(shortest, longest, count))
-    smoothness = Smoothness(tau, _first_guess(usable.contacts, plane_strain), inside, EXPECTED)
+    smoothness = Smoothness.about(low, high, _first_guess(usable.contacts, plane_strain), modes)
     errors = np.concatenate(
         [FIRST_ERROR / np.sqrt(one.count) if one.error is None else one.error for one in usable.contacts]
     )
