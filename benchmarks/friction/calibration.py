@@ -26,11 +26,12 @@ from viscofric.friction.identification.drawn_materials import Posterior
 from viscofric.friction.identification.iteration import identify, most_evident, weighed
 from viscofric.friction.identification.moduli import anchored
 from viscofric.friction.identification.points import usable_points
-from viscofric.friction.identification.problem import Observations, Problem
+from viscofric.friction.identification.problem import Problem
 from viscofric.friction.identification.setting_up import problem_of, shifts_of
 from viscofric.friction.identification.solving import Contacts, spectrum_of
 
 if TYPE_CHECKING:
+    from viscofric.friction.identification.points import Points
     from viscofric.friction.identification.problem import Shifts
 
 ACCURACY = 3e-3
@@ -48,31 +49,30 @@ class Frozen:
         )
         modulus = float(abs(self.rubber.complex_modulus(FREQUENCY, KELVIN[0])))
         self.moduli = tuple(anchored([vf.friction.ModulusAnchor(modulus, FREQUENCY, KELVIN[0], error=1e-3)]))
-        observed, shifts = self.observed(None)
-        contacts = Contacts(BALL, 0.5, observed.points.load, ACCURACY, 1)
-        problem = problem_of(observed.points, shifts, self.moduli, contacts, MODES)
+        points, shifts = self.observed(None)
+        contacts = Contacts(BALL, 0.5, points.load, ACCURACY, 1)
+        problem = problem_of(points, shifts, self.moduli, contacts, MODES)
         fits, _ = identify(problem, contacts, np.concatenate([problem.smoothness.middle, shifts.middle]))
         best = most_evident(fits)
         self.problem, self.place = best.problem, best.minimum.place
 
-    def observed(self, seed: int | None) -> tuple[Observations, Shifts]:
+    def observed(self, seed: int | None) -> tuple[Points, Shifts]:
         """Return a measurement, and what its curves' overlap tells of the shifts."""
         curves = measured(self.exact, seed)
         points = usable_points(curves, BALL, None, 0.25 * ACCURACY)
-        points, shifts = shifts_of(points, curves, None, float(KELVIN[0]), [float(KELVIN[0])])
-        return Observations(points, self.moduli), shifts
+        return shifts_of(points, curves, None, float(KELVIN[0]), [float(KELVIN[0])])
 
     def errors(self, seed: int) -> dict[str, np.ndarray]:
         """Return by how many standard errors ln α, and ln |E|, ln E' and ln E'' over the frequencies, are off."""
-        observed, shifts = self.observed(seed)
-        problem: Problem = replace(self.problem, observations=observed, shifts=shifts)
+        points, shifts = self.observed(seed)
+        problem: Problem = replace(self.problem, points=points, shifts=shifts)
         fits = weighed(problem, self.place)
         place, posterior = most_evident(fits).minimum.place, Posterior.of(fits, 1, np.random.default_rng(0))
         compliances, log_alpha = problem.split(place)
         variance = np.diag(posterior.covariance)[problem.modes :]
         kelvin = shifts.temperatures
         away = log_alpha - np.log(10.0) * self.rubber.shift.log10(kelvin)
-        reduced = observed.points.log_speed + log_alpha[observed.points.number]
+        reduced = points.log_speed + log_alpha[points.number]
         ends = np.array([reduced.min(), reduced.max()])
         omega = np.geomspace(*np.exp(ends - problem.friction.first(compliances, ends).log_radius), 13)
         found = self.moduli_of(compliances, omega)

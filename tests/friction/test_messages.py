@@ -271,9 +271,7 @@ def test_the_half_space_says(thickness: str, sentence: str) -> None:
 
 
 def test_identification_says() -> None:
-    measured = SimpleNamespace(
-        observations=SimpleNamespace(points=()), measured=lambda place: (np.array([5.03, -1.0]), None)
-    )
+    measured = SimpleNamespace(points=(), measured=lambda place: (np.array([5.03, -1.0]), None))
     best = SimpleNamespace(problem=measured, minimum=SimpleNamespace(place=None))
     level = [vf.Material.standard_linear_solid(E0=one, E_inf=10.0 * one, tau=1e-3) for one in (1e6, 2e6)]
     assert _anchor_notes(best, SimpleNamespace(materials=level), 30.0, 0.3) == (

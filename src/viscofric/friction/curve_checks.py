@@ -7,14 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.errors import wrong_argument
 from viscofric.friction.intervals import threshold
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
-from viscofric.units import shown_celsius
+from viscofric.units import number, shown_celsius
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
+    from viscofric.units import Quantity
 
 
 #: Fewer second differences do not give a scatter.
@@ -37,6 +39,15 @@ PARABOLA, FEWEST_ABOUT = 3, 6
 #: Probability of differences by chance from which on friction may be constant.
 CHANCE = 0.01
 _FEWEST_POINTS = 3
+
+
+def shared_error(value: Quantity, name: str) -> float:
+    """Return a relative standard error that points share; InputError if it is below zero, or not below 1."""
+    found = number(value, name)
+    if not 0.0 <= found < 1.0:
+        words = "must be zero or above, and below 1 (all of the friction)."
+        raise wrong_argument(name, value, words, "level-error")
+    return found
 
 
 def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:

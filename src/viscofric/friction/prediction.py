@@ -20,7 +20,7 @@ from viscofric.friction.coupling import shear_notes
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
 from viscofric.friction.interface.prediction import check_interface, with_interface
-from viscofric.friction.planning.shared import shared_records
+from viscofric.friction.planning.shared import SharedContacts, places_of
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.friction.solved_columns import beyond_range, columns_of_records
 from viscofric.heat.heating import Heating
@@ -239,9 +239,13 @@ def _isothermal(
     exact: bool,
 ) -> FrictionCurves:
     """Return the friction of contacts, interpolated between fewer where that is enough, with the material's band."""
-    records = None
+    shared, records = None, None
     if not exact:
-        records = shared_records(material, contacts, sensitive=drawn is not None, workers=workers, report=report)
+        shared = SharedContacts.of(material, contacts, workers, report, sensitive=drawn is not None)
+    if shared is not None:
+        records = shared(places_of(contacts))
+        if drawn is not None and any(record.sensitivity is None for record in records):
+            records = None
     kelvins = np.array([one["temperature"] for one in contacts])
     if records is None and drawn is None:
         solved = call_all(solve_steady, contacts, workers=workers, progress=report)

@@ -435,7 +435,7 @@ def test_bad_input_is_refused_in_one_sentence() -> None:
         vf.identify_material(closed_form_curves(REFERENCE), reference="100 degC", **SETTINGS)
     with refused("wrong-count", naming="prior_band"):
         vf.identify_material(curves, prior=RUBBER, prior_band=("1 Hz",), **SETTINGS)
-    with refused("not-positive", naming="-1.0"):
+    with refused("out-of-range", naming="-1.0"):
         vf.friction.ModulusAnchor(3e6, 1.0, 300.0, error=-1.0)
     with refused("sharp-edge"):
         vf.identify_material(curves, indenter=vf.FlatPunch(radius="1 mm"))

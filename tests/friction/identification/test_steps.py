@@ -42,7 +42,7 @@ class Bent:
             self.squares.append(np.inf)
             raise ConvergenceError("not solved.", code="test-not-solved")
         compliances, _ = problem.split(unknowns)
-        nodes = problem.observations.points.log_speed.min() + np.linspace(-6.0, 6.0, 13)
+        nodes = problem.points.log_speed.min() + np.linspace(-6.0, 6.0, 13)
         shares = np.exp(compliances)
         away = STEEP * np.log(shares.sum() * RUBBER.modes_at().E0)
         first = problem.friction.first(compliances, nodes)

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 import numpy as np
 
 from viscofric.contact.steady import solve_steady
-from viscofric.errors import InputError, check_choice, wrong_argument
+from viscofric.errors import InputError, check_choice
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.rheology.material import Material
 from viscofric.showing import Shown
-from viscofric.units import Quantity, positive
+from viscofric.units import Quantity, positive, share
 from viscofric.units import angular_frequency as frequency_of
 
 if TYPE_CHECKING:
@@ -29,14 +29,6 @@ Size: TypeAlias = Literal["indentation", "contact_area", "half_width"]
 _UNITS: dict[str, str] = {"indentation": "m", "contact_area": "m²", "half_width": "m"}
 #: Change of the load for the slope of a size: its error is the square of it, that of the solutions over it.
 _LOAD_STEP = 0.05
-
-
-def _relative(error: float) -> float:
-    value = positive(error, "dimensionless", "error of the anchor")
-    if value >= 1.0:
-        words = "must be a relative standard error below 1, such as 0.02."
-        raise wrong_argument("error of the anchor", value, words, "out-of-range")
-    return value
 
 
 @dataclass(frozen=True)
@@ -80,7 +72,7 @@ class ModulusAnchor(Shown):
         frequency = frequency_of(self.angular_frequency, "angular_frequency")
         object.__setattr__(self, "angular_frequency", frequency)
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature"))
-        object.__setattr__(self, "error", _relative(self.error))
+        object.__setattr__(self, "error", share(self.error, "error of the anchor", example=0.02))
         check_choice(self.part, "part", *get_args(Part))
 
     def _shown(self) -> Rows:
@@ -142,7 +134,7 @@ class ContactAnchor(Shown):
         for name, unit in (("speed", "m/s"), ("temperature", "K"), *((name, _UNITS[name]) for name in given)):
             object.__setattr__(self, name, positive(getattr(self, name), unit, name))
         object.__setattr__(self, "load", _force(self.load))
-        object.__setattr__(self, "error", _relative(self.error))
+        object.__setattr__(self, "error", share(self.error, "error of the anchor", example=0.02))
 
     def _shown(self) -> Rows:
         return (

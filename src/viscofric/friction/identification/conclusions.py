@@ -72,7 +72,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     found = Findings.of(
         fits, (low, high), shift=outcome.shift, poisson_ratio=ratio, name=outcome.name, samples=samples, seed=seed
     )
-    middle, drawn, points = found.middle, found.drawn, best.problem.observations.points
+    middle, drawn, points = found.middle, found.drawn, best.problem.points
     doubts = _doubts(outcome, error_scale, best, limit)
     bands = [
         IdentifiedBand(middle, middle, limit, not anchored)
@@ -110,20 +110,19 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
 def _with_enlarged_errors(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], float]:
     """Enlarge the errors of the points where their residuals exceed them, and fit again."""
     best = most_evident(fits)
-    points = best.problem.observations.points
+    points = best.problem.points
     away = _residuals(best)
-    freedom = max(freedom_of(best, len(best.problem.observations.points)), 1.0)
+    freedom = max(freedom_of(best, len(points)), 1.0)
     ratio = float(away @ away) / freedom
     if ratio <= 1.0 + DOUBTFUL * np.sqrt(2.0 / freedom):
         return fits, 1.0
     scale = float(np.sqrt(ratio))
-    larger = replace(best.problem.observations, points=replace(points, error=scale * points.error))
-    return weighed(replace(best.problem, observations=larger), best.minimum.place), scale
+    return weighed(best.problem.with_errors(scale * points.error), best.minimum.place), scale
 
 
 def _coupling(outcome: Outcome, material: Material) -> tuple[str, ...]:
     """Return a note where measured Coulomb friction changes the friction of the contacts by too much."""
-    points, indenter = outcome.start.observations.points, outcome.contacts.indenter
+    points, indenter = outcome.start.points, outcome.contacts.indenter
     measured = points.at_one_load(outcome.curves)
     measured = replace(measured, load=points.forces, load_unit=indenter.geometry.load_unit)
     sizes = ContactSize.all_of(material, indenter, measured)
@@ -133,7 +132,7 @@ def _coupling(outcome: Outcome, material: Material) -> tuple[str, ...]:
 
 def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit: float) -> tuple[str, ...]:
     """Return notes on doubts about the residuals and the friction."""
-    points = outcome.start.observations.points
+    points = outcome.start.points
     notes: list[str] = list(implausible(points.at_one_load(outcome.curves)))
     if error_scale == 1.0 and not notes and "errors-from-scatter" not in codes(points.notes):
         example = "as that of an assumed Coulomb friction"
@@ -143,7 +142,7 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit:
     scaled = f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction"
     away = _residuals(best)
     follow = _follow_each_other(best, away)
-    missed = float(np.sqrt(np.mean((away * best.problem.observations.points.error) ** 2)))
+    missed = float(np.sqrt(np.mean((away * best.problem.points.error) ** 2)))
     if missed > limit and error_scale > (MODEL_FAILS if follow else MODEL_FAILS_ANYHOW):
         notes.append(
             Note(
@@ -174,12 +173,12 @@ def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit:
 
 def _residuals(best: Weighed[Problem]) -> Array:
     """Return modelled minus measured ln μ of every point, over its error."""
-    return best.problem.measured(best.minimum.place)[0][: len(best.problem.observations.points)]
+    return best.problem.measured(best.minimum.place)[0][: len(best.problem.points)]
 
 
 def _follow_each_other(best: Weighed[Problem], residuals: Array) -> bool:
     """Whether successive residuals are correlated, in the order of reduced speed, or temperature by temperature."""
-    points, (_, log_alpha) = best.problem.observations.points, best.problem.split(best.minimum.place)
+    points, (_, log_alpha) = best.problem.points, best.problem.split(best.minimum.place)
     reduced = points.log_speed + log_alpha[points.number]
     orders = (np.argsort(reduced, kind="stable"), np.lexsort((points.log_speed, points.number)))
     return max(correlation(residuals[order]) for order in orders) > FOLLOWING
@@ -198,7 +197,7 @@ def _anchor_notes(best: Weighed[Problem], drawn: MaterialSamples, middle: float,
                 values={"frequency": middle, "standard_error": spread},
             )
         )
-    points = len(best.problem.observations.points)
+    points = len(best.problem.points)
     away = float(np.max(np.abs(best.problem.measured(best.minimum.place)[0][points:]), initial=0.0))
     if away > CONTRADICTED:
         notes.append(
@@ -216,7 +215,7 @@ def _frequencies(best: Weighed[Problem]) -> tuple[float, float]:
     """Return the lowest and the highest of the contacts' frequencies v/a at the reference, rad/s."""
     problem = best.problem
     compliances, log_alpha = problem.split(best.minimum.place)
-    points = problem.observations.points
+    points = problem.points
     reduced = points.log_speed + log_alpha[points.number]
     ends = np.array([reduced.min(), reduced.max()])
     low, high = np.exp(ends - problem.friction.first(compliances, ends).log_radius)
@@ -226,7 +225,7 @@ def _frequencies(best: Weighed[Problem]) -> tuple[float, float]:
 def _fitted(outcome: Outcome, posterior: Posterior[Problem]) -> tuple[FrictionCurves, Array]:
     """Return the friction of the identified material at the points, and the residuals over the standard errors."""
     problem, place = posterior.best.problem, posterior.best.minimum.place
-    points = problem.observations.points
+    points = problem.points
     value, _ = problem.modelled(place)
     drawn = np.array([problem.modelled(row)[0] - problem.common_errors(row) for row in posterior.drawn])
     lower, upper = np.exp(limits(drawn) + points.raised)

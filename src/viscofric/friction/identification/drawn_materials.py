@@ -254,9 +254,9 @@ def level_family(
             except (ConvergenceError, InputError):
                 break
             last = factor
-            points = problem.observations.points
+            points = problem.points
             away = problem.modelled(place)[0] - points.log_friction
-            everything, _ = replace(problem, observations=best.problem.observations)(place)
+            everything, _ = replace(problem, moduli=best.problem.moduli)(place)
             found[factor] = LevelFit(
                 factor=float(factor),
                 modulus=float(np.exp(log_modulus) * factor),
@@ -274,7 +274,4 @@ def _held(best: Weighed[Problem], middle: float, log_modulus: float) -> Problem:
     level = ModulusObservation(
         np.array([np.log(middle)]), problem.shifts.reference, "magnitude", np.array([log_modulus])
     )
-    observations = replace(
-        problem.observations, moduli=(*problem.observations.moduli, ((level,), np.array([[1.0 / HELD]])))
-    )
-    return replace(problem, observations=observations)
+    return replace(problem, moduli=(*problem.moduli, ((level,), np.array([[1.0 / HELD]]))))

@@ -4,20 +4,27 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from viscofric.arguments import insist_on_function, text, whole_number
+from viscofric.arguments import insist_on_function, text
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
-from viscofric.errors import InputError, brief, wrong_argument
+from viscofric.errors import InputError, brief
+from viscofric.friction.curve_checks import shared_error
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.conclusions import Outcome, conclude
 from viscofric.friction.identification.iteration import identify
 from viscofric.friction.identification.moduli import Known, anchored, known_part
 from viscofric.friction.identification.points import SharedErrors, usable_points
-from viscofric.friction.identification.setting_up import alone_or_many, problem_of, shifts_of, with_shared_errors
+from viscofric.friction.identification.setting_up import (
+    alone_or_many,
+    check_counts,
+    problem_of,
+    shifts_of,
+    with_shared_errors,
+)
 from viscofric.friction.identification.solving import Contacts
 from viscofric.processes import Workers
 from viscofric.threads import one_blas_thread
-from viscofric.units import checked_poisson_ratio, positive, to_si
+from viscofric.units import checked_poisson_ratio, positive, share
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -28,7 +35,6 @@ if TYPE_CHECKING:
 
 #: Usual error of solved contacts, as a part of the requested accuracy.
 SOLVED_ERROR = 0.25
-FEWEST_SAMPLES, FEWEST_MODES = 20, 8
 LEVELS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
 
 
@@ -170,15 +176,20 @@ def identify_material(
     >>> found.anchored
     True
     """
-    _check(curves, indenter)
+    insist_on_curves(curves, "curves")
+    insist_on_indenter(indenter)
+    insist_on_round_edges(indenter)
     poisson_ratio = checked_poisson_ratio(poisson_ratio)
-    _check_numbers(modes=modes, samples=samples, seed=seed)
-    limit, prior_error, accuracy = _checked_parts(limit=limit, prior_error=prior_error, accuracy=accuracy)
-    errors = _checked_errors(
-        level_error=level_error,
-        common_error=common_error,
-        drift_error=drift_error,
-        coulomb_level_error=coulomb_level_error,
+    check_counts(modes, samples, seed)
+    limit, prior_error, accuracy = (
+        share(value, label, example=0.01)
+        for label, value in (("limit", limit), ("prior_error", prior_error), ("accuracy", accuracy))
+    )
+    errors = SharedErrors(
+        level=shared_error(level_error, "level_error"),
+        common=shared_error(common_error, "common_error"),
+        drift=shared_error(drift_error, "drift_error"),
+        coulomb_level=shared_error(coulomb_level_error, "coulomb_level_error"),
     )
     levels = _checked_levels(levels)
     text(name, "name")
@@ -201,34 +212,6 @@ def identify_material(
         fits, iterations = identify(problem, contacts, problem.start)
         outcome = Outcome(curves, problem, fits, iterations, contacts, shift, name, bool(moduli or sizes))
         return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=levels)
-
-
-def _check(curves: FrictionCurves, indenter: Indenter) -> None:
-    insist_on_curves(curves, "curves")
-    insist_on_indenter(indenter)
-    insist_on_round_edges(indenter)
-
-
-def _check_numbers(**numbers: int) -> None:
-    for name, fewest in (("modes", FEWEST_MODES), ("samples", FEWEST_SAMPLES), ("seed", 0)):
-        whole_number(numbers[name], name, fewest, None if name == "seed" else 10**6)
-
-
-def _checked_parts(**parts: Quantity) -> list[float]:
-    found = {name: positive(value, "dimensionless", name) for name, value in parts.items()}
-    for name, value in found.items():
-        if value >= 1.0:
-            raise InputError(f"{name} = {value:g}: must be a relative error above 0 and below 1.", code="out-of-range")
-    return list(found.values())
-
-
-def _checked_errors(**parts: Quantity) -> SharedErrors:
-    found = {name: to_si(value, "dimensionless", name) for name, value in parts.items()}
-    for name, value in found.items():
-        if not 0.0 <= value < 1.0:
-            words = "must be zero or above, and below 1 (all of the friction)."
-            raise wrong_argument(name, parts[name], words, "level-error")
-    return SharedErrors(**{name.removesuffix("_error"): value for name, value in found.items()})
 
 
 def _checked_levels(levels: Sequence[float]) -> tuple[float, ...]:

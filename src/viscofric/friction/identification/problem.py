@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.friction.identification.anchors import SolvedContact
     from viscofric.friction.identification.forward import CorrectedFriction
-    from viscofric.friction.identification.moduli import ModulusObservation
+    from viscofric.friction.identification.moduli import Block, ModulusObservation
     from viscofric.friction.identification.points import Points
     from viscofric.rheology.shifts.laws import ShiftLaw
 
@@ -169,15 +169,6 @@ class Smoothness:
 
 
 @dataclass(frozen=True, eq=False)
-class Observations:
-    """Measured friction and moduli."""
-
-    points: Points
-    # observations with correlated errors, and the matrix (n, n) that whitens these
-    moduli: tuple[tuple[tuple[ModulusObservation, ...], Array], ...] = ()
-
-
-@dataclass(frozen=True, eq=False)
 class SpectrumProblem(ABC):
     """Residuals of standard deviation one in the unknowns: compliances (1 + m,), then ln α (t,), then other ones.
 
@@ -255,32 +246,32 @@ class Problem(SpectrumProblem):
     """Identification from friction."""
 
     friction: CorrectedFriction
-    observations: Observations
+    points: Points
+    moduli: tuple[Block, ...] = ()
     contacts: tuple[SolvedContact, ...] = ()  # contacts whose size was measured
 
     @property
     def others(self) -> int:
         """Number of errors that the points have in common."""
-        return int(self.observations.points.shared.shape[1])
+        return int(self.points.shared.shape[1])
 
     @property
     def point_errors(self) -> Array:
         """Standard errors of ln μ (n,)."""
-        return self.observations.points.error
+        return self.points.error
 
     def common_errors(self, unknowns: Array) -> Array:
         """Return the errors of ln μ that points have in common (n,)."""
-        return np.asarray(self.observations.points.shared @ unknowns[len(unknowns) - self.others :])
+        return np.asarray(self.points.shared @ unknowns[len(unknowns) - self.others :])
 
     def with_errors(self, errors: Array) -> Self:
         """Return the problem with other standard errors of ln μ (n,)."""
-        points = replace(self.observations.points, error=errors)
-        return replace(self, observations=replace(self.observations, points=points))
+        return replace(self, points=replace(self.points, error=errors))
 
     def modelled(self, unknowns: Array) -> tuple[Array, Array]:
         """Return the modelled ln μ of every point (n,), with the errors in common, and its derivatives (n, p)."""
         compliances, log_alpha = self.split(unknowns)
-        points = self.observations.points
+        points = self.points
         value, change, slope = self.friction(compliances, points.log_speed + log_alpha[points.number], points.log_load)
         moved = np.zeros((len(points), len(log_alpha)))
         moved[np.arange(len(points)), points.number] = slope
@@ -289,11 +280,11 @@ class Problem(SpectrumProblem):
     def measured(self, unknowns: Array) -> tuple[Array, Array]:
         """Return the residuals of the measurements (r,), friction first, and their derivatives (r, p)."""
         compliances, log_alpha = self.split(unknowns)
-        points = self.observations.points
+        points = self.points
         value, change = self.modelled(unknowns)
         values = [(value - points.log_friction) / points.error]
         changes = [change / points.error[:, None]]
-        for together, whitening in self.observations.moduli:
+        for together, whitening in self.moduli:
             found = [self._modulus(one, compliances, log_alpha) for one in together]
             values.append(whitening @ np.concatenate([away for away, _ in found]))
             changes.append(whitening @ np.concatenate([moved for _, moved in found]))

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arguments import whole_number
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import InputError
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
 from viscofric.friction.identification.forward import CorrectedFriction, FirstOrder
 from viscofric.friction.identification.moduli import ModulusObservation
-from viscofric.friction.identification.problem import OVERLAPPING, Observations, Problem, Shifts, Smoothness
+from viscofric.friction.identification.problem import OVERLAPPING, Problem, Shifts, Smoothness
 from viscofric.friction.shifting.refusals import LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
@@ -31,12 +32,21 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
 
+#: Limits of what is asked for.
+FEWEST_SAMPLES, FEWEST_MODES, MOST = 20, 8, 10**6
 #: A smaller slope d ln μ/d ln v counts as this where errors in common move a curve along it.
 LEAST_SLOPE = 0.05
 #: Slope of the indenter at the contact's edge for a first guess of the level, and the standard deviation of ln |E|
 #: about it where nothing is known: for a ball, slopes from 0.06 to 0.4 are within two standard deviations.
 GUESSED_SLOPE = 0.15
 GUESSED_SPREAD = 1.5
+
+
+def check_counts(modes: int, samples: int, seed: int) -> None:
+    """Raise `InputError` for numbers of modes and of samples, or a seed, that cannot be used."""
+    whole_number(modes, "modes", FEWEST_MODES, MOST)
+    whole_number(samples, "samples", FEWEST_SAMPLES, MOST)
+    whole_number(seed, "seed", 0)
 
 
 def alone_or_many(anchor: Anchor | Sequence[Anchor] | None) -> tuple[Anchor, ...]:
@@ -148,7 +158,8 @@ def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contac
     smoothness = Smoothness.about(*inside, compliance, modes)
     return Problem(
         friction=CorrectedFriction(FirstOrder(contacts.indenter, points.load, plane_strain, smoothness.tau)),
-        observations=Observations(points, moduli),
+        points=points,
+        moduli=moduli,
         shifts=shifts,
         smoothness=smoothness,
     )

@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING, Unpack
 
 import numpy as np
 
-from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.contact.steady import friction_and_derivatives
-from viscofric.errors import ConvergenceError, InputError
+from viscofric.errors import ConvergenceError
 from viscofric.friction.identification.anchors import SolvedContact
 from viscofric.friction.identification.forward import CorrectedFriction, Solved
 from viscofric.processes import Workers, call_all
 from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.units import Quantities, positive, shown_number, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,24 +32,17 @@ if TYPE_CHECKING:
 NODES_PER_DECADE = 4
 BEYOND = 0.15
 FEWEST_NODES = 5
-LN10 = float(np.log(10.0))
 
 
 @dataclass(frozen=True, eq=False)
 class FrictionResponse:
-    """Friction coefficients of one material in n contacts, and their derivatives with respect to its m modes.
+    """Friction coefficients of one material in n contacts, and their derivatives with respect to its m modes."""
 
-    Shapes are (n,) and (n, m).  `C` is ∂μ/∂C_k in Pa at fixed E_inf, so that E0 falls as C_k grows, finite where C_k is
-    zero; `log_C` is C_k ∂μ/∂C_k likewise, and `log_E_inf` is E_inf ∂μ/∂E_inf at fixed C.
-    """
-
-    speed: Array  # (n,), m/s
-    load: Array  # (n,), N; of a line contact, N/m
     friction: Array  # (n,), viscoelastic friction coefficient
     error: Array  # (n,), its error estimate
-    C: Array
-    log_C: Array  # noqa: N815 - the symbols of the equations
-    log_E_inf: Array  # noqa: N815
+    C: Array  # (n, m), ∂μ/∂C_k at fixed E_inf, so that E0 falls as C_k grows, Pa; finite where C_k is zero
+    log_C: Array  # noqa: N815 - (n, m), C_k ∂μ/∂C_k likewise; the symbols of the equations
+    log_E_inf: Array  # noqa: N815 - (n,), E_inf ∂μ/∂E_inf at fixed C
     log_speed: Array  # (n,), v ∂μ/∂v
     log_load: Array  # (n,), F ∂μ/∂F
 
@@ -59,25 +51,19 @@ def friction_response(
     spectrum: RetardationSpectrum,
     poisson_ratio: float,
     indenter: Indenter,
-    speeds: Quantities,
-    load: Quantities,
+    speeds: Array,
+    load: Array | float,
     *,
     accuracy: float = 1e-3,
     workers: int | Workers = 1,
     progress: Callable[[int, int], object] | None = None,
     **settings: Unpack[ContactOptions],
 ) -> FrictionResponse:
-    """Solve a contact at each of the speeds, with the derivatives of friction by every mode, E_inf, speed and load.
+    """Solve a contact at each speed (n,), m/s, with the derivatives of friction by every mode, E_inf, speed and load.
 
-    The spectrum of m modes is at the temperature to which the speeds are reduced.  `speeds` (n,), above zero, are those
-    at which the rubber is deformed, m/s if plain numbers; `load`, the same at all speeds or (n,), is in N, or N/m of a
-    line contact.  `accuracy` is the relative error of each friction coefficient, see `solve_steady`, whose other
-    settings, such as `layer`, are the same for all contacts.  The result does not depend on `workers`.  `progress(done,
-    total)` is called after every contact.  Raises InputError if a value cannot be used, and ConvergenceError if a
-    contact or its derivatives cannot be solved; the message names its speed and load.
+    The spectrum is that at the temperature to which the speeds are reduced; the load, N or N/m, is one or (n,).
+    `progress(done, total)` is called after every contact.  ConvergenceError names the speed and load that failed.
     """
-    insist_on_indenter(indenter)
-    velocities, forces = contacts(indenter, speeds, load)
     material = Material(spectrum, poisson_ratio=poisson_ratio)
     calls = [
         {
@@ -88,7 +74,7 @@ def friction_response(
             "accuracy": accuracy,
             "settings": settings,
         }
-        for velocity, force in zip(velocities, forces, strict=True)
+        for velocity, force in np.broadcast(speeds, load)
     ]
 
     def report(done: int) -> None:
@@ -98,8 +84,6 @@ def friction_response(
     rows = np.array(call_all(respond, calls, workers=workers, progress=report))
     C = rows[:, 5:]
     return FrictionResponse(
-        speed=velocities,
-        load=forces,
         friction=rows[:, 0],
         error=rows[:, 1],
         C=C,
@@ -125,27 +109,6 @@ def respond(
     return np.array([friction, error, logarithmic.E_inf, logarithmic.speed, logarithmic.load, *found.C])
 
 
-def contacts(indenter: Indenter, speeds: Quantities, load: Quantities) -> tuple[Array, Array]:
-    """Return the speed and the load of every contact."""
-    velocities = to_si_array(speeds, "m/s", "speeds")
-    forces = to_si_array(load, indenter.geometry.load_unit, "load")
-    if not velocities.size:
-        raise InputError("speeds must hold at least one value.", code="empty-list")
-    if not np.all(velocities > 0.0):
-        raise InputError(
-            f"speeds must be above zero everywhere, but one is {shown_number(float(velocities.min()), 'g')} m/s.",
-            code="not-positive",
-        )
-    if forces.size not in (1, velocities.size):
-        raise InputError(
-            f"load holds {forces.size} values: must hold one, or one for each of {velocities.size} speeds.",
-            code="empty-list",
-        )
-    for force in forces:
-        positive(float(force), indenter.geometry.load_unit, "load")
-    return velocities, np.broadcast_to(forces, velocities.shape).copy()
-
-
 @dataclass(frozen=True, eq=False)
 class Contacts:
     """Settings for solving contacts."""
@@ -167,7 +130,7 @@ class Contacts:
         """Return the problem with contacts solved for the material of the unknowns; ConvergenceError if one is not."""
         compliances, log_alpha = problem.split(unknowns)
         spectrum = spectrum_of(compliances, problem.smoothness.tau)
-        points = problem.observations.points
+        points = problem.points
         reduced = points.log_speed + log_alpha[points.number]
         low, high = reduced.min() - BEYOND * LN10, reduced.max() + BEYOND * LN10
         count = max(FEWEST_NODES, int(np.ceil(NODES_PER_DECADE * (high - low) / LN10)) + 1)

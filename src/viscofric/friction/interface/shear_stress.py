@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.errors import InputError, SuperpositionError
+from viscofric.friction.curve_checks import shared_error
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.pairing import partner
 from viscofric.friction.shifting.collapse import Collapse, collapse
@@ -22,7 +23,7 @@ from viscofric.rheology.interface.friction import OF_LIMIT
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
 from viscofric.showing import Plotted
-from viscofric.units import Quantity, positive, to_si
+from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -286,7 +287,7 @@ def shear_stress(
         raise InputError(
             f"shift must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}.", code="not-a-shift"
         )
-    level, area = _shared(level_error, "level_error"), _shared(area_error, "area_error")
+    level, area = shared_error(level_error, "level_error"), shared_error(area_error, "area_error")
     kelvin = None if reference is None else positive(reference, "K", "reference")
     solved = contacts if isinstance(contacts, FrictionCurves) else FrictionCurves.from_solutions(contacts)
     if solved.mean_pressure is None or solved.mean_pressure_error is None:
@@ -318,13 +319,6 @@ def shear_stress(
         notes=notes,
     )
     return _with_overlap(found if shift is not None else _shifted(found, kelvin))
-
-
-def _shared(given: float, name: str) -> float:
-    value = to_si(given, "dimensionless", name)
-    if not 0.0 <= value < 1.0:
-        raise InputError(f"{name} = {given!r}: must be zero or above, and below 1.", code="level-error")
-    return value
 
 
 def _usable(curves: FrictionCurves, coulomb: Array, coulomb_error: Array) -> tuple[Mask, tuple[Note, ...]]:

@@ -28,31 +28,6 @@ _OF_CONTACT = {"material", "indenter", "speed", "load", "temperature", "accuracy
 _OF_CURVES = {"layer", "indenter_modulus", "indenter_poisson_ratio"}
 
 
-def shared_records(
-    material: Material,
-    contacts: Sequence[dict[str, Any]],
-    *,
-    sensitive: bool,
-    workers: int | Workers,
-    report: Callable[[int], None],
-) -> list[Record] | None:
-    """Return the records of contacts, arguments of `solve_steady` each; None where each is better solved by itself.
-
-    That is so for few contacts, a table of moduli, and settings that belong to one grid or direction.
-
-    Raises
-    ------
-    InputError, ConvergenceError
-        Of the first contact that cannot be solved, and cannot be interpolated either.
-    """
-    shared = SharedContacts.of(material, contacts, workers, report, sensitive=sensitive)
-    if shared is None:
-        return None
-    found = shared(places_of(contacts))
-    complete = not sensitive or all(record.sensitivity is not None for record in found)
-    return found if complete else None
-
-
 def places_of(contacts: Sequence[dict[str, Any]]) -> list[tuple[float, float]]:
     """Return the speeds and temperatures of contacts."""
     return [(contact["speed"], contact["temperature"]) for contact in contacts]
@@ -62,7 +37,8 @@ def places_of(contacts: Sequence[dict[str, Any]]) -> list[tuple[float, float]]:
 class SharedContacts:
     """Contacts that differ in speed and temperature only, interpolated between those on their curve.
 
-    What has been solved is kept for further contacts.
+    What has been solved is kept for further contacts.  A call raises InputError or ConvergenceError of the first
+    contact that cannot be solved, and cannot be interpolated either.
     """
 
     material: Material
@@ -84,7 +60,11 @@ class SharedContacts:
         *,
         sensitive: bool = False,
     ) -> SharedContacts | None:
-        """Return the shared contacts of which these are some; None as of `shared_records`."""
+        """Return the shared contacts of which these, arguments of `solve_steady` each, are some.
+
+        None where each is better solved by itself: for few contacts, a table of moduli, and settings that belong to one
+        grid or direction.
+        """
         first = contacts[0]
         accuracy = first["accuracy"]
         given = {name: value for name, value in first.items() if name not in _OF_CONTACT}
@@ -104,7 +84,7 @@ class SharedContacts:
         return found if found._plan(found._cases(places_of(contacts))).shares else None
 
     def __call__(self, places: Sequence[tuple[float, float]]) -> list[Record]:
-        """Return the records of contacts at speeds, m/s, and temperatures, K; raises as `shared_records`."""
+        """Return the records of contacts at speeds, m/s, and temperatures, K."""
         cases = self._cases(places)
         # Contacts asked for before make the curve worth its nodes, which are known.
         plan = self._plan([*cases, *self._asked])

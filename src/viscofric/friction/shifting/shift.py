@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.errors import InputError, wrong_argument
-from viscofric.friction.curve_checks import error_freedom, implausible
+from viscofric.errors import InputError
+from viscofric.friction.curve_checks import error_freedom, implausible, shared_error
 from viscofric.friction.curves import insist_on_curves
 from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.friction.shifting.collapse import collapse
@@ -18,7 +18,7 @@ from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
-from viscofric.units import Quantity, positive, to_si
+from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -120,10 +120,7 @@ def shift_friction(
             code="load-unit",
         )
     at_load = float(np.median(curves.load)) if load is None else positive(load, unit, "load")
-    shared = to_si(level_error, "dimensionless", "level_error")
-    if not 0.0 <= shared < 1.0:
-        words = "must be zero or above, and below 1 (all of the friction)."
-        raise wrong_argument("level_error", level_error, words, "level-error")
+    shared = shared_error(level_error, "level_error")
     kelvin = None if reference is None else positive(reference, "K", "reference")
     notes: tuple[str, ...] = ()
     found = shift is None

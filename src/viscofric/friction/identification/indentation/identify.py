@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 
-from viscofric.arguments import insist_on, text, whole_number
+from viscofric.arguments import insist_on, text
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError, wrong_argument
@@ -16,10 +16,11 @@ from viscofric.friction.identification.indentation.problem import BySprings
 from viscofric.friction.identification.indentation.setting_up import Record, problem_of, shifts_of, usable_records
 from viscofric.friction.identification.iteration import freedom_of, identify, most_evident, weighed
 from viscofric.friction.identification.posterior import descend
+from viscofric.friction.identification.setting_up import check_counts
 from viscofric.motion.springs import is_body_of_revolution
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.threads import one_blas_thread
-from viscofric.units import checked_poisson_ratio, positive, to_si
+from viscofric.units import checked_poisson_ratio, positive, share, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from viscofric.friction.identification.iteration import Weighed
     from viscofric.units import Quantity
 
-FEWEST_SAMPLES, FEWEST_MODES = 20, 8
 #: Errors are estimated again from the residuals while they change by more than this, up to this many times.
 SETTLED, PASSES = 0.05, 4
 #: Smallest relative error of a response, from discretisation in time.
@@ -153,14 +153,8 @@ def identify_from_indentation(
         _deviation(zero_error, "m", "zero_error"),
     )
     ratio = checked_poisson_ratio(poisson_ratio)
-    for label, value, fewest in (
-        ("modes", modes, FEWEST_MODES),
-        ("samples", samples, FEWEST_SAMPLES),
-        ("seed", seed, 0),
-    ):
-        whole_number(value, label, fewest, None if label == "seed" else 10**6)
-    if (limit := positive(limit, "dimensionless", "limit")) >= 1.0:
-        raise InputError(f"limit = {limit:g}: must be a relative error above 0 and below 1.", code="out-of-range")
+    check_counts(modes, samples, seed)
+    limit = share(limit, "limit", example=0.05)
     text(name, "name")
     kelvin = None if reference is None else positive(reference, "K", "reference")
     plane_strain = 1.0 - ratio**2

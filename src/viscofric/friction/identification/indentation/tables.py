@@ -14,7 +14,7 @@ from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.showing import Plotted
 from viscofric.units import angular_frequency as frequency_of
-from viscofric.units import positive, to_si, to_si_array
+from viscofric.units import positive, share, to_si, to_si_array
 
 if TYPE_CHECKING:
     import xarray
@@ -324,12 +324,4 @@ def _errors(error: float | Mapping[str, float], quantities: tuple[str, ...]) -> 
             code="wrong-names",
             field="error",
         )
-    found = {name: positive(each[name], "dimensionless", "error") for name in quantities}
-    for one in found.values():
-        if one >= 1.0:
-            raise InputError(
-                f"error = {one:g}: must be a relative standard error below 1, such as 0.01.",
-                code="out-of-range",
-                field="error",
-            )
-    return found
+    return {name: share(each[name], "error", example=0.01) for name in quantities}
