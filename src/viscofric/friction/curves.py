@@ -33,23 +33,6 @@ if TYPE_CHECKING:
 
 
 _REQUIRED = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter")
-_OPTIONAL = (
-    "coulomb",
-    "coulomb_error",
-    "coulomb_scatter",
-    "consistency",
-    "consistency_error",
-    "slip",
-    "offset",
-    "material_error",
-    "viscoelastic_lower",
-    "viscoelastic_upper",
-    "viscoelastic_freedom",
-    "coulomb_freedom",
-    "mean_pressure",
-    "mean_pressure_error",
-)
-
 _COORDINATES = ("speed", "temperature", "load", "slip")
 
 
@@ -156,9 +139,9 @@ class FrictionCurves(Plotted):
     def __post_init__(self) -> None:
         check_choice(self.load_unit, "load_unit", "N", "N/m")
         shape = (read_only(self.speed, "speed of friction curves").size,)
-        for name in (*_REQUIRED, *_OPTIONAL):
+        units = {name: unit.replace("1", "dimensionless") for name, (unit, _) in LABELS.items() if name != "replicates"}
+        for name, unit in {**units, "load": self.load_unit}.items():
             if name in _REQUIRED or getattr(self, name) is not None:
-                unit = self.load_unit if name == "load" else LABELS[name][0].replace("1", "dimensionless")
                 object.__setattr__(self, name, _column(getattr(self, name), name, shape, unit))
         replicates = whole_numbers(self.replicates, "replicates of friction curves")
         if replicates.shape != shape:

@@ -22,7 +22,8 @@ alone matters, and decreases with the thickness as slowly as the loss of waves a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array
-    from viscofric.friction.assumption_check import ContactSize, Place
+    from viscofric.friction.assumption_check import ContactSize
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -82,20 +83,33 @@ class ContactOnLayers:
     load: float  # N, above zero; of a line contact N/m
     line: bool = False
     friction: float | None = None  # on the half-space; Hertz's estimate if None, and between half and twice that
-    _half_space: float = field(init=False)
-    _sunk: float = field(init=False)
-    _slope: float = field(init=False)
 
-    def __post_init__(self) -> None:
-        seen = self._waves(self.radius, _SHORTEST_OF_CONTACT)
-        measure = _STEP * seen.q
-        hertz = self._friction(seen, measure)
+    @cached_property
+    def _half_space(self) -> float:
+        """Friction on the half-space: the known one, within likely limits of Hertz's estimate."""
+        hertz = self._friction(self._seen, _STEP * self._seen.q)
         friction = hertz if self.friction is None or not np.isfinite(self.friction) else self.friction
-        known = float(np.clip(friction, hertz / _LIKELY, hertz * _LIKELY))
-        # A paraboloid's indentation is 3/2 of its displacement averaged with a punch's pressure (Hertz).
-        sunk = np.nan if self.line else 1.5 * self._level(seen, measure)
-        for name, value in (("_half_space", known), ("_sunk", sunk), ("_slope", self._friction_slope(seen, measure))):
-            object.__setattr__(self, name, value)
+        return float(np.clip(friction, hertz / _LIKELY, hertz * _LIKELY))
+
+    @cached_property
+    def _sunk(self) -> float:
+        """Indentation: 3/2 of a paraboloid's displacement averaged with a punch's pressure (Hertz)."""
+        return 1.5 * self._level(self._seen, _STEP * self._seen.q)
+
+    @cached_property
+    def _slope(self) -> float:
+        """Return d ln μ/d ln v: by the loss at a given radius, and by the radius, ln a = p ln S̄(v/a)."""
+        seen, dimension = self._seen, 1 if self.line else 2
+        stored = _STEP * seen.q * seen.pressure**2
+        lost = stored * seen.q ** (dimension - 1)
+        steep = float(lost @ seen.steeper) / max(float(lost @ seen.loss), np.finfo(float).tiny)
+        stiffer = float(stored @ seen.softer) / float(stored @ seen.storage) / (1.0 + dimension)
+        return steep - (dimension + steep) * stiffer / (1.0 + stiffer)
+
+    @cached_property
+    def _seen(self) -> _Waves:
+        """The waves of the half-space's pressure."""
+        return self._waves(self.radius, _SHORTEST_OF_CONTACT)
 
     def on(self, layer: Layer) -> ThicknessEffect:
         """Return the effect of a layer; one thinner than the contact's radius counts as that thick."""
@@ -139,15 +153,6 @@ class ContactOnLayers:
         """The load's 2(1−ν²)/(2π) on a surface, its 4(1−ν²)/(2π) in plane strain, where q < 0 counts too."""
         return self.load * (1.0 - self.poisson_ratio**2) * (2.0 if self.line else 1.0) / np.pi
 
-    def _friction_slope(self, seen: _Waves, measure: Array) -> float:
-        """Return d ln μ/d ln v: by the loss at a given radius, and by the radius, ln a = p ln S̄(v/a)."""
-        dimension = 1 if self.line else 2
-        stored = measure * seen.pressure**2
-        lost = stored * seen.q ** (dimension - 1)
-        steep = float(lost @ seen.steeper) / max(float(lost @ seen.loss), np.finfo(float).tiny)
-        stiffer = float(stored @ seen.softer) / float(stored @ seen.storage) / (1.0 + dimension)
-        return steep - (dimension + steep) * stiffer / (1.0 + stiffer)
-
     def _waves(self, length: float, shortest: float) -> _Waves:
         memory = self.speed * float(self.spectrum.tau.max(initial=0.0)) / length
         longest = min(_LONG, _LONGER - np.log(max(memory, 1.0))) if self.line else _LONG
@@ -188,31 +193,6 @@ THICK = 4.0
 _SMALLEST = 1e-3
 
 
-@dataclass(frozen=True)
-class _OnLayers:
-    """A contact of friction curves on layers, and its conditions."""
-
-    contact: ContactOnLayers
-    where: Place
-
-    @classmethod
-    def of(
-        cls, spectrum: RetardationSpectrum, poisson_ratio: float, curves: FrictionCurves, row: int, size: ContactSize
-    ) -> _OnLayers:
-        contact = ContactOnLayers(
-            spectrum,
-            poisson_ratio,
-            # far away a long ellipse acts as a circle no larger than this
-            min(size.smallest, size.relaxed),
-            size.curvature,
-            float(curves.speed[row]),
-            float(curves.load[row]),
-            curves.load_unit == "N/m",
-            abs(float(curves.viscoelastic[row])),
-        )
-        return cls(contact, size.where)
-
-
 def check_half_space(
     material: Material,
     curves: FrictionCurves,
@@ -229,15 +209,31 @@ def check_half_space(
     widest = max(sizes, key=lambda size: size.largest * size.smallest)
     given = None if thickness is None else positive(thickness, "m", "thickness")
     layer = Layer(THICK * widest.smallest if given is None else given)
-    modes_at, ratio = modes_by_temperature(material), material.poisson_ratio
-    contacts = (
-        _OnLayers.of(modes_at(kelvin), ratio, curves, row, sizes[row])
-        for row, kelvin in enumerate(curves.temperature.tolist())
-    )
-    worst, effect = max(((one, one.contact.on(layer)) for one in contacts), key=lambda pair: abs(pair[1].friction))
-    enough = worst.contact.thickness_for(passes)
+    modes_at = modes_by_temperature(material)
+    contacts = [
+        ContactOnLayers(
+            modes_at(kelvin),
+            material.poisson_ratio,
+            # far away a long ellipse acts as a circle no larger than this
+            min(size.smallest, size.relaxed),
+            size.curvature,
+            speed,
+            load,
+            curves.load_unit == "N/m",
+            abs(friction),
+        )
+        for kelvin, speed, load, friction, size in zip(
+            *(column.tolist() for column in (curves.temperature, curves.speed, curves.load, curves.viscoelastic)),
+            sizes,
+            strict=True,
+        )
+    ]
+    effects = [one.on(layer) for one in contacts]
+    place = max(range(len(effects)), key=lambda row: abs(effects[row].friction))
+    worst, effect, where = contacts[place], effects[place], sizes[place].where
+    enough = worst.thickness_for(passes)
     limit = min(1.0 / THICK, widest.largest / enough)
-    there = "" if str(worst.where) == str(widest.where) else f" ({worst.where})"
+    there = "" if str(where) == str(widest.where) else f" ({where})"
     radii, percent = f"{THICK:.0f} contact radii ({1e3 * THICK * widest.largest:.2g} mm)", f"{100.0 * passes:.0f} %"
     # lengths in m, changes from the half-space to a bonded layer as parts of the values there
     values: dict[str, float | None] = {
@@ -256,9 +252,9 @@ def check_half_space(
         )
         return AssumptionCheck.of("half-space", None, said, None, limit)
     holds = verdict(widest.smallest / given, widest.largest / given, 1.0 / THICK)
-    if given >= THINNEST * worst.contact.radius:
+    if given >= THINNEST * worst.radius:
         values["friction"] = effect.friction
-        values["indentation"] = None if worst.contact.line else effect.indentation
+        values["indentation"] = None if worst.line else effect.indentation
     compared = {True: f", although at least {radii},", None: "", False: f", less than {radii},"}[holds]
     rubber, felt = f"{_mm(given)} of rubber", f"{_effect(effect, given, worst)}{there}"
     if abs(effect.friction) <= passes and holds is not False:
@@ -290,12 +286,12 @@ def check_half_space(
     return AssumptionCheck.of("half-space", holds, said, widest.largest / given, limit)
 
 
-def _effect(effect: ThicknessEffect, thickness: float, worst: _OnLayers) -> str:
+def _effect(effect: ThicknessEffect, thickness: float, worst: ContactOnLayers) -> str:
     """Return the change on a bonded layer in words."""
-    if thickness < THINNEST * worst.contact.radius:
+    if thickness < THINNEST * worst.radius:
         return "it is thinner than the contact radius, and such a layer behaves quite differently from a half-space"
     friction = f"friction on a bonded layer of {_mm(thickness)} is {_change(effect.friction, 'lower', 'higher')}"
-    if worst.contact.line:
+    if worst.line:
         return f"{friction} than on the half-space; the indentation of a line contact cannot be compared with it"
     return f"{friction} than on the half-space, the indentation {_change(effect.indentation, 'smaller', 'larger')}"
 
