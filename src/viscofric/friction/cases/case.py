@@ -29,44 +29,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Settings:
-    """Settings of all contacts of a plan.
+    """Settings of all contacts of a plan."""
 
-    Attributes
-    ----------
-    accuracy : float
-        Of the friction coefficient, relative.
-    sensitive : bool
-        Whether to find the derivatives of friction by the material's compliance.
-    fields : frozenset of int
-        Numbers of the cases whose fields are kept.
-    """
-
-    accuracy: float
-    sensitive: bool
-    fields: frozenset[int]
+    accuracy: float  # of the friction coefficient, relative
+    sensitive: bool  # whether to find the derivatives of friction by the material's compliance
+    fields: frozenset[int]  # numbers of the cases whose fields are kept
 
 
 class Case(ABC):
-    """One contact, SI: frozen and hashable.
-
-    Attributes
-    ----------
-    material : int
-        Index in `Study.materials`.
-    sample : int or None
-        Bootstrap sample of the material, from 1; None: the best estimate.
-    temperature, speed : float
-        K, m/s.
-    layer : Layer or None
-        None: a half-space.
-    """
+    """One contact, SI: frozen and hashable."""
 
     __slots__ = ()
-    material: int
-    sample: int | None
-    temperature: float
-    speed: float
-    layer: Layer | None
+    material: int  # index in `Study.materials`
+    sample: int | None  # bootstrap sample of the material, from 1; None: the best estimate
+    temperature: float  # K
+    speed: float  # m/s
+    layer: Layer | None  # None: a half-space
 
     #: Begins a sentence about its frequencies.
     FREQUENCIES: ClassVar[str]
@@ -148,10 +126,7 @@ class Case(ABC):
     def place(self, rubbers: Rubbers) -> Place:
         """Return its place on the curve of its family.
 
-        Raises
-        ------
-        InputError
-            If its speed is not above zero, or its material is unknown at its temperature.
+        InputError if its speed is not above zero, or its material is unknown at its temperature.
         """
 
     @abstractmethod
@@ -173,25 +148,13 @@ class Case(ABC):
 
 
 class Place(NamedTuple):
-    """Place of a case on the curve of its family, whose contacts differ only by αv over a length.
+    """Place of a case on the curve of its family, whose contacts differ only by αv over a length."""
 
-    Attributes
-    ----------
-    family : Case
-        The one with s = 0 at the reference temperature, with load and modulus of the body divided by b.
-    s : float
-        ln of the speed over the family's, at the same αv over the length.
-    b, log_alpha : float
-        Vertical shift, ln α.
-    scale : Scale or None
-        Units of an indenter's case; pressures are b times as large.
-    """
-
-    family: Case
-    s: float
-    b: float
+    family: Case  # the one with s = 0 at the reference temperature, with load and modulus of the body divided by b
+    s: float  # ln of the speed over the family's, at the same αv over the length
+    b: float  # vertical shift
     log_alpha: float
-    scale: Scale | None = None
+    scale: Scale | None = None  # units of an indenter's case; pressures are b times as large
 
     @property
     def units(self) -> Scale:
@@ -202,17 +165,10 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Rubbers:
-    """The materials of the cases, and their bootstrap samples; shared results are cached.
-
-    Attributes
-    ----------
-    materials : sequence of Material
-    members : mapping of int to sequence of Material
-        Index of a material → its bootstrap samples.
-    """
+    """The materials of the cases, and their bootstrap samples; shared results are cached."""
 
     materials: Sequence[Material]
-    members: Mapping[int, Sequence[Material]]
+    members: Mapping[int, Sequence[Material]]  # index of a material → its bootstrap samples
     _modes: dict[tuple[int, int | None, float | None], RetardationSpectrum] = field(default_factory=dict, repr=False)
     _lean: dict[tuple[int, int | None], Material] = field(default_factory=dict, repr=False)
     _shifts: dict[tuple[int, int | None, float], tuple[float, float]] = field(default_factory=dict, repr=False)

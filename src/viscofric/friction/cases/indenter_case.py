@@ -61,23 +61,15 @@ _BALL, _CYLINDER, _CONE = Ball(1.0), Cylinder(1.0), Cone(_LOW_SLOPE)
 
 @dataclass(frozen=True, slots=True)
 class IndenterCase(Case):
-    """One contact of an indenter, SI; see `Case`.
-
-    Attributes
-    ----------
-    load : float
-        N; N/m for a cylinder.
-    modulus, poisson_ratio : float
-        Of an elastic indenter, Pa; None: rigid.
-    """
+    """One contact of an indenter, SI; see `Case`."""
 
     material: int
     indenter: Indenter
     temperature: float
     speed: float
-    load: float
+    load: float  # N; N/m for a cylinder
     layer: Layer | None = None
-    modulus: float | None = None
+    modulus: float | None = None  # of an elastic indenter, Pa; None: rigid
     poisson_ratio: float = 0.3
     sample: int | None = None
 

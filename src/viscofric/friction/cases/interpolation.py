@@ -26,21 +26,11 @@ _WITHIN = np.array([0.15, 0.35, 0.5, 0.65, 0.85])
 
 
 class Stencil(NamedTuple):
-    """Nodes of the polynomials of one interval.
+    """Nodes of the polynomials of one interval."""
 
-    Attributes
-    ----------
-    interval : (int, int)
-        Its ends.
-    nodes : tuple of int
-        Ascending.
-    fewer : tuple of tuples of int
-        Rows of the polynomials of lower degree, whose differences estimate the truncation error.
-    """
-
-    interval: tuple[int, int]
-    nodes: tuple[int, ...]
-    fewer: tuple[tuple[int, ...], ...]
+    interval: tuple[int, int]  # its ends
+    nodes: tuple[int, ...]  # ascending
+    fewer: tuple[tuple[int, ...], ...]  # rows of the polynomials of lower degree, which estimate the truncation error
 
 
 def stencil(low: int, high: int, known: Sequence[int], furthest: int) -> Stencil:
@@ -86,20 +76,11 @@ def weights(nodes: Array, places: Array) -> Array:
 
 
 class Interpolated(NamedTuple):
-    """Values between nodes, each array (places, columns).
-
-    Attributes
-    ----------
-    values : array
-    from_nodes : array
-        Errors due to those of the nodes.
-    between : array
-        Largest difference from polynomials of lower degree within the interval; at a single place they may agree.
-    """
+    """Values between nodes, each array (places, columns)."""
 
     values: Array
-    from_nodes: Array
-    between: Array
+    from_nodes: Array  # errors due to those of the nodes
+    between: Array  # largest difference from polynomials of lower degree within the interval, not at the place alone
 
 
 def interpolate(
@@ -130,36 +111,17 @@ def interpolate(
 
 @dataclass(frozen=True, eq=False)
 class Node:
-    """A solved contact of a curve.
-
-    Attributes
-    ----------
-    record : Record
-    values, errors : (columns,) array
-        In the units of its contact.
-    """
+    """A solved contact of a curve."""
 
     record: Any  # the same kind in all nodes of a curve
-    values: Array
-    errors: Array
+    values: Array  # (columns,), in the units of its contact
+    errors: Array  # (columns,)
 
 
 class Between(NamedTuple):
-    """The cases between two neighbouring nodes of a curve, interpolated.
+    """The cases between two neighbouring nodes of a curve, interpolated."""
 
-    Attributes
-    ----------
-    cases : list of int
-        Their numbers in the family.
-    nodes : list of (float, Record)
-        s and record of each node of the polynomial.
-    ends : tuple of Record
-        The two neighbouring nodes.
-    found : Interpolated
-        A row for each case.
-    """
-
-    cases: list[int]
-    nodes: list[tuple[float, Any]]
-    ends: tuple[Any, Any]
-    found: Interpolated
+    cases: list[int]  # their numbers in the family
+    nodes: list[tuple[float, Any]]  # s and record of each node of the polynomial
+    ends: tuple[Any, Any]  # records of the two neighbouring nodes
+    found: Interpolated  # a row for each case

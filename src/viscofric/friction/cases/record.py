@@ -34,21 +34,11 @@ class ContactFields(NamedTuple):
 
 @dataclass(frozen=True)
 class Failure:
-    """A case without a result.
+    """A case without a result."""
 
-    Attributes
-    ----------
-    reason : str
-        One sentence.
-    label : str
-        The case in words.
-    code : str
-        Of the error that caused it; empty if it has none.
-    """
-
-    reason: str
-    label: str
-    code: str = ""
+    reason: str  # one sentence
+    label: str  # the case in words
+    code: str = ""  # of the error that caused it
 
     def __str__(self) -> str:
         return str(self.note)
@@ -110,24 +100,15 @@ _ENDLESS = ("half_width",)
 class Record:
     """Stored part of one contact, SI; each number is also an attribute.
 
-    Attributes
-    ----------
-    numbers : dict of str to float
-        See `MEANING`.  Of interpolated contacts, the residuals are the largest of the neighbouring solved ones, there
-        are no cells and products, and `interpolation_error` is the part of the error of friction due to interpolation.
-    interpolated : bool
-        Whether it was interpolated between solved contacts.
-    sensitivity : ComplianceSensitivity or None
-        Derivatives of friction by the material's compliance, if bands are requested.
-    fields : ContactFields or None
-        If requested; stored in a file of their own.
+    Of interpolated contacts, the residuals are the largest of the neighbouring solved ones, there are no cells and
+    products, and `interpolation_error` is the part of the error of friction due to interpolation.
     """
 
-    numbers: dict[str, float]
+    numbers: dict[str, float]  # see `MEANING`
     warnings: tuple[str, ...] = ()
-    interpolated: bool = False
-    sensitivity: ComplianceSensitivity | None = None
-    fields: ContactFields | None = field(default=None, repr=False, compare=False)
+    interpolated: bool = False  # between solved contacts
+    sensitivity: ComplianceSensitivity | None = None  # if bands are requested
+    fields: ContactFields | None = field(default=None, repr=False, compare=False)  # if requested; in a file of its own
 
     @classmethod
     def of(
@@ -196,15 +177,9 @@ class Column(NamedTuple):
 
 @dataclass(frozen=True)
 class HistoryRecord(Record):
-    """Stored part of one contact over time, of one impact, or of a friction curve with heating.
+    """Stored part of one contact over time, of one impact, or of a friction curve with heating."""
 
-    Attributes
-    ----------
-    columns : dict of str to Column
-        Over the stored times or speeds, or one value of the whole, SI.
-    """
-
-    columns: dict[str, Column] = field(default_factory=dict)
+    columns: dict[str, Column] = field(default_factory=dict)  # over times or speeds, or one value of the whole, SI
 
     def values(self) -> dict[str, Any]:
         """Return everything in types that JSON stores exactly."""

@@ -25,26 +25,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Sensitivities:
-    """The derivatives of the cases in one interval.
+    """The derivatives of the cases in one interval."""
 
-    Attributes
-    ----------
-    modes : RetardationSpectrum
-        At the reference temperature.
-    places : sequence of Place
-        Of the cases.
-    log_tau, slope : tuple of (times,) array
-        Of each case at its temperature: ln τ (s), g (Pa).
-    glass, load : (cases,) array
-        See `ComplianceSensitivity`.
-    """
-
-    modes: RetardationSpectrum
-    places: Sequence[Place]
-    log_tau: tuple[Array, ...]
-    slope: tuple[Array, ...]
-    glass: Array
-    load: Array
+    modes: RetardationSpectrum  # at the reference temperature
+    places: Sequence[Place]  # of the cases
+    log_tau: tuple[Array, ...]  # ln τ (times,) of each case at its temperature, of s
+    slope: tuple[Array, ...]  # g (times,) of each case, Pa
+    glass: Array  # (cases,), see `ComplianceSensitivity`
+    load: Array  # (cases,)
 
     @classmethod
     def between(

@@ -32,21 +32,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """One contact to be solved.
+    """One contact to be solved."""
 
-    Attributes
-    ----------
-    verb : callable
-        `solve_indenter` or `solve_surface`.
-    arguments : dict
-        Of the verb: everything that determines the result.
-    label : str
-        For people: "30 °C, 20 mm/s".
-    """
-
-    verb: Callable[..., Record]
-    arguments: dict[str, Any]
-    label: str = ""
+    verb: Callable[..., Record]  # such as `solve_indenter` or `solve_surface`
+    arguments: dict[str, Any]  # of the verb: everything that determines the result
+    label: str = ""  # for people: "30 °C, 20 mm/s"
 
     @functools.cached_property
     def key(self) -> str:
@@ -76,20 +66,10 @@ def solve_indenter(
     fields: bool = False,
     **contact: Any,
 ) -> Record:
-    """Solve the contact of an indenter.
+    """Solve the contact of an indenter, with further arguments of `solve_steady`, SI.
 
-    Parameters
-    ----------
-    modes : RetardationSpectrum
-        Of the material at the contact's temperature.
-    temperature : float
-        K; only recorded, as the modes are those at this temperature.
-    sensitive : bool
-        Whether to find the derivatives of friction by the material's compliance; if that fails, the record has none.
-    fields : bool
-        Whether to keep the fields.
-    **contact
-        Further arguments of `solve_steady`, SI.
+    The temperature (K) is only recorded, as the modes are those at this temperature.  If the derivatives of friction
+    by the material's compliance cannot be found, the record has none.
     """
     rubber = Material(modes, poisson_ratio=poisson_ratio)
     if sensitive:

@@ -48,26 +48,16 @@ _RIPPLE = 0.05
 
 @dataclass(frozen=True, slots=True)
 class SurfaceCase(Case):
-    """One contact of a rough surface, SI; see `Case`.
-
-    Attributes
-    ----------
-    pressure : float
-        Mean pressure, Pa.
-    direction : float
-        Of the motion, from x towards y, rad.
-    modulus, poisson_ratio : float
-        Of an elastic surface, Pa; None: rigid.
-    """
+    """One contact of a rough surface, SI; see `Case`."""
 
     material: int
     surface: SurfaceSource
     temperature: float
     speed: float
-    pressure: float
-    direction: float = 0.0
+    pressure: float  # mean, Pa
+    direction: float = 0.0  # of the motion, from x towards y, rad
     layer: Layer | None = None
-    modulus: float | None = None
+    modulus: float | None = None  # of an elastic surface, Pa; None: rigid
     poisson_ratio: float = 0.3
     sample: int | None = None
 

@@ -32,31 +32,19 @@ _KEPT = 2
 
 @dataclass(frozen=True)
 class MadeSurface:
-    """A self-affine surface, SI; see `viscofric.self_affine`.
-
-    Attributes
-    ----------
-    points, spacing : (2,)
-        Along x and y; one point along y for a profile; m.
-    shortest, longest, rolloff : float
-        Wavelengths, m.
-    rms_height, rms_slope : float or None
-        One of them; m, 1.
-    aspect, angle : float
-        Of the lay; 1, rad.
-    """
+    """A self-affine surface, SI; see `viscofric.self_affine`."""
 
     hurst: float
-    points: tuple[int, int]
-    spacing: tuple[float, float]
+    points: tuple[int, int]  # along x and y; one point along y for a profile
+    spacing: tuple[float, float]  # m
     seed: int
-    shortest: float
+    shortest: float  # wavelengths, m
     longest: float | None = None
     rolloff: float | None = None
-    rms_height: float | None = None
+    rms_height: float | None = None  # m; this or the slope
     rms_slope: float | None = None
-    aspect: float = 1.0
-    angle: float = 0.0
+    aspect: float = 1.0  # of the lay
+    angle: float = 0.0  # rad
     exact: bool = True
 
     def topography(self) -> Topography:
@@ -83,22 +71,12 @@ class MadeSurface:
 
 @dataclass(frozen=True)
 class ScannedSurface:
-    """A measured surface; see `viscofric.read_topography`.
-
-    Attributes
-    ----------
-    digest : str
-        SHA-256 of the file.
-    steps : tuple of str
-        Preparation steps; see `step_of`.
-    unit, spacing, channel, missing, lines
-        As far as the file does not state them.
-    """
+    """A measured surface; see `viscofric.read_topography`."""
 
     path: Path
-    digest: str
-    steps: tuple[str, ...] = ()
-    unit: str = ""
+    digest: str  # SHA-256 of the file
+    steps: tuple[str, ...] = ()  # of preparation; see `step_of`
+    unit: str = ""  # this and the following as far as the file does not state them
     spacing: tuple[float, float] | None = None
     channel: str | int | None = None
     missing: float | None = None
@@ -156,22 +134,13 @@ SurfaceSource: TypeAlias = MadeSurface | ScannedSurface
 def surface_of(source: SurfaceSource) -> PeriodicSurface:
     """Return the surface that a contact is solved with; made once for many contacts on it.
 
-    Raises
-    ------
-    InputError, DataFileError
-        If it cannot be made, or does not repeat itself.
+    InputError or DataFileError if it cannot be made, or does not repeat itself.
     """
     return source.topography().to_surface()
 
 
 def file_digest(path: Path) -> str:
-    """Return the SHA-256 of a file.
-
-    Raises
-    ------
-    DataFileError
-        If it cannot be read.
-    """
+    """Return the SHA-256 of a file; DataFileError if it cannot be read."""
     try:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
@@ -208,29 +177,44 @@ STEPS = {
     "along y": "along y",
 }
 _LONGEST_STEP = 100
-_FILL, _REMOVE = ("harmonic", "nearest"), ("mean", "tilt", "curvature")
+#: Words that follow a step; filling is harmonic by default.
+_CHOICES = {"fill": ("harmonic", "nearest"), "remove": ("mean", "tilt", "curvature")}
 
 
 def step_of(words: str) -> _Applied:
-    """Return the function of a preparation step on a topography.
-
-    `words` is the name of the step with its arguments: see `STEPS`.
-    """
+    """Return the function of a preparation step on a topography; `words` is its name with arguments: see `STEPS`."""
     name, rest = _parted(words)
-    known: dict[str, Callable[[str], _Applied]] = {
-        "fill": _fill,
-        "remove": _remove,
-        "window": _window,
-        "resample": lambda rest: _length("resample", rest, lambda one, step: one.resample(step)),
-        "shortest": lambda rest: _length("shortest", rest, lambda one, cut: one.keep_wavelengths(shortest=cut)),
-        "longest": lambda rest: _length("longest", rest, lambda one, cut: one.keep_wavelengths(longest=cut)),
-        "crop": _crop,
-        "mirror": lambda rest: _alone("mirror", rest, lambda one: one.mirror()),
-        "periodic": lambda rest: _alone("periodic", rest, _as_period),
-        "inverted": lambda rest: _alone("inverted", rest, lambda one: one.inverted()),
-        "along y": lambda rest: _alone("along y", rest, lambda one: one.along_y()),
+    chosen: Any = rest or ("harmonic" if name == "fill" else "")
+    if name in _CHOICES and chosen not in _CHOICES[name]:
+        *most, last = (f"'{name} {one}'" for one in _CHOICES[name])
+        raise _wrong_step(name, rest, f"expected {', '.join(most)} or {last}")
+    match name:
+        case "fill":
+            return lambda one: one.fill(chosen)
+        case "remove":
+            return lambda one: one.remove(chosen)
+        case "window":
+            edge = _edge(rest)
+            return lambda one: one.window(edge)
+        case "crop":
+            axis, ends = _ends(rest)
+            return lambda one: one.crop(**{axis: ends})
+        case "resample" | "shortest" | "longest":
+            if not rest:
+                raise InputError(f"'{name}' needs a length, such as '{STEPS[name]}'", code="wrong-step")
+            length = positive(rest, "m", name)
+            if name == "resample":
+                return lambda one: one.resample(length)
+            return lambda one: one.keep_wavelengths(**{name: length})
+    if rest:
+        raise _wrong_step(name, rest, f"'{name}' takes no argument")
+    alone: dict[str, _Applied] = {
+        "mirror": lambda one: one.mirror(),
+        "periodic": _as_period,
+        "inverted": lambda one: one.inverted(),
+        "along y": lambda one: one.along_y(),
     }
-    return known[name](rest)
+    return alone[name]
 
 
 def _parted(words: str) -> tuple[str, str]:
@@ -244,56 +228,28 @@ def _parted(words: str) -> tuple[str, str]:
     raise InputError(f"{brief(words)} is not a preparation step; {hint}", code="wrong-step")
 
 
-def _alone(name: str, rest: str, applied: _Applied) -> _Applied:
-    if rest:
-        raise InputError(f"{brief(f'{name} {rest}')}: '{name}' takes no argument", code="wrong-step")
-    return applied
+def _wrong_step(name: str, rest: str, why: str) -> InputError:
+    return InputError(f"{brief(f'{name} {rest}')}: {why}", code="wrong-step")
 
 
-def _fill(rest: str) -> _Applied:
-    method: Any = rest or _FILL[0]
-    if method not in _FILL:
-        raise InputError(f"{brief(f'fill {rest}')}: expected 'fill harmonic' or 'fill nearest'", code="wrong-step")
-    return lambda one: one.fill(method)
-
-
-def _remove(rest: str) -> _Applied:
-    what: Any = rest
-    if what not in _REMOVE:
-        raise InputError(
-            f"{brief(f'remove {rest}')}: expected 'remove mean', 'remove tilt' or 'remove curvature'", code="wrong-step"
-        )
-    return lambda one: one.remove(what)
-
-
-def _window(rest: str) -> _Applied:
+def _edge(rest: str) -> float:
+    """Return the part of each length over which a window rises, 0.1 if none is given."""
     try:
         edge = float(rest) if rest else 0.1
     except ValueError:
         edge = -1.0
     if not 0.0 < edge <= 0.5:
-        raise InputError(
-            f"{brief(f'window {rest}')}: expected a fraction of each length up to 0.5, such as 'window 0.1'",
-            code="wrong-step",
-        )
-    return lambda one: one.window(edge)
+        raise _wrong_step("window", rest, "expected a fraction of each length up to 0.5, such as 'window 0.1'")
+    return edge
 
 
-def _length(name: str, rest: str, applied: Callable[[Topography, float], Topography]) -> _Applied:
-    if not rest:
-        raise InputError(f"'{name}' needs a length, such as '{STEPS[name]}'", code="wrong-step")
-    value = positive(rest, "m", name)
-    return lambda one: applied(one, value)
-
-
-def _crop(rest: str) -> _Applied:
+def _ends(rest: str) -> tuple[str, tuple[float, float]]:
+    """Return the axis along which a scan is cropped, and the two ends, m."""
     found = re.fullmatch(r"([xy]) (.+) to (.+)", rest)
     if found is None:
-        raise InputError(f"{brief(f'crop {rest}')}: expected '{STEPS['crop']}'", code="wrong-step")
+        raise _wrong_step("crop", rest, f"expected '{STEPS['crop']}'")
     first, last = (to_si(text, "m", "crop") for text in found.groups()[1:])
-    if found[1] == "x":
-        return lambda one: one.crop(x=(first, last))
-    return lambda one: one.crop(y=(first, last))
+    return found[1], (first, last)
 
 
 def _as_period(one: Topography) -> Topography:

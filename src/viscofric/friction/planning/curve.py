@@ -62,32 +62,18 @@ class Interval(NamedTuple):
 class Curve:
     """The nodes of one family of cases.
 
-    Parameters
-    ----------
-    places : (cases,) array
-        s of each case.
-    accuracy : float
-        Of the friction, relative.
-    logarithmic : (columns,) array of bool
-        Columns of the nodes, friction first, that are interpolated by their logarithms.
-
-    Attributes
-    ----------
-    wanted : tuple of int
-        Nodes of this wave; none when the curve is known well enough.
-    alone : list of int
-        Cases that are better solved individually.
-    closed : list of Interval
-        Intervals that need no refinement.
+    `places` (cases,) are their s, `accuracy` is that of the friction, relative; `logarithmic` (columns,) columns of the
+    nodes, friction first, are interpolated by their logarithms.
     """
 
     def __init__(self, places: Array, accuracy: float, logarithmic: Mask) -> None:
         self._places, self._accuracy, self._logarithmic = places, accuracy, logarithmic
         self._nodes: dict[int, Node] = {}
         self._failed: set[int] = set()
-        self.alone: list[int] = []
-        self.closed: list[Interval] = []
+        self.alone: list[int] = []  # cases that are better solved individually
+        self.closed: list[Interval] = []  # intervals that need no refinement
         self._open = self._worth_a_curve()
+        # Nodes of this wave; none when the curve is known well enough.
         self.wanted = tuple(sorted({end for one in self._open for end in (one.low, one.high)}))
 
     @property

@@ -11,7 +11,7 @@ import numpy as np
 from viscofric.errors import InputError
 from viscofric.friction.cases.case import Rubbers, Settings
 from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.planning.curve import STEP, Curve
+from viscofric.friction.planning.curve import STEP, Curve, Interval
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -27,14 +27,8 @@ Outcome: TypeAlias = Record | Failure
 class Plan:
     """What is to be solved next, without clocks, files or processes; made by `plan_cases`.
 
-    The same results give the same plan, in any order.
-
-    Attributes
-    ----------
-    total : int
-        Number of cases.
-    done : int
-        Cases with a result, or in intervals that need no refinement.
+    The same results give the same plan, in any order.  Of `total` cases, `done` have a result, or lie in intervals that
+    need no refinement.
     """
 
     def __init__(self, cases: Sequence[Case], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
@@ -82,17 +76,7 @@ class Plan:
         return known
 
     def so_far(self) -> Iterator[tuple[int, Outcome, bool]]:
-        """Yield preliminary results.
-
-        Yields
-        ------
-        number : int
-            Of a case.
-        outcome : Record or Failure
-            It may change as long as its curve is being solved.
-        known : bool
-            Whether it is already within the accuracy.
-        """
+        """Yield the number of a case, its preliminary outcome, and whether that is already within the accuracy."""
         for number, outcome in enumerate(self._outcomes):
             if outcome is not None:
                 yield number, outcome, True
@@ -103,10 +87,6 @@ class Plan:
         """Set the result of a case."""
         self.done += 1
         self._outcomes[number] = outcome
-
-    def count(self, cases: int) -> None:
-        """Count cases as done before they are settled, or undo it."""
-        self.done += cases
 
     def solve_alone(self, number: int) -> None:
         """Request the individual solution of a case."""
@@ -179,26 +159,28 @@ class _FamilyPlan:
         """Yield cases between known contacts; see `Plan.so_far`."""
         if self._settled:
             return
-        cases = [self._plan.case(number) for number in self._numbers]
         curve = self._curve.drafted(self._wave)
         for place, one in enumerate(curve.closed):
-            known = place < len(self._curve.closed)
-            for row, outcome in self._family.interpolated(curve.between(one), cases, self._places, self._plan.rubbers):
-                yield self._numbers[row], outcome, known
+            for number, outcome in self._interpolated(curve, one):
+                yield number, outcome, place < len(self._curve.closed)
+
+    def _interpolated(self, curve: Curve, one: Interval) -> Iterator[tuple[int, Outcome]]:
+        """Yield the cases of an interval, by their numbers in the plan."""
+        cases = [self._plan.case(number) for number in self._numbers]
+        for row, outcome in self._family.interpolated(curve.between(one), cases, self._places, self._plan.rubbers):
+            yield self._numbers[row], outcome
 
     def _count(self, cases: int) -> None:
-        self._plan.count(cases - self._counted)
+        """Count cases as done before they are settled, or undo it."""
+        self._plan.done += cases - self._counted
         self._counted = cases
 
     def _settle(self) -> None:
         self._count(0)  # each is counted when it is settled
         self._settled = True
-        cases = [self._plan.case(number) for number in self._numbers]
         for one in self._curve.closed:
-            for row, outcome in self._family.interpolated(
-                self._curve.between(one), cases, self._places, self._plan.rubbers
-            ):
-                self._plan.settle(self._numbers[row], outcome)
+            for number, outcome in self._interpolated(self._curve, one):
+                self._plan.settle(number, outcome)
         for row in sorted(self._curve.alone):
             self._plan.solve_alone(self._numbers[row])
 
@@ -215,26 +197,12 @@ def plan_cases(
 ) -> Plan:
     """Plan the solution of a set of cases.
 
-    Parameters
-    ----------
-    cases : sequence of Case
-    materials : sequence of Material
-        Referred to by index; with a shift if cases differ in temperature.
-    members : mapping of int to sequence of Material, optional
-        Index of a material → its bootstrap samples, which cases name by `sample`, from 1.
-    accuracy : float
-        Of the friction coefficients, relative.
-    sensitive : bool
-        Whether to find the derivatives of friction by the material's compliance, for bands; not for bootstrap samples.
-    fields : bool or collection of int
-        Whether to keep pressure and displacement, or the numbers of the cases to keep them of, which are solved
-        individually.
-    each : bool
-        Whether to solve every case individually.  If not, cases on one curve (Eq. 10) are interpolated between as many
-        solved contacts as the accuracy requires.
+    Cases refer to materials, with a shift if they differ in temperature, by index, and to the bootstrap samples in
+    `members` by their number, from 1.  `accuracy` is that of the friction coefficients, relative.  If `sensitive`, the
+    derivatives of friction by the material's compliance are found for bands; not for bootstrap samples.  `fields` are
+    kept of all cases, or of those of given numbers, which are solved individually, as are all if `each`.  If not, cases
+    on one curve (Eq. 10) are interpolated between as many solved contacts as the accuracy requires.
 
-    Notes
-    -----
     The nodes of curves lie at fixed places.  A study with more cases has the same nodes and some others, so that
     results of its old cases change within the accuracy if their neighbourhood is refined, and not at all elsewhere.
     """

@@ -21,21 +21,11 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Collapse:
-    """Differences of neighbouring curves where they overlap; None without overlap.
+    """Differences of neighbouring curves where they overlap; None without overlap."""
 
-    Attributes
-    ----------
-    rms : float or None
-        Root mean square of the relative differences.
-    error : float or None
-        The value expected from the standard errors alone.
-    points : int
-        Points compared.
-    """
-
-    rms: float | None
-    error: float | None
-    points: int
+    rms: float | None  # root mean square of the relative differences
+    error: float | None  # the value expected from the standard errors alone
+    points: int  # compared
 
     @property
     def sentence(self) -> Note:

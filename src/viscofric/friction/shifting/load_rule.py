@@ -51,15 +51,10 @@ class LoadRule:
     an elastic indenter if b = 1: its compliance is added to the material's, and neither has a length.  It does not
     depend on the material's b(T): friction with E_i corresponds to friction with E_i/b at the reference.  The rule does
     not hold on a layer, whose thickness is a length.
-
-    Attributes
-    ----------
-    size, strain : float
-        p and q.
     """
 
-    size: float
-    strain: float
+    size: float  # p
+    strain: float  # q
 
     @classmethod
     def of(cls, indenter: Any) -> LoadRule:
