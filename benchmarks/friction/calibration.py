@@ -50,9 +50,9 @@ class Frozen:
         modulus = float(abs(self.rubber.complex_modulus(FREQUENCY, KELVIN[0])))
         self.moduli = tuple(anchored([vf.friction.ModulusAnchor(modulus, FREQUENCY, KELVIN[0], error=1e-3)]))
         points, shifts = self.observed(None)
-        contacts = Contacts(BALL, 0.5, points.load, ACCURACY, 1)
+        contacts = Contacts(BALL, 0.5, points.load, 1)
         problem = problem_of(points, shifts, self.moduli, contacts, MODES)
-        fits, _ = identify(problem, contacts, np.concatenate([problem.smoothness.middle, shifts.middle]))
+        fits, _ = identify(problem, contacts.solved, problem.start, ACCURACY)
         best = most_evident(fits)
         self.problem, self.place = best.problem, best.minimum.place
 

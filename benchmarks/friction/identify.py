@@ -210,7 +210,7 @@ def few(options: argparse.Namespace) -> dict[str, Any]:
     """Identify drawn rubbers from few replicates."""
     results: dict[str, Any] = {name: {"scattered": [], "refused": {}} for name in options.shared}
     if options.first_order:
-        Contacts.solved = lambda contacts, problem, unknowns, step: problem  # type: ignore[method-assign]
+        Contacts.solved = lambda contacts, problem, *given: problem  # type: ignore[method-assign]
     print(f"{'':12}" + "".join(f"{heading:>9}" for heading in HEADINGS))
     for number in range(options.rubbers):
         rubber = drawn_rubber(number, options.spectrum)

@@ -45,14 +45,14 @@ def solved() -> vf.friction.IdentifiedMaterial:
 @pytest.fixture
 def closed_form(monkeypatch: pytest.MonkeyPatch) -> None:
     """Contacts are those of the closed form to first order: what is tested does not depend on how they are solved."""
-    monkeypatch.setattr(Contacts, "solved", lambda contacts, problem, unknowns, step: problem)
+    monkeypatch.setattr(Contacts, "solved", lambda contacts, problem, *given: problem)
 
 
 @pytest.fixture(scope="module")
 def found() -> vf.friction.IdentifiedMaterial:
     """Identify the planted rubber from friction of the closed form."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Contacts, "solved", lambda contacts, problem, unknowns, step: problem)
+        patch.setattr(Contacts, "solved", lambda contacts, problem, *given: problem)
         return vf.identify_material(closed_form_curves(*WARM), anchor=planted_anchor(), reference=REFERENCE, **SETTINGS)
 
 

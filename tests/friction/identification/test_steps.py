@@ -35,7 +35,7 @@ class Bent:
         self.squares: list[float] = []
         monkeypatch.setattr(Contacts, "solved", lambda contacts, *given: self.solved(*given))
 
-    def solved(self, problem: Problem, unknowns: np.ndarray, step: int) -> Problem:
+    def solved(self, problem: Problem, unknowns: np.ndarray, step: int, accuracy: float) -> Problem:
         assert step == len(self.squares) + 1  # each rubber is counted
         if self.failing and step > 1:
             self.failing -= 1

@@ -58,6 +58,7 @@ class Outcome:
     fits: list[Weighed[Problem]]
     iterations: int
     contacts: Contacts
+    accuracy: float  # of the contacts
     shift: ShiftLaw | None  # as given
     name: str  # of the material
     anchored: bool  # whether anything fixes the level of the modulus
@@ -82,7 +83,8 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     ]
     family: tuple[LevelFit, ...] = ()
     if not anchored:
-        family = level_family(best, outcome.contacts, found.material_of, middle, levels, outcome.iterations + 1)
+        of_levels = found.material_of, middle, levels, outcome.iterations + 1, outcome.accuracy
+        family = level_family(best, outcome.contacts, *of_levels)
     of_anchors = _anchor_notes(best, drawn, middle, limit) if anchored else ()
     common = found.common()
     fitted, residuals = _fitted(outcome, found.posterior)

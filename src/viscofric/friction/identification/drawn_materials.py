@@ -231,6 +231,7 @@ def level_family(
     middle: float,
     factors: Sequence[float],
     step: int,
+    accuracy: float,
 ) -> tuple[LevelFit, ...]:
     """Fit the friction with |E| held at levels; contacts are solved once for each but the first.
 
@@ -249,7 +250,7 @@ def level_family(
             try:
                 problem, place = held, descend(held, start, metric=held.metric).place
                 if factor != 1.0:
-                    problem = contacts.solved(held, place, step + len(found))
+                    problem = contacts.solved(held, place, step + len(found), accuracy)
                     place = descend(problem, place, metric=problem.metric).place
             except (ConvergenceError, InputError):
                 break

@@ -207,10 +207,10 @@ def identify_material(
         moduli.append(known_part(prior, prior_band, prior_error, shifts.reference))
     sizes = tuple(one for one in anchors if isinstance(one, ContactAnchor))
     with Workers(workers) as processes:
-        contacts = Contacts(indenter, poisson_ratio, points.load, accuracy, processes, sizes, progress)
+        contacts = Contacts(indenter, poisson_ratio, points.load, processes, sizes, progress)
         problem = problem_of(points, shifts, tuple(moduli), contacts, modes)
-        fits, iterations = identify(problem, contacts, problem.start)
-        outcome = Outcome(curves, problem, fits, iterations, contacts, shift, name, bool(moduli or sizes))
+        fits, iterations = identify(problem, contacts.solved, problem.start, accuracy)
+        outcome = Outcome(curves, problem, fits, iterations, contacts, accuracy, shift, name, bool(moduli or sizes))
         return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=levels)
 
 

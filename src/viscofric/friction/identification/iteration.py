@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from viscofric.friction.identification.posterior import Minimum, descend, log_ev
 from viscofric.friction.identification.problem import ROUGHNESS, SpectrumProblem
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from viscofric.arrays import Array
     from viscofric.friction.identification.posterior import Residuals
 
@@ -39,6 +41,9 @@ HALVINGS = 4
 
 
 AnyProblem = TypeVar("AnyProblem", bound=SpectrumProblem)
+#: Returns a problem with its contacts solved for unknowns (p,), from the number of the step, for progress,
+#: and the relative error of the solved contacts that is aimed at.
+Solver: TypeAlias = "Callable[[AnyProblem, Array, int, float], AnyProblem]"
 
 
 class Weighed(NamedTuple, Generic[AnyProblem]):
@@ -83,23 +88,6 @@ def freedom_of(best: Weighed[Any], count: int) -> float:
     return len(part) - float(np.sum(part * np.linalg.solve(best.minimum.normal, part.T).T))
 
 
-class Solver(Protocol[AnyProblem]):
-    """Contacts of some accuracy, to be solved for a material."""
-
-    @property
-    def accuracy(self) -> float:
-        """Relative error of the solved contacts that is aimed at."""
-        ...
-
-    def solved(self, problem: AnyProblem, unknowns: Array, step: int) -> AnyProblem:
-        """Return the problem with its contacts solved for the material of the unknowns; `step` is for progress."""
-        ...
-
-    def with_accuracy(self, accuracy: float) -> Self:
-        """Return the same with another accuracy."""
-        ...
-
-
 class Here(NamedTuple, Generic[AnyProblem]):
     """Unknowns (p,), the problem with contacts solved for their material, and the accuracy of these."""
 
@@ -108,7 +96,13 @@ class Here(NamedTuple, Generic[AnyProblem]):
     accuracy: float
 
 
-def identify(problem: AnyProblem, contacts: Solver[AnyProblem], start: Array) -> tuple[list[Weighed[AnyProblem]], int]:
+def identify(
+    problem: AnyProblem,
+    solver: Solver[AnyProblem],
+    start: Array,
+    accuracy: float,
+    first_accuracy: float = FIRST_ACCURACY,
+) -> tuple[list[Weighed[AnyProblem]], int]:
     """Iterate until the modelled points converge; return the fits under every roughness, and the number of iterations.
 
     Each step leads to the predicted minimum in the neighbourhood of the solved contacts.  Where contacts solved there
@@ -121,8 +115,8 @@ def identify(problem: AnyProblem, contacts: Solver[AnyProblem], start: Array) ->
     errors = problem.point_errors
     typical = float(np.median(errors))
     floors = iter([error for error in FIRST_STEPS if error > typical])
-    now = contacts.with_accuracy(max(FIRST_ACCURACY, contacts.accuracy))
-    here, number, damping = _first_solved(problem, now, start), 1, 0.0
+    now = max(first_accuracy, accuracy)
+    here, number, damping = _first_solved(problem, solver, start, now), 1, 0.0
     while True:
         floor = next(floors, 0.0)
         fits = weighed(here.problem.blurred(floor), here.place)
@@ -130,11 +124,11 @@ def identify(problem: AnyProblem, contacts: Solver[AnyProblem], start: Array) ->
         change = here.problem.modelled(best.minimum.place)[0] - here.problem.modelled(here.place)[0]
         small = np.hypot(SETTLED * errors, KNOWN_TO * here.accuracy)
         settled = floor == 0.0 and float(np.sqrt(np.mean((change / small) ** 2))) < 1.0
-        if settled and here.accuracy == contacts.accuracy:
+        if settled and here.accuracy == accuracy:
             return fits, number
         if settled or number >= len(FIRST_STEPS):
-            now = contacts
-        moved, number, damping = _stepped(here, best, now, number, damping)
+            now = accuracy
+        moved, number, damping = _stepped(here, best, solver, now, number, damping)
         if moved is None:
             raise ConvergenceError(
                 f"the identification did not settle with contacts solved for {number} rubbers: the fit should still "
@@ -146,7 +140,12 @@ def identify(problem: AnyProblem, contacts: Solver[AnyProblem], start: Array) ->
 
 
 def _stepped(
-    here: Here[AnyProblem], best: Weighed[AnyProblem], contacts: Solver[AnyProblem], number: int, damping: float
+    here: Here[AnyProblem],
+    best: Weighed[AnyProblem],
+    solver: Solver[AnyProblem],
+    accuracy: float,
+    number: int,
+    damping: float,
 ) -> tuple[Here[AnyProblem] | None, int, float]:
     """Return the result of a step (None without one), the number of materials solved so far, and the next damping."""
     target, near = best.problem, here.place
@@ -159,7 +158,7 @@ def _stepped(
             place = descend(_damped(target, near, damping), near, metric=target.metric).place
         promised = before - _squares(target, place)
         try:
-            solved = contacts.solved(target, place, number)
+            solved = solver(target, place, number, accuracy)
             gained = before - _squares(solved, place)
         except (ConvergenceError, InputError):  # the latter: wider than the indenter
             if number == STEPS:
@@ -167,7 +166,7 @@ def _stepped(
             gained = -np.inf
         if gained + allowed > LEAST_GAIN * promised:
             next_damping = 0.0 if gained > GOOD_GAIN * promised else damping
-            return Here(place, solved, contacts.accuracy), number, next_damping
+            return Here(place, solved, accuracy), number, next_damping
         # The damping at which the penalty of the rejected step equals its predicted gain.
         away = place - near
         damping = max(GROWTH * damping, promised / float(away @ target.metric @ away))
@@ -197,12 +196,12 @@ def _damped(problem: SpectrumProblem, near: Array, damping: float) -> Residuals:
     return together
 
 
-def _first_solved(problem: AnyProblem, contacts: Solver[AnyProblem], start: Array) -> Here[AnyProblem]:
+def _first_solved(problem: AnyProblem, solver: Solver[AnyProblem], start: Array, accuracy: float) -> Here[AnyProblem]:
     """Return the roughly fitted material with its contacts solved, or a solvable one between it and the start."""
     place = first_fit(problem, start)
     for halving in range(HALVINGS + 1):
         try:
-            return Here(place, contacts.solved(problem, place, 1), contacts.accuracy)
+            return Here(place, solver(problem, place, 1, accuracy), accuracy)
         except (ConvergenceError, InputError):
             if halving == HALVINGS:
                 raise

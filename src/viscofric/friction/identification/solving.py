@@ -116,17 +116,12 @@ class Contacts:
     indenter: Indenter
     poisson_ratio: float
     load: float  # N or N/m
-    accuracy: float
     workers: int | Workers
     anchors: tuple[ContactAnchor, ...] = ()  # contacts whose size was measured
     # called with the number of the step, the contacts solved in it, and how many it has
     progress: Callable[[int, int, int], object] | None = None
 
-    def with_accuracy(self, accuracy: float) -> Contacts:
-        """Return the settings with another accuracy."""
-        return replace(self, accuracy=accuracy)
-
-    def solved(self, problem: Problem, unknowns: Array, step: int) -> Problem:
+    def solved(self, problem: Problem, unknowns: Array, step: int, accuracy: float) -> Problem:
         """Return the problem with contacts solved for the material of the unknowns; ConvergenceError if one is not."""
         compliances, log_alpha = problem.split(unknowns)
         spectrum = spectrum_of(compliances, problem.smoothness.tau)
@@ -141,7 +136,7 @@ class Contacts:
             self.indenter,
             np.exp(nodes),
             self.load,
-            accuracy=self.accuracy,
+            accuracy=accuracy,
             workers=self.workers,
             progress=lambda done, total: None if self.progress is None else self.progress(step, done, total),
         )
@@ -165,7 +160,7 @@ class Contacts:
                 self.indenter,
                 spectrum,
                 self.poisson_ratio,
-                self.accuracy,
+                accuracy,
                 compliances,
                 float(problem.shifts.row(float(anchor.temperature)) @ log_alpha),
             )

@@ -12,9 +12,9 @@ from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.identification.indentation.conclusions import conclude
 from viscofric.friction.identification.indentation.contact import Shared
-from viscofric.friction.identification.indentation.problem import BySprings
+from viscofric.friction.identification.indentation.problem import fitted_by_springs
 from viscofric.friction.identification.indentation.setting_up import Record, problem_of, shifts_of, usable_records
-from viscofric.friction.identification.iteration import freedom_of, identify, most_evident, weighed
+from viscofric.friction.identification.iteration import freedom_of, most_evident, weighed
 from viscofric.friction.identification.posterior import descend
 from viscofric.friction.identification.setting_up import check_counts
 from viscofric.motion.springs import is_body_of_revolution
@@ -231,9 +231,7 @@ def _settled(problem: IndentationProblem, start: Array) -> list[Weighed[Indentat
     """Return the fits at every roughness, from responses that are solved for their material."""
     if not any(contact.by_springs for contact in problem.contacts):
         return weighed(problem, descend(problem, start, metric=problem.metric).place)
-    solver = BySprings()
-    solved = problem if len(problem.functionals) == len(problem.contacts) else solver.solved(problem, start, 0)
-    return identify(solved, solver, start)[0]
+    return fitted_by_springs(problem, start)
 
 
 def _ratio(best: Weighed[IndentationProblem], given: Mask) -> float:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from viscofric.friction.identification.indentation.contact import EXACT, Answer, Nearby, Shared, Trial
+from viscofric.friction.identification.iteration import identify
 from viscofric.friction.identification.problem import SpectrumProblem
 
 if TYPE_CHECKING:
@@ -16,6 +17,11 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.friction.identification.indentation.contact import Contact
+    from viscofric.friction.identification.iteration import Weighed
+
+
+#: Relative error of contacts by springs.
+ACCURACY = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,20 +88,21 @@ class IndentationProblem(SpectrumProblem):
         return (value - observed) / self.errors, change / self.errors[:, None]
 
 
-@dataclass(frozen=True)
-class BySprings:
-    """Solver of the contacts that are not linear (`iteration.Solver`)."""
+def solved_by_springs(
+    problem: IndentationProblem, unknowns: Array, step: int = 0, accuracy: float = 0.0
+) -> IndentationProblem:
+    """Return the problem with its contacts that are not linear solved for the material of the unknowns (`Solver`).
 
-    accuracy: float = 1e-3
+    Steps and springs are the same at every accuracy.
+    """
+    found = dict(problem.functionals)
+    for place, contact in enumerate(problem.contacts):
+        if contact.by_springs:
+            found[place] = Nearby.of(contact, problem.trial(place, unknowns))
+    return replace(problem, functionals=found)
 
-    def with_accuracy(self, accuracy: float) -> BySprings:
-        """Return itself: a solution costs less than choosing another accuracy."""
-        return self
 
-    def solved(self, problem: IndentationProblem, unknowns: Array, step: int) -> IndentationProblem:
-        """Return the problem with its contacts solved for the material of the unknowns."""
-        found = dict(problem.functionals)
-        for place, contact in enumerate(problem.contacts):
-            if contact.by_springs:
-                found[place] = Nearby.of(contact, problem.trial(place, unknowns))
-        return replace(problem, functionals=found)
+def fitted_by_springs(problem: IndentationProblem, start: Array) -> list[Weighed[IndentationProblem]]:
+    """Return the fits at every roughness, of contacts solved by springs again until the material no longer changes."""
+    solved = problem if len(problem.functionals) == len(problem.contacts) else solved_by_springs(problem, start)
+    return identify(solved, solved_by_springs, start, ACCURACY, first_accuracy=ACCURACY)[0]

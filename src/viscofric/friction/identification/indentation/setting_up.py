@@ -16,11 +16,11 @@ from viscofric.friction.identification.indentation.growing import growing
 from viscofric.friction.identification.indentation.impacts import Impacts
 from viscofric.friction.identification.indentation.known import Known
 from viscofric.friction.identification.indentation.moving import Moving
-from viscofric.friction.identification.indentation.problem import BySprings, IndentationProblem
+from viscofric.friction.identification.indentation.problem import IndentationProblem, fitted_by_springs
 from viscofric.friction.identification.indentation.record import IndentationRecord
 from viscofric.friction.identification.indentation.rows import Reduced, shrinks, usable_rows
 from viscofric.friction.identification.indentation.tables import OscillationRecord, ReboundRecord
-from viscofric.friction.identification.iteration import identify, most_evident
+from viscofric.friction.identification.iteration import most_evident
 from viscofric.friction.identification.posterior import descend
 from viscofric.friction.identification.problem import Shifts, Smoothness
 from viscofric.friction.identification.solving import spectrum_of
@@ -226,9 +226,7 @@ def _creep(usable: Usable, plane_strain: float, extra: float) -> StepTest:
     kelvin = float(usable.temperatures[0])
     problem = problem_of(usable, Shifts.unknown(usable.temperatures, kelvin), plane_strain, extra, 0)
     if any(one.by_springs for one in usable.contacts):
-        solver = BySprings()
-        fits, _ = identify(solver.solved(problem, problem.start, 0), solver, problem.start)
-        place = most_evident(fits).minimum.place
+        place = most_evident(fitted_by_springs(problem, problem.start)).minimum.place
     else:
         place = descend(problem, problem.start, metric=problem.metric).place
     spectrum = spectrum_of(problem.split(place)[0], problem.smoothness.tau)
