@@ -15,8 +15,7 @@ from refusals import refused
 from viscofric.contact.indenters.shapes import Ball
 from viscofric.errors import SuperpositionError
 from viscofric.friction.prediction import predict_friction
-from viscofric.friction.shifting.found_shifts import widened, widening
-from viscofric.friction.shifting.refusals import LEFT_OUT
+from viscofric.friction.shifting.found_shifts import LEFT_OUT, widened, widening
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import codes

@@ -14,8 +14,7 @@ from scipy.stats import binom
 
 from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from refusals import refused
-from viscofric.friction.measurement.conditions import conditions
-from viscofric.friction.measurement.course import of_the_disc
+from viscofric.friction.measurement.conditions import conditions, of_the_disc
 from viscofric.friction.measurement.fit import operators, residuals
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import Note, codes

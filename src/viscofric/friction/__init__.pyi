@@ -6,10 +6,10 @@ from viscofric.friction.heating import HeatedFrictionCurves as HeatedFrictionCur
 from viscofric.friction.identification.anchors import ContactAnchor as ContactAnchor
 from viscofric.friction.identification.anchors import ModulusAnchor as ModulusAnchor
 from viscofric.friction.identification.identified import Identified as Identified
+from viscofric.friction.identification.indentation.reading import read_indentation as read_indentation
 from viscofric.friction.identification.indentation.reading import read_oscillation as read_oscillation
 from viscofric.friction.identification.indentation.reading import read_rebound as read_rebound
 from viscofric.friction.identification.indentation.record import IndentationRecord as IndentationRecord
-from viscofric.friction.identification.indentation.record import read_indentation as read_indentation
 from viscofric.friction.identification.indentation.result import FittedRecord as FittedRecord
 from viscofric.friction.identification.indentation.result import MaterialFromIndentation as MaterialFromIndentation
 from viscofric.friction.identification.indentation.tables import OscillationRecord as OscillationRecord

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, NamedTuple, overload
 
 import numpy as np
 
@@ -13,12 +13,11 @@ from viscofric.errors import InputError
 from viscofric.friction.curve_checks import error_freedom
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.intervals import half_widths
-from viscofric.friction.pairing import Pairs, along_reduced_speed, point_by_point
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-from viscofric.nominal import nominal_rows
+from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Remedy
 from viscofric.showing import Plotted
-from viscofric.units import shown_number
+from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
     import xarray
@@ -28,6 +27,11 @@ if TYPE_CHECKING:
 
 #: Probability of a normal error below twice its standard deviation.
 WITHIN = 0.9545
+# Points are the same within rounding of units, not within scatter: predictions are made at the measured
+# points.
+_SAME_SPEED = 1e-6  # relative
+_SAME_TEMPERATURE = 1e-3  # K
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -280,22 +284,35 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     own, material = own / measured.viscoelastic, material / measured.viscoelastic
     if measured.assumption:  # an error of the assumed Coulomb friction is one of all points
         own, material = np.zeros(len(measured)), np.hypot(own, material)
+
+    def numbers(rows: Mask) -> tuple[float, float, float, float, float]:
+        """Return bias, rms, shares within error and within scatter, NaN without such points, and error of the bias."""
+        return (
+            float(relative[rows].mean()),
+            float(np.sqrt(np.mean(relative[rows] ** 2))),
+            _share(within[rows & known]),
+            _share(in_scatter[rows & repeated]),
+            _error_of_mean(own[rows], material[rows]),
+        )
+
+    bias, rms, share_within_error, share_within_scatter, bias_error = numbers(np.full(len(measured), True))
     groups = [np.isin(np.arange(len(measured)), rows) for rows in nominal_rows(measured.temperature)]
+    bias_at, rms_at, error_at, scatter_at, bias_error_at = np.array([numbers(group) for group in groups]).T
     return Agreement(
-        bias=float(relative.mean()),
-        rms=_rms(relative),
-        share_within_error=float(within[known].mean()) if np.any(known) else None,
+        bias=bias,
+        rms=rms,
+        share_within_error=None if math.isnan(share_within_error) else share_within_error,
         points=len(measured),
         temperature=np.array([measured.temperature[group].mean() for group in groups]),
-        bias_at=np.array([relative[group].mean() for group in groups]),
-        rms_at=np.array([_rms(relative[group]) for group in groups]),
-        share_within_error_at=np.array([_share(within[group & known]) for group in groups]),
+        bias_at=bias_at,
+        rms_at=rms_at,
+        share_within_error_at=error_at,
         points_at=np.array([np.count_nonzero(group) for group in groups]),
         relative_difference=relative,
-        bias_error=_error_of_mean(own, material),
-        bias_error_at=np.array([_error_of_mean(own[group], material[group]) for group in groups]),
-        share_within_scatter=float(in_scatter[repeated].mean()) if np.any(repeated) else None,
-        share_within_scatter_at=np.array([_share(in_scatter[group & repeated]) for group in groups]),
+        bias_error=bias_error,
+        bias_error_at=bias_error_at,
+        share_within_scatter=None if math.isnan(share_within_scatter) else share_within_scatter,
+        share_within_scatter_at=scatter_at,
         repeated=int(np.count_nonzero(repeated)),
         material_counted=pairs.material_error is not None,
         along_reduced_speed=shifted,
@@ -313,5 +330,98 @@ def _share(within: Mask) -> float:
     return float(within.mean()) if within.size else math.nan
 
 
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2)))
+class Pairs(NamedTuple):
+    """Measured points, (n,) each, and the prediction for each of them."""
+
+    measured: FrictionCurves
+    predicted: Array
+    numerical_error: Array
+    material_error: Array | None
+
+
+def point_by_point(measured: FrictionCurves, predicted: FrictionCurves) -> Pairs:
+    """Return the prediction for the speed, temperature and load of each measured point, or raise `InputError`."""
+    rows = np.array([partner(measured, row, predicted) for row in range(len(measured))])
+    material = predicted.material_error
+    return Pairs(
+        measured,
+        predicted.viscoelastic[rows],
+        predicted.viscoelastic_error[rows],
+        None if material is None else material[rows],
+    )
+
+
+def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMasterCurve) -> Pairs:
+    """Interpolate the predicted master curve at the reduced speeds of the measured points, where it is known.
+
+    Raises InputError if references or loads differ, or the curves do not overlap.
+    """
+    if abs(measured.reference - predicted.reference) > _SAME_TEMPERATURE:
+        raise InputError(
+            f"master curves have different references, {shown_celsius(measured.reference, 'z.2f')} and "
+            f"{shown_celsius(predicted.reference, 'z.2f')} °C; give shift_friction the same reference for both.",
+            code="different-references",
+        )
+    loads = measured.load, predicted.load
+    if abs(loads[0] - loads[1]) > SAME_LOAD * loads[0]:
+        unit = measured.curves.load_unit
+        raise InputError(
+            f"master curves are of different loads, {loads[0]:.3g} and {loads[1]:.3g} {unit}; predict friction at the "
+            "measured load.",
+            code="different-loads",
+        )
+    points = measured.curves_at_load
+    reduced = points.speed * np.asarray(measured.shift(points.temperature))
+    covered = np.zeros(len(points), dtype=bool)
+    for low, high in predicted.stretches:
+        covered |= (reduced >= low * (1.0 - _ROUNDING)) & (reduced <= high * (1.0 + _ROUNDING))
+    if not np.any(covered):
+        low, high = predicted.reduced_range
+        if low <= reduced.max() and reduced.min() <= high:
+            raise InputError(
+                "the predicted master curve cannot be interpolated at any of the measured reduced speeds: its points "
+                "there lie more than half a decade apart; predict friction at more speeds.",
+                code="sparse-prediction",
+            )
+        raise InputError(
+            f"master curves do not overlap: friction was measured at reduced speeds from {reduced.min():.3g} to "
+            f"{reduced.max():.3g} m/s and predicted from {low:.3g} to {high:.3g} m/s, both at "
+            f"{shown_celsius(measured.reference)} °C.",
+            code="no-overlap",
+        )
+    reduced = reduced[covered]
+    friction = np.asarray(predicted(reduced))
+    return Pairs(
+        points.select(covered),
+        friction,
+        np.asarray(predicted.standard_error(reduced)),
+        _material_error(predicted, reduced, friction),
+    )
+
+
+def _material_error(predicted: FrictionMasterCurve, reduced: Array, friction: Array) -> Array | None:
+    """Return the standard error from the material, relative to friction interpolated along the reduced speed."""
+    curves = predicted.curves_at_load
+    if curves.material_error is None:
+        return None
+    place = np.log(curves.speed * np.asarray(predicted.shift(curves.temperature)))
+    order = np.argsort(place, kind="stable")
+    relative = (curves.material_error / curves.viscoelastic)[order]
+    return np.asarray(friction * np.interp(np.log(reduced), place[order], relative))
+
+
+def partner(measured: FrictionCurves, row: int, predicted: FrictionCurves) -> int:
+    """Return the row of the prediction for a measured point."""
+    speed, temperature, load = measured.speed[row], measured.temperature[row], measured.load[row]
+    same = np.abs(predicted.speed - speed) <= _SAME_SPEED * speed
+    same &= np.abs(predicted.temperature - temperature) <= _SAME_TEMPERATURE
+    same &= np.abs(predicted.load - load) <= SAME_LOAD * load
+    if not np.any(same):
+        raise InputError(
+            f"the point measured at {shown_celsius(float(temperature), 'z.2f')} °C, {1e3 * speed:.5g} mm/s and "
+            f"{load:.3g} N has no prediction; predict friction at measured.speeds, measured.temperatures "
+            "and the measured load.",
+            code="no-prediction",
+        )
+    candidates = np.flatnonzero(same)
+    return int(candidates[np.argmin(np.abs(predicted.load[candidates] - load))])

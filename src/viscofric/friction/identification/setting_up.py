@@ -14,7 +14,7 @@ from viscofric.friction.identification.anchors import Anchor, ContactAnchor, Mod
 from viscofric.friction.identification.forward import CorrectedFriction, FirstOrder
 from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.problem import OVERLAPPING, Problem, Shifts, Smoothness
-from viscofric.friction.shifting.refusals import LEFT_OUT
+from viscofric.friction.shifting.found_shifts import LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import codes

@@ -10,9 +10,9 @@ import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.errors import InputError, SuperpositionError
+from viscofric.friction.agreement import partner
 from viscofric.friction.curve_checks import shared_error
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
-from viscofric.friction.pairing import partner
 from viscofric.friction.shifting.collapse import Collapse, collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
 from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isotherms
@@ -370,7 +370,7 @@ def _shifted(stress: ShearStress, reference: float | None) -> ShearStress:
         said = Note("no-shift-factors", f"Shift factors of the interface were not found from shear stress: {error}")
         return replace(stress, notes=(*stress.notes, said))
     return replace(
-        stress, shift=result.factors, reference=result.factors.reference, notes=(*stress.notes, *result.notes)
+        stress, shift=result.factors, reference=result.factors.reference, notes=(*stress.notes, *result.factors.notes)
     )
 
 

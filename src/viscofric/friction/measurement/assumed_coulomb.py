@@ -9,7 +9,6 @@ import numpy as np
 
 from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.friction.measurement.conditions import Condition, where
-from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note, Remedy
 from viscofric.units import shown_number, to_si
 
@@ -90,7 +89,9 @@ class Assumed:
         remaining = places
         while remaining:
             first = fits[remaining[0]].group
-            alike = [place for place in remaining if _alike(fits[place].group, first)]
+            sense = _sense(first)
+            groups = {place: fits[place].group for place in remaining}
+            alike = [place for place, one in groups.items() if first.alike(one) and _sense(one) == sense]
             remaining = [place for place in remaining if place not in alike]
             if np.unique([fits[place].group.speed for place in alike]).size < 2:
                 raise InputError(
@@ -98,7 +99,6 @@ class Assumed:
                     "viscoelastic friction cannot be found; measure more speeds or both directions of slip.",
                     code="one-speed",
                 )
-            sense = _sense(first)
             friction = np.array([sense * entries[place].value[1] for place in alike])
             lowest = int(np.argmin(sense * friction))
             limit = entries[alike[lowest]]
@@ -140,14 +140,6 @@ class Assumed:
 
 def _sense(group: Condition) -> float:
     return float(group.disc_sign[0] * group.slip_sign[0])
-
-
-def _alike(one: Condition, other: Condition) -> bool:
-    return (
-        one.temperature == other.temperature
-        and abs(one.load - other.load) <= SAME_LOAD * other.load
-        and _sense(one) == _sense(other)
-    )
 
 
 def _parted(entry: Entry, sense: float, coulomb: float, limit: Entry) -> Entry:

@@ -10,13 +10,11 @@ import numpy as np
 from viscofric.friction.intervals import threshold
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.friction.measurement.zeros import ROUNDING
-from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
 from viscofric.units import shown_number
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.fit import Entry, Fit
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
@@ -218,14 +216,7 @@ def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]
     for group in groups:
         if not np.any(group.slip_sign):
             rolling[group.temperature, group.speed].append(group)
-    return [
-        sum(
-            one.rows.size
-            for one in rolling[group.temperature, group.speed]
-            if abs(one.load - group.load) <= SAME_LOAD * group.load
-        )
-        for group in some
-    ]
+    return [sum(one.rows.size for one in rolling[group.temperature, group.speed] if group.alike(one)) for group in some]
 
 
 def constant_force(runs: TractionRuns) -> list[Note]:
@@ -255,11 +246,8 @@ def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], li
     found, notes = [], []
     for place, (fit, entry) in enumerate(zip(fits, entries, strict=True)):
         group = fit.group
-        alike = [
-            other
-            for other in sliding.get((group.temperature, group.speed), [])
-            if abs(fits[other].group.load - group.load) <= SAME_LOAD * group.load
-        ]
+        beside = sliding.get((group.temperature, group.speed), [])
+        alike = [other for other in beside if group.alike(fits[other].group)]
         if entry.slides or not alike:
             continue
         other = entries[max(alike, key=lambda one: fits[one].group.slip)]

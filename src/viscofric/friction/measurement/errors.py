@@ -51,7 +51,7 @@ class BetweenRuns:
 
     error: Array
     freedom: Array
-    notes: list[str]
+    notes: list[Note]
 
     @classmethod
     def of(cls, fits: list[Fit], weights: Array) -> BetweenRuns:
@@ -83,12 +83,34 @@ class BetweenRuns:
             variance[at], freedom[at] = some_variance, some_freedom
         unrepeated = [place for place, number in found if number == _VISCOELASTIC]
         once = [place for place, fit in enumerate(fits) if _measured_once(fit) and place not in unrepeated]
-        notes = [
-            *_of_unrepeated(fits, unrepeated, autocorrelation),
-            *_of_left_over(fits, once, freedom),
-            *_of_common(fits, common),
-        ]
+        notes = []
+        if unrepeated:
+            said = (
+                f"{_where(fits, unrepeated)} no step was repeated: the standard errors follow from the scatter within "
+                f"steps, whose readings have an autocorrelation of {shown_number(autocorrelation, '.2g')}, and do not "
+                "include what varies from run to run; repeat the runs."
+            )
+            notes.append(Note("steps-not-repeated", said))
+        if once:
+            said = (
+                f"{_where(fits, once)} each configuration was measured once: the standard errors follow from the "
+                f"residual of the configurations, with {freedom[once, _VISCOELASTIC].min():.2g} degrees of freedom; "
+                "repeat the runs."
+            )
+            notes.append(Note("errors-from-left-over", said))
+        if common:
+            level = float(np.median(list(common.values())))
+            said = (
+                f"{_where(fits, list(common))} runs differ by the same amount at all speeds, so that the errors of the "
+                f"speeds of one temperature are not independent: they have a common error of {100.0 * level:.2g} % of "
+                f"viscoelastic friction (level_error = {level:.2g} in shift_friction and identify_material)."
+            )
+            notes.append(Note("errors-shared-by-speeds", said))
         return cls(np.sqrt(variance), freedom, notes)
+
+
+def _where(fits: list[Fit], places: list[int]) -> str:
+    return where([fits[place].group for place in places], len(fits))
 
 
 @dataclass(frozen=True)
@@ -176,41 +198,6 @@ def _measured_once(fit: Fit) -> bool:
     """Whether a condition has exactly one pass, of several readings, in each of its configurations."""
     few = int(fit.passes.max()) + 1 == len(fit.group.signs)
     return few and not fit.paired and fit.group.rows.size > len(fit.group.signs)
-
-
-def _of_unrepeated(fits: list[Fit], places: list[int], autocorrelation: float) -> list[str]:
-    if not places:
-        return []
-    text = (
-        f"{where([fits[place].group for place in places], len(fits))} no step was repeated: the standard errors follow "
-        "from the scatter within steps, whose readings have an autocorrelation of "
-        f"{shown_number(autocorrelation, '.2g')}, and do not include what varies from run to run; repeat the runs."
-    )
-    return [Note("steps-not-repeated", text)]
-
-
-def _of_left_over(fits: list[Fit], places: list[int], freedom: Array) -> list[str]:
-    if not places:
-        return []
-    text = (
-        f"{where([fits[place].group for place in places], len(fits))} each configuration was measured once: the "
-        "standard errors follow from the residual of the configurations, with "
-        f"{freedom[places, _VISCOELASTIC].min():.2g} degrees of freedom; repeat the runs."
-    )
-    return [Note("errors-from-left-over", text)]
-
-
-def _of_common(fits: list[Fit], common: dict[int, float]) -> list[str]:
-    if not common:
-        return []
-    level = float(np.median(list(common.values())))
-    text = (
-        f"{where([fits[place].group for place in common], len(fits))} runs differ by the same amount at all "
-        "speeds, so that the errors of the speeds of one temperature are not independent: they have a common error of "
-        f"{100.0 * level:.2g} % of viscoelastic friction (level_error = {level:.2g} in shift_friction and "
-        "identify_material)."
-    )
-    return [Note("errors-shared-by-speeds", text)]
 
 
 def of_readings(

@@ -9,15 +9,21 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.measurement.conditions import SPEED_TOLERANCE, Condition, conditions, where
-from viscofric.friction.measurement.course import Course, of_both, of_the_disc
+from viscofric.friction.measurement.conditions import (
+    SPEED_TOLERANCE,
+    Condition,
+    Course,
+    conditions,
+    of_both,
+    of_the_disc,
+    where,
+)
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
 from viscofric.notes import Note, Remedy, setting
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.friction.measurement.assumed_coulomb import Assumed
-    from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
 
@@ -47,20 +53,6 @@ _WORDS = {
 }
 
 
-@dataclass(frozen=True)
-class TwoGroups:
-    """Mean forces of the two groups of readings of a configuration, N, and whether it has slip."""
-
-    low: float
-    high: float
-    slides: bool
-
-    @property
-    def opposite(self) -> bool:
-        """Whether the forces have opposite signs with slip; without slip, unmeasurably small slip can cause that."""
-        return self.slides and self.low < 0.0 < self.high
-
-
 class _Split(NamedTuple):
     """Sorted forces of a configuration, N, below and above their largest gap, and whether it has slip."""
 
@@ -74,14 +66,26 @@ class _Split(NamedTuple):
         return int(self.low.size + self.high.size)
 
     @property
+    def means(self) -> tuple[float, float]:
+        """Mean forces below and above the gap, N."""
+        return float(self.low.mean()), float(self.high.mean())
+
+    @property
     def distance(self) -> float:
         """Distance of both means, N."""
-        return float(self.high.mean() - self.low.mean())
+        low, high = self.means
+        return high - low
 
     @property
     def squares(self) -> float:
         """Sum of the squared distances from both means, N²."""
         return float(self.low.size * self.low.var() + self.high.size * self.high.var())
+
+    @property
+    def opposite(self) -> bool:
+        """Whether the forces have opposite signs with slip; without slip, unmeasurably small slip can cause that."""
+        low, high = self.means
+        return self.slides and low < 0.0 < high
 
 
 def _splits(runs: TractionRuns, group: Condition, zeros: Zeros) -> list[_Split]:
@@ -98,8 +102,8 @@ def _splits(runs: TractionRuns, group: Condition, zeros: Zeros) -> list[_Split]:
     return found
 
 
-def two_groups(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> dict[int, TwoGroups]:
-    """Return, by the place of their condition, forces of one configuration that fall into two groups.
+def _two_groups(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> dict[int, _Split]:
+    """Return, by the place of their condition, the forces of a configuration that fall into two groups.
 
     The scatter is that of all conditions, as a few readings are far apart for their own scatter by chance.
     """
@@ -117,13 +121,12 @@ def two_groups(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> dic
         ]
         count += len(apart)
         if apart:
-            widest = max(apart, key=lambda one: one.distance)
-            found[place] = TwoGroups(float(widest.low.mean()), float(widest.high.mean()), widest.slides)
+            found[place] = max(apart, key=lambda one: one.distance)
     few = count < max(_FEWEST_PAIRS, _MOST * sum(map(len, every)))
     return {} if expected == 0.0 and few else found
 
 
-def _two_groups_kept(groups: list[Condition], found: dict[int, TwoGroups]) -> list[str]:
+def _two_groups_kept(groups: list[Condition], found: dict[int, _Split]) -> list[str]:
     """Return a note on forces in two groups of one sign, which are kept."""
     places = [place for place, one in found.items() if not one.opposite]
     if not places:
@@ -131,7 +134,7 @@ def _two_groups_kept(groups: list[Condition], found: dict[int, TwoGroups]) -> li
     return [Note("two-groups-of-force", f"{_sentence(groups, found, places)}; their mean is used.")]
 
 
-def _unsigned(groups: list[Condition], found: dict[int, TwoGroups], *, left_out: bool = False) -> Note:
+def _unsigned(groups: list[Condition], found: dict[int, _Split], *, left_out: bool = False) -> Note:
     """Return a note on forces in two groups of opposite signs, with a remedy."""
     places = [place for place, one in found.items() if one.opposite]
     leaving = "; these readings are left out" if left_out else ""
@@ -142,11 +145,11 @@ def _unsigned(groups: list[Condition], found: dict[int, TwoGroups], *, left_out:
     )
 
 
-def _sentence(groups: list[Condition], found: dict[int, TwoGroups], places: list[int]) -> str:
-    first = found[places[0]]
+def _sentence(groups: list[Condition], found: dict[int, _Split], places: list[int]) -> str:
+    low, high = found[places[0]].means
     return (
         f"{where([groups[place] for place in places], len(groups))} the forces of one sign configuration fall into two "
-        f"groups, about {first.low:.3g} and {first.high:.3g} N"
+        f"groups, about {low:.3g} and {high:.3g} N"
     )
 
 
@@ -189,7 +192,7 @@ class Grouping:
             raise InputError(
                 "traction runs contain no reading with the disc in motion: nothing to separate.", code="no-readings"
             )
-        split = two_groups(runs, groups, zeros)
+        split = _two_groups(runs, groups, zeros)
         mixed = {id(groups[place]) for place, two in split.items() if two.opposite}
         if mixed and mixed.union(map(id, poor)) == set(map(id, groups)):
             raise InputError(_unsigned(groups, split))

@@ -10,7 +10,6 @@ import numpy as np
 
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.friction.measurement.growth import Growth
-from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
@@ -52,11 +51,7 @@ class Uneven:
             isotherms[fit.group.temperature].append(place)
         for place in np.flatnonzero(self.apart).tolist():
             group = fits[place].group
-            alike = [
-                other
-                for other in isotherms[group.temperature]
-                if abs(fits[other].group.load - group.load) <= SAME_LOAD * group.load
-            ]
+            alike = [other for other in isotherms[group.temperature] if group.alike(fits[other].group)]
             growths[place] = _growth(place, alike, fits, bare, entries)
         return Uneven(self.apart, growths)
 

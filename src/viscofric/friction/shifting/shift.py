@@ -128,7 +128,7 @@ def shift_friction(
         # Whatever the reference of the vertical shift is, it moves all curves together.
         points = _at_one_load(curves, rule, at_load, vertical_shift)
         result = found_shifts(friction_isotherms(points), kelvin, shared)
-        shift, notes = result.factors, (*error_freedom(points)[1], *result.notes)
+        shift, notes = result.factors, (*error_freedom(points)[1], *result.factors.notes)
         rows = nominal_rows(curves.temperature)
         curves = curves.select(np.sort(np.concatenate([rows[place] for place in result.members])))
     elif kelvin is not None:

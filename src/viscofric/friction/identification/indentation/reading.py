@@ -1,4 +1,4 @@
-"""Rebounds and oscillations read from tables: one record for each temperature."""
+"""Indentation tests, rebounds and oscillations read from tables."""
 
 from __future__ import annotations
 
@@ -6,13 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.friction.identification.indentation.record import RESPONSE, Control, IndentationRecord
 from viscofric.friction.identification.indentation.tables import OscillationRecord, ReboundRecord
+from viscofric.motion.history import CONTROLS
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
-from viscofric.readers.one_table import table_of
-from viscofric.units import positive
+from viscofric.readers.one_table import HISTORY, history_columns, table_of
+from viscofric.readers.tables import name_columns
+from viscofric.units import positive, to_si
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -54,6 +57,87 @@ _REBOUNDS = _vocabulary("a table of rebounds", _REBOUND, "speed")
 _OSCILLATIONS = _vocabulary(
     "a table of stiffness over frequency", _OSCILLATION, "frequency", "storage_stiffness", "loss_stiffness"
 )
+
+
+def read_indentation(
+    path: str | PathLike[str],
+    *,
+    control: Control,
+    temperature: Quantity | None = None,
+    error: Quantity | None = None,
+    start: Quantity | None = None,
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
+) -> IndentationRecord:
+    """Read an indentation test from a table.
+
+    Parameters
+    ----------
+    path : str or path
+        A table, text or workbook, with the columns ``time``, ``load`` and ``indentation``, and optionally
+        ``temperature``, whose mean is taken.  Units stand in the headings, such as ``load (N)``.
+    control : {"load", "indentation"}
+        What was prescribed; the other one is the response.
+    temperature : float, str or pint.Quantity, optional
+        K if a plain number, for a table without this column.
+    error : float, str or pint.Quantity, optional
+        Standard error of the response, m or N if a plain number.
+    start : float, str or pint.Quantity, optional
+        Time of the first contact, s; that of the first row if left out.
+    columns : mapping, optional
+        Headings that are not recognised, by quantity: ``{"load": "Fz (N)"}``.
+    sheet : str, optional
+        The only sheet of a workbook to read.
+
+    Returns
+    -------
+    IndentationRecord
+
+    Raises
+    ------
+    DataFileError
+        If the file cannot be read, a column or its unit is missing or wrong, or a row cannot be part of a record; with
+        the line of the file.
+    InputError
+        If the temperature is given twice or not at all, or an argument cannot be used.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import viscofric as vf
+    >>> with Path("creep.csv").open("w") as file:
+    ...     for row in ("time (s),load (N),indentation (um)", "1,1,100", "2,1,105", "4,1,110", "8,1,114", "16,1,117"):
+    ...         print(row, file=file)
+    >>> vf.friction.read_indentation("creep.csv", control="load", temperature="23 degC", start=0.0)
+    IndentationRecord
+      time         5 from 1 to 16 s
+      load         5 of 1 N
+      indentation  5 from 100 to 117 µm
+      prescribed   load
+      temperature  23 °C
+      source       creep.csv
+    """
+    check_choice(control, "control", *RESPONSE)
+    kelvin = None if temperature is None else positive(temperature, "K", "temperature")
+    spread = None if error is None else positive(error, CONTROLS[RESPONSE[control]], "error")
+    begin = None if start is None else to_si(start, "s", "start")
+    found = history_columns(path, columns, sheet)
+    missing = [name for name in ("load", "indentation") if name not in found.values]
+    if missing:
+        problem = f"there is no column of the {' and the '.join(missing)}; an indentation test has both."
+        raise DataFileError(path, problem, code="missing-columns", remedy=name_columns(HISTORY.key, missing))
+    if found.load_unit != "N":
+        raise DataFileError(path, f"load: is in {found.load_unit}, but must be in N.", code="wrong-unit")
+    _insist_on_one_temperature(path, kelvin, found.values.get("temperature"))
+    at = float(np.mean(found.values["temperature"])) if kelvin is None else kelvin
+    try:
+        return IndentationRecord(
+            found.values["time"], found.values["load"], found.values["indentation"], at,
+            control=control, error=spread, start=begin, source=str(path),
+        )  # fmt: skip
+    except InputError as wrong:
+        place = wrong.note.values.get("index")
+        raise DataFileError(path, wrong.note, None if place is None else found.lines[place]) from None
 
 
 def read_rebound(
@@ -211,14 +295,18 @@ def _read(
         raise DataFileError(path, problem, code="missing-columns")
     values = {name: _values(table, place, quantities[name][0]) for name, place in places.items()}
     kelvin = values.pop("temperature", None)
-    if (given is None) == (kelvin is None):
-        why = "has no column of it" if given is None else "has a column of it"
-        raise InputError(f"temperature: {path} {why}; give the value or the column, one of the two.", code="give-one")
+    _insist_on_one_temperature(path, given, kelvin)
     if kelvin is None:
         return [make(float(given or 0.0), values)]
     labels = numbered(kelvin, np.full(len(kelvin), SAME_TEMPERATURE))
     rows = [labels == label for label in range(int(labels.max()) + 1)]
     return [make(float(kelvin[row].mean()), {name: one[row] for name, one in values.items()}) for row in rows]
+
+
+def _insist_on_one_temperature(path: object, given: float | None, column: Array | None) -> None:
+    if (given is None) == (column is None):
+        why = "has no column of it" if given is None else "has a column of it"
+        raise InputError(f"temperature: {path} {why}; give the value or the column, one of the two.", code="give-one")
 
 
 def _values(table: Table, place: int, unit: str) -> Array:

@@ -10,18 +10,13 @@ import numpy as np
 from viscofric.arguments import text
 from viscofric.data import read_only
 from viscofric.datasets import dataset
-from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.errors import InputError, check_choice
 from viscofric.motion.history import CONTROLS
 from viscofric.notes import Note
-from viscofric.readers.one_table import HISTORY, history_columns
-from viscofric.readers.tables import name_columns
 from viscofric.showing import Plotted
 from viscofric.units import positive, to_si, to_si_array
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from os import PathLike
-
     import xarray
 
     from viscofric.arrays import Array
@@ -180,86 +175,3 @@ class IndentationRecord(Plotted):
                 "source": self.source,
             },
         )
-
-
-def read_indentation(
-    path: str | PathLike[str],
-    *,
-    control: Control,
-    temperature: Quantity | None = None,
-    error: Quantity | None = None,
-    start: Quantity | None = None,
-    columns: Mapping[str, str] | None = None,
-    sheet: str | None = None,
-) -> IndentationRecord:
-    """Read an indentation test from a table.
-
-    Parameters
-    ----------
-    path : str or path
-        A table, text or workbook, with the columns ``time``, ``load`` and ``indentation``, and optionally
-        ``temperature``, whose mean is taken.  Units stand in the headings, such as ``load (N)``.
-    control : {"load", "indentation"}
-        What was prescribed; the other one is the response.
-    temperature : float, str or pint.Quantity, optional
-        K if a plain number, for a table without this column.
-    error : float, str or pint.Quantity, optional
-        Standard error of the response, m or N if a plain number.
-    start : float, str or pint.Quantity, optional
-        Time of the first contact, s; that of the first row if left out.
-    columns : mapping, optional
-        Headings that are not recognised, by quantity: ``{"load": "Fz (N)"}``.
-    sheet : str, optional
-        The only sheet of a workbook to read.
-
-    Returns
-    -------
-    IndentationRecord
-
-    Raises
-    ------
-    DataFileError
-        If the file cannot be read, a column or its unit is missing or wrong, or a row cannot be part of a record; with
-        the line of the file.
-    InputError
-        If the temperature is given twice or not at all, or an argument cannot be used.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> import viscofric as vf
-    >>> with Path("creep.csv").open("w") as file:
-    ...     for row in ("time (s),load (N),indentation (um)", "1,1,100", "2,1,105", "4,1,110", "8,1,114", "16,1,117"):
-    ...         print(row, file=file)
-    >>> vf.friction.read_indentation("creep.csv", control="load", temperature="23 degC", start=0.0)
-    IndentationRecord
-      time         5 from 1 to 16 s
-      load         5 of 1 N
-      indentation  5 from 100 to 117 µm
-      prescribed   load
-      temperature  23 °C
-      source       creep.csv
-    """
-    check_choice(control, "control", *RESPONSE)
-    kelvin = None if temperature is None else positive(temperature, "K", "temperature")
-    spread = None if error is None else positive(error, CONTROLS[RESPONSE[control]], "error")
-    begin = None if start is None else to_si(start, "s", "start")
-    found = history_columns(path, columns, sheet)
-    missing = [name for name in ("load", "indentation") if name not in found.values]
-    if missing:
-        problem = f"there is no column of the {' and the '.join(missing)}; an indentation test has both."
-        raise DataFileError(path, problem, code="missing-columns", remedy=name_columns(HISTORY.key, missing))
-    if found.load_unit != "N":
-        raise DataFileError(path, f"load: is in {found.load_unit}, but must be in N.", code="wrong-unit")
-    if (kelvin is None) == ("temperature" not in found.values):
-        why = "has no column of it" if kelvin is None else "has a column of it"
-        raise InputError(f"temperature: {path} {why}; give the value or the column, one of the two.", code="give-one")
-    at = float(np.mean(found.values["temperature"])) if kelvin is None else kelvin
-    try:
-        return IndentationRecord(
-            found.values["time"], found.values["load"], found.values["indentation"], at,
-            control=control, error=spread, start=begin, source=str(path),
-        )  # fmt: skip
-    except InputError as wrong:
-        place = wrong.note.values.get("index")
-        raise DataFileError(path, wrong.note, None if place is None else found.lines[place]) from None

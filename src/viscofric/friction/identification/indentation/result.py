@@ -9,6 +9,7 @@ import numpy as np
 
 from viscofric.datasets import dataset
 from viscofric.friction.identification.identified import Identified
+from viscofric.friction.identification.indentation.tables import OF_IMPACTS, STIFFNESSES
 from viscofric.rheology.spectra.quality import FROM_INDENTATION
 from viscofric.showing import Plotted
 
@@ -26,12 +27,8 @@ if TYPE_CHECKING:
 _FITTED = {
     "X": ("m2", "load over the plane-strain modulus, X(δ)"),
     "load": ("N", "normal load"),
-    "storage_stiffness": ("N/m", "storage stiffness"),
-    "loss_stiffness": ("N/m", "loss stiffness"),
-    "restitution": ("1", "coefficient of restitution"),
-    "contact_time": ("s", "contact time"),
-    "peak_force": ("N", "largest force"),
-    "indentation": ("m", "largest indentation"),
+    **STIFFNESSES,
+    **OF_IMPACTS,
     "magnitude_modulus": ("Pa", "|E|"),
     "storage_modulus": ("Pa", "storage modulus"),
     "loss_modulus": ("Pa", "loss modulus"),

@@ -11,10 +11,9 @@ from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.shapes import Ball, FlatPunch
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.identification.anchors import ModulusAnchor
-from viscofric.friction.identification.indentation.contact import EXACT, Shared
+from viscofric.friction.identification.indentation.contact import EXACT, Known, Shared
 from viscofric.friction.identification.indentation.growing import growing
 from viscofric.friction.identification.indentation.impacts import Impacts
-from viscofric.friction.identification.indentation.known import Known
 from viscofric.friction.identification.indentation.moving import Moving
 from viscofric.friction.identification.indentation.problem import IndentationProblem, fitted_by_springs
 from viscofric.friction.identification.indentation.record import IndentationRecord

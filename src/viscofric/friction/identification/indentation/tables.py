@@ -24,13 +24,13 @@ if TYPE_CHECKING:
     from viscofric.units import Quantities, Quantity
 
 #: Quantity -> unit, and long name.
-_OF_IMPACTS = {
+OF_IMPACTS = {
     "restitution": ("1", "coefficient of restitution"),
     "contact_time": ("s", "contact time"),
     "peak_force": ("N", "largest force"),
     "indentation": ("m", "largest indentation"),
 }
-_STIFFNESSES = {
+STIFFNESSES = {
     "storage_stiffness": ("N/m", "storage stiffness"),
     "loss_stiffness": ("N/m", "loss stiffness"),
 }
@@ -118,7 +118,7 @@ class ReboundRecord(Plotted):
             "peak_force": peak_force,
             "indentation": indentation,
         }
-        columns = {name: None if one is None else (one, _OF_IMPACTS[name][0]) for name, one in given.items()}
+        columns = {name: None if one is None else (one, OF_IMPACTS[name][0]) for name, one in given.items()}
         _set_columns(self, {"speed": (speed, "m/s"), **columns}, "speed")
         if not self.quantities:
             raise InputError(
@@ -150,7 +150,7 @@ class ReboundRecord(Plotted):
     @property
     def quantities(self) -> tuple[str, ...]:
         """Names of what was measured."""
-        return tuple(name for name in _OF_IMPACTS if getattr(self, name) is not None)
+        return tuple(name for name in OF_IMPACTS if getattr(self, name) is not None)
 
     def __len__(self) -> int:
         return len(self.speed)
@@ -166,7 +166,7 @@ class ReboundRecord(Plotted):
         """
         return dataset(
             "speed",
-            {name: (getattr(self, name), *_OF_IMPACTS[name]) for name in self.quantities},
+            {name: (getattr(self, name), *OF_IMPACTS[name]) for name in self.quantities},
             coordinates={"speed": (self.speed, "m/s", "speed of the impact")},
             attributes={
                 "temperature": self.temperature, "mass": self.mass, "gravity": self.gravity,
@@ -260,7 +260,7 @@ class OscillationRecord(Plotted):
         object.__setattr__(self, "temperature", positive(temperature, "K", "temperature"))
         object.__setattr__(self, "indentation", depth)
         object.__setattr__(self, "amplitude", size)
-        object.__setattr__(self, "error", _errors(error, tuple(_STIFFNESSES)))
+        object.__setattr__(self, "error", _errors(error, tuple(STIFFNESSES)))
         object.__setattr__(self, "source", text(source, "source"))
 
     def __len__(self) -> int:
@@ -288,7 +288,7 @@ class OscillationRecord(Plotted):
         """
         return dataset(
             "angular_frequency",
-            {name: (getattr(self, name), *words) for name, words in _STIFFNESSES.items()},
+            {name: (getattr(self, name), *words) for name, words in STIFFNESSES.items()},
             coordinates={"angular_frequency": (self.angular_frequency, "rad/s", "angular frequency")},
             attributes={
                 "temperature": self.temperature, "indentation": self.indentation, "amplitude": self.amplitude,
