@@ -23,11 +23,11 @@ from identify import BALL, FREQUENCY, KELVIN, MATERIALS, SPEEDS, measured
 import viscofric as vf
 from viscofric.errors import InputError
 from viscofric.friction.identification.drawn_materials import Posterior
+from viscofric.friction.identification.identify import problem_of, shifts_of
 from viscofric.friction.identification.iteration import identify, most_evident, weighed
 from viscofric.friction.identification.moduli import anchored
 from viscofric.friction.identification.points import usable_points
 from viscofric.friction.identification.problem import Problem
-from viscofric.friction.identification.setting_up import problem_of, shifts_of
 from viscofric.friction.identification.solving import Contacts, spectrum_of
 
 if TYPE_CHECKING:

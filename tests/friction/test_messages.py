@@ -17,8 +17,8 @@ from friction.test_curve_files import FOREIGN
 from friction.test_tribometry import rows_of, runs_from
 from viscofric.errors import InputError
 from viscofric.friction.identification.conclusions import _anchor_notes
-from viscofric.friction.identification.identified import with_origin
 from viscofric.friction.identification.points import usable_points
+from viscofric.friction.identification.result import with_origin
 from viscofric.friction.shifting.collapse import Collapse
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ import viscofric as vf
 from study.wrong_run_files import NO_TOML, WRONG, Wrong
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.cases.surfaces import step_of
-from viscofric.friction.identification.identified import with_origin
+from viscofric.friction.identification.result import with_origin
 from viscofric.study.run_file.study import parse_study
 
 

@@ -11,7 +11,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import DataFileError, InputError, LiquidError
-from viscofric.friction.identification.identified import with_origin
+from viscofric.friction.identification.result import with_origin
 from viscofric.notes import codes
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber_datasets import rubber_groups

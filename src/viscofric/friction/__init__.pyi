@@ -5,7 +5,6 @@ from viscofric.friction.contact_strain import solve_at_contact_strain as solve_a
 from viscofric.friction.heating import HeatedFrictionCurves as HeatedFrictionCurves
 from viscofric.friction.identification.anchors import ContactAnchor as ContactAnchor
 from viscofric.friction.identification.anchors import ModulusAnchor as ModulusAnchor
-from viscofric.friction.identification.identified import Identified as Identified
 from viscofric.friction.identification.indentation.reading import read_indentation as read_indentation
 from viscofric.friction.identification.indentation.reading import read_oscillation as read_oscillation
 from viscofric.friction.identification.indentation.reading import read_rebound as read_rebound
@@ -14,6 +13,7 @@ from viscofric.friction.identification.indentation.result import FittedRecord as
 from viscofric.friction.identification.indentation.result import MaterialFromIndentation as MaterialFromIndentation
 from viscofric.friction.identification.indentation.tables import OscillationRecord as OscillationRecord
 from viscofric.friction.identification.indentation.tables import ReboundRecord as ReboundRecord
+from viscofric.friction.identification.result import Identified as Identified
 from viscofric.friction.identification.result import IdentifiedMaterial as IdentifiedMaterial
 from viscofric.friction.interface.shear_stress import ShearStress as ShearStress
 from viscofric.friction.interface.shear_stress import shear_stress as shear_stress

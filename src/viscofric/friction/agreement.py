@@ -120,33 +120,21 @@ class Agreement(Plotted):
         """
         from viscofric.datasets import dataset
 
+        words = {
+            "bias": "mean relative difference of prediction and measurement",
+            "rms": "root mean square relative difference",
+            "share_within_error": "share of points within twice the combined standard error",
+            "points": "points compared",
+            "bias_error": "standard error of the mean relative difference",
+            "share_within_scatter": "share of repeated points within the scatter of the repetitions",
+        }
         return dataset(
             "temperature",
-            {
-                "bias": (self.bias_at, "1", "mean relative difference of prediction and measurement"),
-                "rms": (self.rms_at, "1", "root mean square relative difference"),
-                "share_within_error": (
-                    self.share_within_error_at,
-                    "1",
-                    "share of points within twice the combined standard error",
-                ),
-                "points": (self.points_at, "1", "points compared"),
-                "bias_error": (self.bias_error_at, "1", "standard error of the mean relative difference"),
-                "share_within_scatter": (
-                    self.share_within_scatter_at,
-                    "1",
-                    "share of repeated points within the scatter of the repetitions",
-                ),
-            },
+            {name: (getattr(self, f"{name}_at"), "1", long_name) for name, long_name in words.items()},
             coordinates={"temperature": (self.temperature, "K", "temperature")},
-            attributes={
-                "bias": self.bias,
-                "rms": self.rms,
-                "points": self.points,
-                "bias_error": self.bias_error,
+            attributes={name: getattr(self, name) for name in words}
+            | {
                 "material_counted": int(self.material_counted),
-                "share_within_error": self.share_within_error,
-                "share_within_scatter": self.share_within_scatter,
                 "sentences": json.dumps([str(self)], ensure_ascii=False),
             },
         )

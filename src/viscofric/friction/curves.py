@@ -11,9 +11,9 @@ from viscofric.arguments import sentences, text
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.datasets import dataset, on_grid
 from viscofric.errors import InputError, check_choice
+from viscofric.friction.cases.record import columns_of
 from viscofric.friction.curve_words import LABELS, LOADS
 from viscofric.friction.intervals import consistency_check, half_widths
-from viscofric.friction.solved_columns import columns_of
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import note_attributes
 from viscofric.rheology.interface.friction import total_error

@@ -10,10 +10,9 @@ import numpy as np
 from viscofric.contact.heated_curve import heat_columns, solve_states
 from viscofric.contact.settings import ContactSettings
 from viscofric.contact.steady import thermal_contact
-from viscofric.friction.cases.record import Record, indenter_record
+from viscofric.friction.cases.record import Record, beyond_range, columns_of_records, indenter_record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.planning.shared import SharedContacts
-from viscofric.friction.solved_columns import beyond_range, columns_of_records
 from viscofric.heat.result import SolvedHeatColumns
 from viscofric.processes import at_work
 

@@ -15,14 +15,13 @@ from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
-from viscofric.friction.cases.record import indenter_record
+from viscofric.friction.cases.record import beyond_range, columns_of_records, indenter_record
 from viscofric.friction.coupling import shear_notes
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
 from viscofric.friction.interface.prediction import check_interface, with_interface
 from viscofric.friction.planning.shared import SharedContacts, places_of
 from viscofric.friction.sensitivity import solve_with_sensitivity
-from viscofric.friction.solved_columns import beyond_range, columns_of_records
 from viscofric.heat.heating import Heating
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.interface.friction import check_interface_heat
@@ -166,7 +165,10 @@ def predict_friction(
     _insist_on_values(kelvins, "temperatures", "K")
     check_interface(interface, slip)
     if heating is not None:
-        _check_heating(heating, samples, interface, slip)
+        insist_on(heating, "heating", Heating)
+        if samples is not None:
+            raise InputError("heating: not with samples; leave out one.", code="not-with-heating")
+        check_interface_heat(heating, interface, slip)
     drawn = None if samples is None else DrawnMaterials(samples, material)
     contacts = [
         {
@@ -259,16 +261,6 @@ def _isothermal(
     if drawn is None:
         return curves
     return with_material_band(curves, [record.sensitivity for record in records], drawn)  # type: ignore[misc]
-
-
-def _check_heating(
-    heating: object, samples: MaterialSamples | None, interface: InterfaceLaw | None, slip: Quantities | None
-) -> None:
-    insist_on(heating, "heating", Heating)
-    assert isinstance(heating, Heating)
-    if samples is not None:
-        raise InputError("heating: not with samples; leave out one.", code="not-with-heating")
-    check_interface_heat(heating, interface, slip)
 
 
 def _insist_on_values(values: Array, name: str, unit: str) -> None:

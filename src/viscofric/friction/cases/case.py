@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
+from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from viscofric.contact.free.scale import Scale
@@ -14,7 +15,7 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from viscofric.arrays import Mask
     from viscofric.contact.bodies import Layer
@@ -172,8 +173,11 @@ class Rubbers:
     _modes: dict[tuple[int, int | None, float | None], RetardationSpectrum] = field(default_factory=dict, repr=False)
     _lean: dict[tuple[int, int | None], Material] = field(default_factory=dict, repr=False)
     _shifts: dict[tuple[int, int | None, float], tuple[float, float]] = field(default_factory=dict, repr=False)
-    _scales: dict[tuple[Indenter, float, float], Scale] = field(default_factory=dict, repr=False)
-    _forces: dict[tuple[Indenter, float, float], float] = field(default_factory=dict, repr=False)
+    #: Units of contacts, by indenter, stiffness (Pa) and load, or indentation (m).
+    scale: Callable[[Indenter, float, float], Scale] = field(default_factory=lambda: cache(Scale.for_load), repr=False)
+    scale_at: Callable[[Indenter, float, float], Scale] = field(
+        default_factory=lambda: cache(Scale.for_indentation), repr=False
+    )
 
     def of(self, case: Case) -> Material:
         """Return the material of a case; raise `InputError` if there is no such sample."""
@@ -219,20 +223,6 @@ class Rubbers:
         """Return the temperature recorded for a family's contacts, K; zero for materials without a shift."""
         reference = self.of(case).reference
         return 0.0 if reference is None else reference
-
-    def scale(self, indenter: Indenter, stiffness: float, load: float) -> Scale:
-        """Return the units of an indenter's contact; see `Scale.for_load`."""
-        key = indenter, stiffness, load
-        if key not in self._scales:
-            self._scales[key] = Scale.for_load(*key)
-        return self._scales[key]
-
-    def force(self, indenter: Indenter, stiffness: float, indentation: float) -> float:
-        """Return the unit of force at an indentation, N or N/m; see `Scale.for_indentation`."""
-        key = indenter, stiffness, indentation
-        if key not in self._forces:
-            self._forces[key] = Scale.for_indentation(*key).force
-        return self._forces[key]
 
     def task(self, case: Case, settings: Settings, *, fields: bool) -> Task | Failure:
         """Return the task of a single case, or the failure if there can be none."""

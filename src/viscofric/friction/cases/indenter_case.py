@@ -151,7 +151,7 @@ class IndenterCase(Case):
         if indenter is None:
             indenter, own = self.indenter, scale
         else:
-            load = indenter.geometry.parabolic_load * rubbers.force(indenter, stiffness, _LOW_SLOPE**2)
+            load = indenter.geometry.parabolic_load * rubbers.scale_at(indenter, stiffness, _LOW_SLOPE**2).force
             own = rubbers.scale(indenter, stiffness, load)
         family = IndenterCase(
             self.material,

@@ -12,10 +12,15 @@ from viscofric.friction.coupling import check_coupling
 from viscofric.friction.curve_checks import implausible
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import Findings, level_family, limits
-from viscofric.friction.identification.identified import IdentifiedBand, with_origin
 from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
 from viscofric.friction.identification.posterior import correlation, too_small
-from viscofric.friction.identification.result import NOTHING_IDENTIFIED, IdentifiedMaterial, LevelFit
+from viscofric.friction.identification.result import (
+    NOTHING_IDENTIFIED,
+    IdentifiedBand,
+    IdentifiedMaterial,
+    LevelFit,
+    with_origin,
+)
 from viscofric.notes import Note, Remedy, codes
 
 if TYPE_CHECKING:

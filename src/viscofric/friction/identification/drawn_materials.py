@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any, Generic
 import numpy as np
 
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.friction.identification.identified import IdentifiedBand
 from viscofric.friction.identification.iteration import AnyProblem, most_evident
 from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.posterior import descend, draws
-from viscofric.friction.identification.result import LevelFit
+from viscofric.friction.identification.result import IdentifiedBand, LevelFit
 from viscofric.friction.identification.solving import spectrum_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples

@@ -1,22 +1,229 @@
-"""Result of an identification from friction: the material, the uncertainty of each part of it, and its limits."""
+"""Results of identifications: the material, its samples, and the frequencies over which its moduli are known."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import json
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
+from viscofric.arguments import flag
 from viscofric.datasets import dataset
-from viscofric.friction.identification.identified import Identified
-from viscofric.notes import codes
+from viscofric.notes import Note, codes
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.spectra.quality import FROM_FRICTION
+from viscofric.rheology.shifts.shift_law import LN10
+from viscofric.rheology.spectra.quality import FROM_FRICTION, FROM_INDENTATION, SpectrumFit
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.showing import Plotted
+from viscofric.units import in_si, shown_celsius
 
 if TYPE_CHECKING:
     import xarray
+    from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
+    from viscofric.rheology.shifts.shift_law import ShiftLaw
+    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+    from viscofric.showing import Rows
+
+
+#: Factor to which the modulus is given beyond the measured frequencies, and number of frequencies.
+_BEYOND = 10.0
+_FREQUENCIES = 300
+
+
+@dataclass(frozen=True)
+class IdentifiedBand:
+    """Angular frequencies at the reference over which a modulus is determined."""
+
+    low: float  # rad/s
+    high: float  # equal to `low` where there is none
+    limit: float  # largest relative standard error of the modulus between them
+    relative: bool  # whether it is the modulus over that at the middle frequency, as its magnitude is not known
+
+    @property
+    def decades(self) -> float:
+        """Its width."""
+        return float(np.log10(self.high / self.low))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Identified(Plotted):
+    """A material identified from a measurement: what results from friction and from indentation have in common.
+
+    Samples, bands and standard errors assume a smooth spectrum; it may end, or rise to the glass transition, near the
+    first and the last of the measured frequencies.
+
+    Attributes
+    ----------
+    material : Material
+        Of the greatest posterior density, at the reference.
+    samples : MaterialSamples
+        Materials drawn from the posterior density: their spread is the uncertainty.
+    shift_factors : ShiftLaw or None
+        α(T), found with its covariance (ShiftFactors), or as given; None for one temperature.
+    shift_found : bool
+        Whether α(T) was found from the measurement.
+    identified : IdentifiedBand
+        Of |E(ω)|.
+    identified_storage, identified_loss : IdentifiedBand
+        Of E' and of E''.
+    anchored : bool
+        Whether the level of the modulus is known: from the measurement, an anchor or a prior.
+    middle : float
+        Middle of `frequency_range`, rad/s.
+    frequency_range : (float, float)
+        Lowest and highest angular frequency at the reference that the measurement covers, rad/s.
+    chi2, freedom : float
+        Sum of the squared residuals, and their degrees of freedom.
+    rms : float
+        Root mean square of the relative residuals.
+    error_scale : float
+        Factor by which given standard errors were multiplied because the residuals are larger.
+    roughness : float
+        Standard deviation of d ln C/d ln τ over an e-fold of τ for which there is most evidence.
+    notes : tuple of str
+        One sentence each.
+    """
+
+    #: What it is identified from (`SpectrumFit.method`), and the end of the sentence on unmeasured moduli.
+    METHOD: ClassVar[str]
+    UNMEASURED: ClassVar[str] = ""
+
+    material: Material
+    samples: MaterialSamples
+    shift_factors: ShiftLaw | None
+    shift_found: bool
+    identified: IdentifiedBand
+    identified_storage: IdentifiedBand
+    identified_loss: IdentifiedBand
+    anchored: bool
+    middle: float
+    frequency_range: tuple[float, float]
+    chi2: float
+    freedom: float
+    rms: float
+    error_scale: float
+    roughness: float
+    notes: tuple[str, ...] = ()
+
+    def _shown(self) -> Rows:
+        return (
+            ("material", self.material.name or None),
+            ("spectrum", self.material.spectrum),
+            ("frequencies", self.frequency_range, "rad/s"),
+            ("determined E", f"{self.identified.decades:.2g} decades"),
+            ("magnitude known", self.anchored),
+            ("misfit (rms)", self.rms, "%"),
+            ("samples", len(self.samples)),
+            ("notes", self.notes),
+        )
+
+    def standard_error(self, angular_frequency: ArrayLike, *, relative: bool | None = None) -> Array:
+        """Return the relative standard error of |E(ω)| at the reference.
+
+        Parameters
+        ----------
+        angular_frequency : array_like
+            rad/s.
+        relative : bool, optional
+            Whether of |E(ω)| over that at the middle frequency; if not given, without an anchor.
+        """
+        omega = in_si(angular_frequency, "rad/s", "angular_frequency")
+        rows = np.array([np.log(np.abs(one.complex_modulus(omega))) for one in self.samples.materials])
+        if not self.anchored if relative is None else flag(relative, "relative"):
+            level = self._levels
+            rows = rows - level.reshape((-1,) + (1,) * omega.ndim)
+        return np.asarray(rows.std(axis=0, ddof=1))
+
+    @property
+    def frequencies(self) -> Array:
+        """Angular frequencies (300,) of `frequency_range` and `identified`, a decade beyond on both sides, rad/s."""
+        (first, last), band = self.frequency_range, self.identified
+        return np.geomspace(min(first, band.low) / _BEYOND, max(last, band.high) * _BEYOND, _FREQUENCIES)
+
+    def to_dataset(self, angular_frequency: ArrayLike | None = None) -> xarray.Dataset:
+        """Return the modulus at the reference with its 95 % limits as a labelled data set.
+
+        Parameters
+        ----------
+        angular_frequency : (n,) array_like, optional
+            rad/s; if not given, `frequencies`.
+
+        Returns
+        -------
+        xarray.Dataset
+            Along ``angular_frequency``: ``storage_modulus`` and ``loss_modulus`` with ``_lower`` and ``_upper`` (Pa),
+            and ``modulus_error``, relative; the other results, in SI units, are its attributes.
+        """
+        wanted = (
+            self.frequencies if angular_frequency is None else in_si(angular_frequency, "rad/s", "angular_frequency")
+        )
+        omega = np.ravel(in_si(wanted, "rad/s", "angular_frequency"))
+        modulus, band = np.asarray(self.material.complex_modulus(omega)), self.samples.modulus_band(omega)
+        columns = {}
+        for name, part in (("storage", "real"), ("loss", "imag")):
+            columns[f"{name}_modulus"] = (getattr(modulus, part), "Pa", f"{name} modulus")
+            for side in ("lower", "upper"):
+                limit, words = getattr(getattr(band, side), part), f"{side} end of the 95 % band of the {name} modulus"
+                columns[f"{name}_modulus_{side}"] = (limit, "Pa", words)
+        of = "|E|" if self.anchored else "|E| over its level"
+        columns["modulus_error"] = (self.standard_error(omega), "1", f"relative standard error of {of}")
+        return dataset(
+            "angular_frequency",
+            columns,
+            coordinates={"angular_frequency": (omega, "rad/s", "angular frequency")},
+            attributes=self._attributes(),
+        )
+
+    def _attributes(self) -> dict[str, Any]:
+        """Return the attributes of the data set."""
+        return {
+            "reference_temperature": self.material.reference,
+            "identified_low": self.identified.low,
+            "identified_high": self.identified.high,
+            "identified_limit": self.identified.limit,
+            "middle": self.middle,
+            "anchored": int(self.anchored),
+            "chi2": self.chi2,
+            "freedom": self.freedom,
+            "rms": self.rms,
+            "error_scale": self.error_scale,
+            "sentences": json.dumps(self.sentences, ensure_ascii=False),
+        }
+
+    @cached_property
+    def _levels(self) -> Array:
+        return np.array([np.log(np.abs(one.complex_modulus(self.middle))) for one in self.samples.materials])
+
+    @property
+    def known(self) -> tuple[str, ...]:
+        """The identified parts of the modulus, one sentence each; they are stored with the material."""
+        return (self._band_words(),)
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """The result and its limits, one sentence each."""
+        return (*self.known, *self.notes)
+
+    def _band_words(self) -> str:
+        band = self.identified
+        about = "" if self.shift_factors is None else f" at {shown_celsius(float(self.shift_factors.reference))} °C"
+        of = "|E(ω)| over its level" if band.relative else "|E(ω)|"
+        if band.high <= band.low:
+            return f"Nowhere is the standard error of {of} {100.0 * band.limit:g} % or less."
+        return (
+            f"The standard error of {of} is {100.0 * band.limit:g} % or less from {band.low:.2g} to {band.high:.2g} "
+            f"rad/s{about}, {band.decades:.1f} decades, that of E'' over {self.identified_loss.decades:.1f} of them; "
+            "beyond, the material is extrapolated, with the band of a smooth spectrum."
+        )
+
+    def __str__(self) -> str:
+        return "\n".join((repr(self.material.at()), *self.sentences))
 
 
 #: Notes with which nothing counts as identified: the friction is not that of one rubber, or of no known rubber.
@@ -139,3 +346,29 @@ class IdentifiedMaterial(Identified):
             f"{largest:.2g} decades or better."
         )
         return (sentence,)
+
+
+def with_origin(found: Identified, source: str) -> Material:
+    """Return the identified material with its origin, for its file; `source` of the measurement may be empty."""
+    spectrum, band = found.material.spectrum, found.identified
+    assert isinstance(spectrum, RetardationSpectrum)
+    # Known nowhere: everything but the middle is extrapolated.
+    ends = (band.low, band.high) if band.high > band.low else (found.middle, found.middle)
+    behind = f" ({source})" if source else ""
+    origin = Note(
+        f"identified-from-{found.METHOD}",
+        f"The material was identified from {found.METHOD}{behind}; none of its moduli was measured{found.UNMEASURED}.",
+        values={"source": source},
+    )
+    fit = SpectrumFit(
+        None,
+        None,
+        E0_extrapolated=True,
+        E_inf_extrapolated=True,
+        frequency_range=(float(ends[0]), float(ends[1])),
+        notes=(origin, *found.known),
+        method=found.METHOD,
+        modes=len(spectrum),
+        rms_step=found.rms / LN10 if found.METHOD == FROM_INDENTATION else None,
+    )
+    return replace(found.material, spectrum=replace(spectrum, fit=fit))

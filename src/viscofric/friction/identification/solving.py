@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from viscofric.contact.settings import ContactOptions
     from viscofric.friction.identification.anchors import ContactAnchor
     from viscofric.friction.identification.problem import Problem
-    from viscofric.processes import Workers
 
 
 #: Contacts solved per decade of reduced speed, and decades beyond the points.  The error of the closed form changes so

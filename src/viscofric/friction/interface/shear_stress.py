@@ -15,7 +15,7 @@ from viscofric.friction.curve_checks import shared_error
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.shifting.collapse import Collapse, collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
-from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isotherms
+from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isotherms, nominal_temperatures
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import Note, note_attributes
 from viscofric.rheology.interface.fitting import StressTable, compare_stress_laws, fit_stress
@@ -106,7 +106,7 @@ class ShearStress(Plotted):
     def _reduced(self, shift: ShiftLaw | None) -> Array:
         if shift is None:
             return np.where(np.abs(self.temperature - self.reference) < SAME_TEMPERATURE, self.speed, np.nan)
-        return np.asarray(self.speed * 10.0 ** shift.values_at(_nominal(self.temperature))[0])
+        return np.asarray(self.speed * 10.0 ** shift.values_at(nominal_temperatures(self.temperature))[0])
 
     def law(self, kind: str) -> InterfaceLaw:
         """Fit a law to the shear stress, by generalised least squares of its logarithm.
@@ -302,7 +302,7 @@ def shear_stress(
     if shift is not None:
         shift = shift if kelvin is None else shift.at_reference(kelvin)
         kelvin = shift.reference
-    middle = np.unique(_nominal(curves.temperature))
+    middle = np.unique(nominal_temperatures(curves.temperature))
     found = ShearStress(
         speed=curves.speed if curves.slip is None else curves.slip,
         temperature=curves.temperature,
@@ -380,13 +380,5 @@ def _with_overlap(stress: ShearStress) -> ShearStress:
     known = np.isfinite(decades)
     if stress.shift is None or not np.any(known):
         return stress
-    columns = _nominal(stress.temperature), decades, stress.shear_stress, stress.error
+    columns = nominal_temperatures(stress.temperature), decades, stress.shear_stress, stress.error
     return replace(stress, overlap=collapse(*(column[known] for column in columns)))
-
-
-def _nominal(temperature: Array) -> Array:
-    """Return the mean temperature of the isotherm of each point."""
-    kelvin = np.empty(temperature.shape)
-    for rows in nominal_rows(temperature):
-        kelvin[rows] = temperature[rows].mean()
-    return kelvin

@@ -73,11 +73,7 @@ def widenings(members: Sequence[int], values: Array, pairs: Pairs) -> Array:
     for one, colder in enumerate(members):
         for other in range(one + 1, len(members)):
             pair, step = pairs[colder, members[other]], float(values[one] - values[other])
-            near = [
-                margin
-                for candidate, margin in zip(pair.candidates, pair.margins, strict=True)
-                if abs(candidate - step) <= _NEAR
-            ]
+            near = [margin for candidate, margin in pair.candidates.items() if abs(candidate - step) <= _NEAR]
             if near:
                 clearest[one:other] = np.maximum(clearest[one:other], max(near))
     return np.array([widening(margin) for margin in clearest.tolist()])

@@ -93,6 +93,14 @@ def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
     ]
 
 
+def nominal_temperatures(temperature: Array) -> Array:
+    """Return the mean temperature of the isotherm of each point (n,)."""
+    kelvin = np.empty(temperature.shape)
+    for rows in nominal_rows(temperature):
+        kelvin[rows] = temperature[rows].mean()
+    return kelvin
+
+
 def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
     """Return the factor of the variances, from the scatter about the isotherms' own curves.
 

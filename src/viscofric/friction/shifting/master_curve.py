@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
+from viscofric.friction.curve_words import LABELS
 from viscofric.friction.shifting.smoothing import SmoothedPoints
 from viscofric.lazy import renamed
 from viscofric.nominal import SAME_LOAD
@@ -140,18 +141,10 @@ class FrictionMasterCurve(Plotted):
             "point",
             {
                 "reduced_speed": (self.reduced_speed, "m/s", "speed times shift factor"),
-                "temperature": (self.temperature, "K", "temperature"),
-                "viscoelastic": (self.friction_coefficient, "1", "viscoelastic friction coefficient"),
-                "viscoelastic_error": (
-                    self.friction_error,
-                    "1",
-                    "standard error of the viscoelastic friction coefficient",
-                ),
-                "viscoelastic_scatter": (
-                    self.friction_scatter,
-                    "1",
-                    "standard deviation of the viscoelastic friction coefficient",
-                ),
+                "temperature": (self.temperature, *LABELS["temperature"]),
+                "viscoelastic": (self.friction_coefficient, *LABELS["viscoelastic"]),
+                "viscoelastic_error": (self.friction_error, *LABELS["viscoelastic_error"]),
+                "viscoelastic_scatter": (self.friction_scatter, *LABELS["viscoelastic_scatter"]),
             },
             attributes={"reference_temperature": self.reference, "load": self.load},
         )

@@ -51,8 +51,9 @@ class Pair:
 
     steps: Array  # (k,), log10 α of the colder minus that of the warmer, all that were tried
     chi2: Array  # (k,), squared difference of the curves at each, in units of its covariance
-    candidates: tuple[float, ...]  # steps where the curves coincide, each bounded by contradiction on both sides
-    margins: tuple[float, ...]  # standard deviations by which each is bounded; above the root of CONTRADICTION
+    # steps where the curves coincide, best first, and by how many standard deviations contradiction bounds each on both
+    # sides, above the root of CONTRADICTION
+    candidates: dict[float, float]
     # "rising" if the curves coincide only with an α that rises with temperature
     verdict: Literal["overlap", "rising", "flat", "apart"]
 
@@ -67,15 +68,14 @@ def scan(colder: FrictionIsotherm, warmer: FrictionIsotherm, scale: float) -> Pa
     """Compare two curves at all steps between them; `scale` multiplies the variances of both."""
     steps = _steps(colder, warmer)
     if not steps.size:
-        return Pair(steps, steps, (), (), "apart")
+        return Pair(steps, steps, {}, "apart")
     chi2 = _chi2(colder, warmer, steps, scale)
     bounded = _bounded(steps, chi2)
-    found = tuple(step for step, highest, _ in bounded if highest >= -WRONG_WAY)
-    margins = tuple(margin for _, highest, margin in bounded if highest >= -WRONG_WAY)
+    found = {step: margin for step, highest, margin in bounded if highest >= -WRONG_WAY}
     if bounded:
-        return Pair(steps, chi2, found, margins, "overlap" if found else "rising")
+        return Pair(steps, chi2, found, "overlap" if found else "rising")
     possible = np.mean(chi2 <= LARGEST_MISFIT)
-    return Pair(steps, chi2, (), (), "flat" if possible > FLAT else "apart")
+    return Pair(steps, chi2, {}, "flat" if possible > FLAT else "apart")
 
 
 def _steps(colder: FrictionIsotherm, warmer: FrictionIsotherm) -> Array:
@@ -166,13 +166,12 @@ def _with_those_between(places: tuple[int, int], pair: Pair, pairs: Pairs) -> Pa
         parts = np.arange(-WRONG_WAY, max(step, 0.0) + WRONG_WAY + STEP, STEP)
         return all(max(upper.cost(part), lower.cost(step - part)) > LARGEST_MISFIT for part in parts.tolist())
 
-    kept = [
-        (step, margin)
-        for step, margin in zip(pair.candidates, pair.margins, strict=True)
+    kept = {
+        step: margin
+        for step, margin in pair.candidates.items()
         if 2 * sum(contradicts(one, step) for one in between) <= len(between)
-    ]
-    steps, margins = tuple(step for step, _ in kept), tuple(margin for _, margin in kept)
-    return replace(pair, candidates=steps, margins=margins, verdict=pair.verdict if steps else "apart")
+    }
+    return replace(pair, candidates=kept, verdict=pair.verdict if kept else "apart")
 
 
 def groups(places: Iterable[int], joined: Iterable[tuple[int, int]]) -> list[list[int]]:

@@ -12,7 +12,7 @@ from viscofric.friction.curves import insist_on_curves
 from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.friction.shifting.collapse import collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
-from viscofric.friction.shifting.isotherms import friction_isotherms
+from viscofric.friction.shifting.isotherms import friction_isotherms, nominal_temperatures
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.nominal import SAME_LOAD, nominal_rows
@@ -135,7 +135,8 @@ def shift_friction(
         shift = shift.at_reference(kelvin)
     vertical = None if vertical_shift is None else vertical_shift.at_reference(shift.reference)
     points = _at_one_load(curves, rule, at_load, vertical)
-    decades = np.log10(points.speed) + (_nominal_log10(shift, curves) if found else shift.log10(curves.temperature))
+    temperature = nominal_temperatures(curves.temperature) if found else curves.temperature
+    decades = np.log10(points.speed) + shift.log10(temperature)
     order = np.argsort(decades, kind="stable")
     return FrictionMasterCurve(
         reduced_speed=_frozen(10.0 ** decades[order]),
@@ -188,14 +189,6 @@ def _at_one_load(
     curves: FrictionCurves, rule: LoadRule | None, load: float, vertical_shift: VerticalShift | None
 ) -> FrictionCurves:
     return curves if rule is None else rule.reduced(curves, load, vertical_shift)
-
-
-def _nominal_log10(shift: ShiftLaw, curves: FrictionCurves) -> Array:
-    """Return log10 α (n,) at the mean temperature of each isotherm."""
-    kelvin = np.empty(len(curves))
-    for rows in nominal_rows(curves.temperature):
-        kelvin[rows] = curves.temperature[rows].mean()
-    return np.asarray(shift.log10(kelvin))
 
 
 def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: Any, load: Any) -> None:

@@ -177,7 +177,13 @@ def compare_shift_factors(
     >>> round(agreement.p_value, 3), round(agreement.slope, 3), round(agreement.slope_error, 3)
     (1.0, 1.0, 0.011)
     """
-    table = _factors(found, "found")
+    from scipy.special import gammaincc
+
+    table = getattr(found, "shift_factors", found)
+    if not isinstance(table, ShiftFactors):
+        raise InputError(
+            f"found must be ShiftFactors or a FrictionMasterCurve, not {type(found).__name__}.", code="no-shift"
+        )
     reference = table.reference
     keep = np.abs(table.temperatures - reference) > AT_REFERENCE
     law: Any = getattr(other, "shift", None)
@@ -200,7 +206,8 @@ def compare_shift_factors(
     x, x_spread = np.asarray(law.log10(kelvin)), law.covariance_at(kelvin)
     difference, spread = y - x, x_spread + y_spread
     mix = _independent(spread)
-    chi2, freedom = _chi2(mix @ difference, mix @ spread @ mix.T), len(mix)
+    mixed, freedom = mix @ difference, len(mix)
+    chi2 = float(mixed @ np.linalg.solve(mix @ spread @ mix.T + ROUNDING**2 * np.eye(freedom), mixed))
     slope, slope_error = _slope(mix @ x, mix @ y, mix @ x_spread @ mix.T, mix @ y_spread @ mix.T)
     return ShiftAgreement(
         reference=reference,
@@ -209,23 +216,13 @@ def compare_shift_factors(
         error=np.sqrt(np.maximum(np.diag(spread), 0.0)),
         chi2=chi2,
         freedom=freedom,
-        p_value=_p_value(chi2, freedom),
+        p_value=float(gammaincc(0.5 * freedom, 0.5 * chi2)),
         slope=slope,
         slope_error=slope_error,
         rms=float(np.sqrt(np.mean(difference**2))),
         found=table,
         other=law,
     )
-
-
-def _factors(found: Any, name: str) -> ShiftFactors:
-    table = getattr(found, "shift_factors", found)
-    if not isinstance(table, ShiftFactors):
-        raise InputError(
-            f"{name} must be ShiftFactors or a FrictionMasterCurve, not {type(found).__name__}.",
-            code="no-shift",
-        )
-    return table
 
 
 def _independent(spread: Array) -> Array:
@@ -236,16 +233,6 @@ def _independent(spread: Array) -> Array:
     variance, axes = np.linalg.eigh(spread)
     keep = variance > INTERPOLATED * variance[-1]
     return np.asarray(axes[:, keep].T if keep.any() else np.eye(len(spread)))
-
-
-def _chi2(difference: Array, spread: Array) -> float:
-    return float(difference @ np.linalg.solve(spread + ROUNDING**2 * np.eye(difference.size), difference))
-
-
-def _p_value(chi2: float, freedom: int) -> float:
-    from scipy.special import gammaincc
-
-    return float(gammaincc(0.5 * freedom, 0.5 * chi2))
 
 
 def _slope(x: Array, y: Array, x_spread: Array, y_spread: Array) -> tuple[float, float]:

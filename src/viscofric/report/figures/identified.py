@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from viscofric.arrays import Array
-    from viscofric.friction.identification.identified import Identified
     from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
+    from viscofric.friction.identification.result import Identified
     from viscofric.report.data import Master
 
 

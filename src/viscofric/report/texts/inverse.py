@@ -19,8 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from viscofric.arrays import Array
-    from viscofric.friction.identification.identified import IdentifiedBand
-    from viscofric.friction.identification.result import IdentifiedMaterial
+    from viscofric.friction.identification.result import IdentifiedBand, IdentifiedMaterial
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement
     from viscofric.rheology.shifts.laws import ParametricLaw

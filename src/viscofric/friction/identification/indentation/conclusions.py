@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.identification.drawn_materials import Findings, limits
-from viscofric.friction.identification.identified import IdentifiedBand, with_origin
 from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
 from viscofric.friction.identification.indentation.setting_up import LEAST_POINTS
 from viscofric.friction.identification.indentation.tables import ReboundRecord
 from viscofric.friction.identification.iteration import freedom_of, most_evident
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import ROUGHNESS
+from viscofric.friction.identification.result import IdentifiedBand, with_origin
 from viscofric.notes import Note
 
 if TYPE_CHECKING:

@@ -10,13 +10,13 @@ from viscofric.arguments import insist_on, text
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError, wrong_argument
+from viscofric.friction.identification.identify import check_counts
 from viscofric.friction.identification.indentation.conclusions import conclude
 from viscofric.friction.identification.indentation.contact import Shared
 from viscofric.friction.identification.indentation.problem import fitted_by_springs
 from viscofric.friction.identification.indentation.setting_up import Record, problem_of, shifts_of, usable_records
 from viscofric.friction.identification.iteration import freedom_of, most_evident, weighed
 from viscofric.friction.identification.posterior import descend
-from viscofric.friction.identification.setting_up import check_counts
 from viscofric.motion.springs import is_body_of_revolution
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.threads import one_blas_thread

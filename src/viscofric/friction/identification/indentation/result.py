@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from viscofric.datasets import dataset
-from viscofric.friction.identification.identified import Identified
 from viscofric.friction.identification.indentation.tables import OF_IMPACTS, STIFFNESSES
+from viscofric.friction.identification.result import Identified
 from viscofric.rheology.spectra.quality import FROM_INDENTATION
 from viscofric.showing import Plotted
 
