@@ -274,7 +274,7 @@ def test_identification_says() -> None:
     measured = SimpleNamespace(points=(), measured=lambda place: (np.array([5.03, -1.0]), None))
     best = SimpleNamespace(problem=measured, minimum=SimpleNamespace(place=None))
     level = [vf.Material.standard_linear_solid(E0=one, E_inf=10.0 * one, tau=1e-3) for one in (1e6, 2e6)]
-    assert _anchor_notes(best, SimpleNamespace(materials=level), 30.0, 0.3) == (
+    assert tuple(_anchor_notes(best, SimpleNamespace(materials=level), 30.0, 0.3)) == (
         (
             "The anchor or prior does not fix the level of the modulus at the frequencies of the friction: the "
             "standard error of |E| at 30 rad/s is 49 %; give an anchor near there."

@@ -33,7 +33,7 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
@@ -140,28 +140,21 @@ def with_material_band(
     )
 
 
-def _doubts(friction: Array, lower: Array, upper: Array) -> tuple[str, ...]:
-    """Return notes on points where the band is wide for a first order, or does not include the friction itself."""
-    said = []
+def _doubts(friction: Array, lower: Array, upper: Array) -> Iterator[Note]:
+    """Yield notes on points where the band is wide for a first order, or does not include the friction itself."""
     change = np.maximum(upper - friction, friction - lower) / np.maximum(np.abs(friction), np.finfo(float).tiny)
     if np.any(change > LARGE_CHANGE):
-        said.append(
-            Note(
-                "large-change",
-                f"At {np.count_nonzero(change > LARGE_CHANGE)} of {friction.size} points the material's errors change "
-                f"friction by more than {100 * LARGE_CHANGE:.0f} % (by {100 * change.max():.0f} % at most): the band, "
-                "found to first order, is rough there.",
-            )
+        yield Note(
+            "large-change",
+            f"At {np.count_nonzero(change > LARGE_CHANGE)} of {friction.size} points the material's errors change "
+            f"friction by more than {100 * LARGE_CHANGE:.0f} % (by {100 * change.max():.0f} % at most): the band, "
+            "found to first order, is rough there.",
         )
     rounding = 1e-9 * np.abs(friction)
     strayed = (friction < lower - rounding) | (friction > upper + rounding)
     if np.any(strayed):
-        said.append(
-            Note(
-                "outside-band",
-                f"At {np.count_nonzero(strayed)} of {friction.size} points the predicted friction lies outside the "
-                "95 % "
-                "band of the samples: they scatter about another material than the one that was solved.",
-            )
+        yield Note(
+            "outside-band",
+            f"At {np.count_nonzero(strayed)} of {friction.size} points the predicted friction lies outside the 95 % "
+            "band of the samples: they scatter about another material than the one that was solved.",
         )
-    return tuple(said)

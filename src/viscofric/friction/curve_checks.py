@@ -14,6 +14,8 @@ from viscofric.notes import Note
 from viscofric.units import number, shown_celsius
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.units import Quantity
@@ -134,7 +136,7 @@ def implausible(curves: FrictionCurves) -> tuple[Note, ...]:
     return (*_too_steep(curves), *_constant(curves))
 
 
-def _too_steep(curves: FrictionCurves) -> tuple[Note, ...]:
+def _too_steep(curves: FrictionCurves) -> Iterator[Note]:
     steepest, where = np.inf, ""
     for rows in nominal_rows(curves.temperature):
         mine = curves.select(rows)
@@ -149,27 +151,25 @@ def _too_steep(curves: FrictionCurves) -> tuple[Note, ...]:
         by_own = threshold(np.inf, STEEPER) ** 2 * float(np.mean(own**2))
         if slope + np.sqrt(max(about, by_own) / (x @ x)) < min(STEEPEST, steepest):
             steepest, where = slope, f"{shown_celsius(float(mine.temperature.mean()))} °C"
-    if not np.isfinite(steepest):
-        return ()
-    said = (
-        f"Friction at {where} falls as v to the power {steepest:.2g}. That of a linear rubber never falls faster than "
-        "1/v, because the power lost in it does not fall with speed; check speeds, forces and lubrication."
-    )
-    return (Note("too-steep", said),)
+    if np.isfinite(steepest):
+        yield Note(
+            "too-steep",
+            f"Friction at {where} falls as v to the power {steepest:.2g}. That of a linear rubber never falls faster "
+            "than 1/v, because the power lost in it does not fall with speed; check speeds, forces and lubrication.",
+        )
 
 
-def _constant(curves: FrictionCurves) -> tuple[Note, ...]:
+def _constant(curves: FrictionCurves) -> Iterator[Note]:
     from scipy.special import chdtrc
 
     error = curves.viscoelastic_error
     if len(curves) <= _FEWEST_POINTS or not np.any(error > 0.0):
-        return ()
+        return
     weight = 1.0 / np.maximum(error, 1e-3 * error.max()) ** 2
     away = curves.viscoelastic - np.average(curves.viscoelastic, weights=weight)
-    if chdtrc(len(curves) - 1, float(weight @ away**2)) < CHANCE:
-        return ()
-    said = (
-        f"Friction of all {len(curves)} points is the same within its errors, as Coulomb friction is; it may not come "
-        "from the rubber's loss; measure at more speeds and temperatures, or separate the two."
-    )
-    return (Note("constant-friction", said),)
+    if chdtrc(len(curves) - 1, float(weight @ away**2)) >= CHANCE:
+        yield Note(
+            "constant-friction",
+            f"Friction of all {len(curves)} points is the same within its errors, as Coulomb friction is; it may not "
+            "come from the rubber's loss; measure at more speeds and temperatures, or separate the two.",
+        )

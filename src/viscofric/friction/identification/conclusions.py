@@ -24,7 +24,7 @@ from viscofric.friction.identification.result import (
 from viscofric.notes import Note, Remedy, codes
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from viscofric.arrays import Array
     from viscofric.friction.identification.drawn_materials import Posterior
@@ -79,7 +79,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         fits, (low, high), shift=outcome.shift, poisson_ratio=ratio, name=outcome.name, samples=samples, seed=seed
     )
     middle, drawn, points = found.middle, found.drawn, best.problem.points
-    doubts = _doubts(outcome, error_scale, best, limit)
+    doubts = tuple(_doubts(outcome, error_scale, best, limit))
     bands = [
         IdentifiedBand(middle, middle, limit, not anchored)
         if codes(doubts) & NOTHING_IDENTIFIED
@@ -137,45 +137,38 @@ def _coupling(outcome: Outcome, material: Material) -> tuple[str, ...]:
     return () if coupled is None or coupled.holds else (coupled.sentence,)
 
 
-def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit: float) -> tuple[str, ...]:
-    """Return notes on doubts about the residuals and the friction."""
-    points = outcome.start.points
-    notes: list[str] = list(implausible(points.at_one_load(outcome.curves)))
-    if error_scale == 1.0 and not notes and "errors-from-scatter" not in codes(points.notes):
-        example = "as that of an assumed Coulomb friction"
-        return too_small(_residuals(best), freedom_of(best, len(points)), example, SHARED)
+def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit: float) -> Iterator[Note]:
+    """Yield notes on doubts about the residuals and the friction."""
+    points, away = outcome.start.points, _residuals(best)
+    implausible_friction = implausible(points.at_one_load(outcome.curves))
+    yield from implausible_friction
     if error_scale == 1.0:
-        return tuple(notes)
+        if not implausible_friction and "errors-from-scatter" not in codes(points.notes):
+            example = "as that of an assumed Coulomb friction"
+            yield from too_small(away, freedom_of(best, len(points)), example, SHARED)
+        return
     scaled = f"The residuals are {error_scale:.2g} times larger than the standard errors of the friction"
-    away = _residuals(best)
     follow = _follow_each_other(best, away)
     missed = float(np.sqrt(np.mean((away * best.problem.points.error) ** 2)))
     if missed > limit and error_scale > (MODEL_FAILS if follow else MODEL_FAILS_ANYHOW):
-        notes.append(
-            Note(
-                "not-one-rubber",
-                f"{scaled}, and {100.0 * missed:.2g} % of it: no linear rubber of a smooth spectrum has this "
-                "friction, and nothing is identified, however narrow the bands of the nearest one; check the "
-                "measurement, the load and the indenter.",
-            )
+        yield Note(
+            "not-one-rubber",
+            f"{scaled}, and {100.0 * missed:.2g} % of it: no linear rubber of a smooth spectrum has this friction, and "
+            "nothing is identified, however narrow the bands of the nearest one; check the measurement, the load and "
+            "the indenter.",
         )
     elif follow:
-        notes.append(
-            Note(
-                "structured-residuals",
-                f"{scaled}, which were multiplied by that, and are correlated along the speed: they are not scatter, "
-                "and the bands are too narrow.",
-            )
+        yield Note(
+            "structured-residuals",
+            f"{scaled}, which were multiplied by that, and are correlated along the speed: they are not scatter, and "
+            "the bands are too narrow.",
         )
     else:
-        notes.append(
-            Note(
-                "errors-enlarged",
-                f"{scaled}, which were multiplied by that: they are too small, or one shifted material does not "
-                "describe all of the points.",
-            )
+        yield Note(
+            "errors-enlarged",
+            f"{scaled}, which were multiplied by that: they are too small, or one shifted material does not describe "
+            "all of the points.",
         )
-    return tuple(notes)
 
 
 def _residuals(best: Weighed[Problem]) -> Array:
@@ -191,31 +184,25 @@ def _follow_each_other(best: Weighed[Problem], residuals: Array) -> bool:
     return max(correlation(residuals[order]) for order in orders) > FOLLOWING
 
 
-def _anchor_notes(best: Weighed[Problem], drawn: MaterialSamples, middle: float, limit: float) -> tuple[Note, ...]:
-    """Return notes on anchors that do not determine the level, or contradict the friction or each other."""
-    notes = []
+def _anchor_notes(best: Weighed[Problem], drawn: MaterialSamples, middle: float, limit: float) -> Iterator[Note]:
+    """Yield notes on anchors that do not determine the level, or contradict the friction or each other."""
     spread = float(np.std([np.log(np.abs(one.complex_modulus(middle))) for one in drawn.materials], ddof=1))
     if spread > limit:
-        notes.append(
-            Note(
-                "level-not-fixed",
-                "The anchor or prior does not fix the level of the modulus at the frequencies of the friction: the "
-                f"standard error of |E| at {middle:.2g} rad/s is {100.0 * spread:.2g} %; give an anchor near there.",
-                values={"frequency": middle, "standard_error": spread},
-            )
+        yield Note(
+            "level-not-fixed",
+            "The anchor or prior does not fix the level of the modulus at the frequencies of the friction: the "
+            f"standard error of |E| at {middle:.2g} rad/s is {100.0 * spread:.2g} %; give an anchor near there.",
+            values={"frequency": middle, "standard_error": spread},
         )
     points = len(best.problem.points)
     away = float(np.max(np.abs(best.problem.measured(best.minimum.place)[0][points:]), initial=0.0))
     if away > CONTRADICTED:
-        notes.append(
-            Note(
-                "anchor-contradicted",
-                f"The anchor or prior differs from the fit by {away:.2g} of its standard errors: it contradicts the "
-                "friction or itself.",
-                values={"standard_errors": away},
-            )
+        yield Note(
+            "anchor-contradicted",
+            f"The anchor or prior differs from the fit by {away:.2g} of its standard errors: it contradicts the "
+            "friction or itself.",
+            values={"standard_errors": away},
         )
-    return tuple(notes)
 
 
 def _frequencies(best: Weighed[Problem]) -> tuple[float, float]:

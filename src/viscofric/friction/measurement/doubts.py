@@ -14,6 +14,8 @@ from viscofric.notes import Note
 from viscofric.units import shown_number
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from viscofric.arrays import Array
     from viscofric.friction.measurement.fit import Entry, Fit
     from viscofric.friction.measurement.zeros import Zeros
@@ -41,10 +43,9 @@ def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[Note]:
     ]
 
 
-def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
-    """Return notes on negative coefficients, one for each possible reason."""
+def _negative(fits: list[Fit], entries: list[Entry]) -> Iterator[Note]:
+    """Yield notes on negative coefficients, one for each possible reason."""
     groups = [fit.group for fit in fits]
-    notes = []
     for number, name, reason in ((1, "viscoelastic", _why_viscoelastic), (2, "Coulomb", _why_coulomb)):
         deviation = np.array([-entry.value[number] for entry in entries])
         reasons = defaultdict(list)
@@ -53,16 +54,13 @@ def _negative(fits: list[Fit], entries: list[Entry]) -> list[Note]:
             places += [place for place in _assumed_too_large(fits, entries, deviation) if place not in places]
         for place in sorted(places):
             reasons[reason(fits[place], entries[place])].append(place)
-        notes += [
-            Note(
+        for (causes, why), places in reasons.items():
+            yield Note(
                 "negative-friction",
                 f"{where([groups[place] for place in places], len(groups))} the {name} friction coefficient is "
                 f"negative ({_shown(entries[places[0]], number)}): {why}.",
                 values={"coefficient": name, "conditions": len(places), "reasons": list(causes)},
             )
-            for (causes, why), places in reasons.items()
-        ]
-    return notes
 
 
 def _assumed_too_large(fits: list[Fit], entries: list[Entry], deviation: Array) -> list[int]:
@@ -112,80 +110,63 @@ def _why_coulomb(fit: Fit, entry: Entry) -> tuple[tuple[str, ...], str]:
     return (cause,), f"probably {_CAUSES[cause]}"
 
 
-def _inconsistent(groups: list[Condition], entries: list[Entry]) -> list[Note]:
+def _inconsistent(groups: list[Condition], entries: list[Entry]) -> Iterator[Note]:
     found = _significant(groups, entries, 3, np.array([abs(entry.value[3]) for entry in entries]))
-    if not found:
-        return []
-    note = Note(
-        "inconsistent",
-        f"{where([groups[one] for one in found], len(groups))} the four sign configurations are inconsistent: their "
-        f"residual is {_shown(entries[found[0]], 3)} of the load, where scatter alone would give zero.",
-        values={"conditions": len(found), "of": len(groups)},
-    )
-    return [note]
+    if found:
+        yield Note(
+            "inconsistent",
+            f"{where([groups[one] for one in found], len(groups))} the four sign configurations are inconsistent: "
+            f"their residual is {_shown(entries[found[0]], 3)} of the load, where scatter alone would give zero.",
+            values={"conditions": len(found), "of": len(groups)},
+        )
 
 
-def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[Note]:
+def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> Iterator[Note]:
     """Compare the fitted zero with the recorded one."""
     groups = [fit.group for fit in fits]
     recorded = np.array([zeros.mean(fit.group) if fit.fits_offset else np.nan for fit in fits])
     deviation = np.abs([entry.value[0] for entry in entries] - recorded)
     found = _significant(groups, entries, 0, np.where(np.isfinite(deviation), deviation, 0.0), zeros.error)
-    if not found:
-        return []
-    first = found[0]
-    note = Note(
-        "another-zero",
-        f"{where([groups[one] for one in found], len(groups))} the zero of the force cell from the configurations, "
-        f"{_shown(entries[first], 0)} N, differs from the recorded one, {shown_number(float(recorded[first]), '.2g')} "
-        "N; the former is used.",
-        values={
-            "conditions": len(found),
-            "of": len(groups),
-            "fitted": float(entries[first].value[0]),
-            "recorded": float(recorded[first]),
-        },
-    )
-    return [note]
+    if found:
+        fitted, known = entries[found[0]], float(recorded[found[0]])
+        yield Note(
+            "another-zero",
+            f"{where([groups[one] for one in found], len(groups))} the zero of the force cell from the configurations, "
+            f"{_shown(fitted, 0)} N, differs from the recorded one, {shown_number(known, '.2g')} N; the former is "
+            "used.",
+            values={"conditions": len(found), "of": len(groups), "fitted": float(fitted.value[0]), "recorded": known},
+        )
 
 
-def _incomplete(groups: list[Condition], entries: list[Entry]) -> list[Note]:
-    """Return notes on conditions where replicates lack configurations, or are too few."""
+def _incomplete(groups: list[Condition], entries: list[Entry]) -> Iterator[Note]:
+    """Yield notes on conditions where replicates lack configurations, or are too few."""
     total = len(groups)
-    notes = []
     together = [group for group, entry in zip(groups, entries, strict=True) if entry.together]
     beside = _rolling_beside(together, groups)
     rolled = [(group, readings) for group, readings in zip(together, beside, strict=True) if readings]
     if rolled:
         readings = rolled[0][1]
-        notes.append(
-            Note(
-                "pure-rolling",
-                f"{where([group for group, _ in rolled], total)} slip is zero (pure rolling) in {readings} "
-                f"reading{'s' if readings > 1 else ''}, so that not every replicate has all configurations and all "
-                "readings are fitted together.",
-                values={"readings": int(readings), "conditions": len(rolled), "of": total},
-            )
+        yield Note(
+            "pure-rolling",
+            f"{where([group for group, _ in rolled], total)} slip is zero (pure rolling) in {readings} "
+            f"reading{'s' if readings > 1 else ''}, so that not every replicate has all configurations and all "
+            "readings are fitted together.",
+            values={"readings": int(readings), "conditions": len(rolled), "of": total},
         )
     missing = [group for group, readings in zip(together, beside, strict=True) if not readings]
     if missing:
-        notes.append(
-            Note(
-                "incomplete-replicates",
-                f"{where(missing, total)} not every replicate has all sign configurations, so all readings "
-                "are fitted together.",
-            )
+        yield Note(
+            "incomplete-replicates",
+            f"{where(missing, total)} not every replicate has all sign configurations, so all readings "
+            "are fitted together.",
         )
     alone = [group for group, entry in zip(groups, entries, strict=True) if not np.isfinite(entry.error[1])]
     if alone:
-        notes.append(
-            Note(
-                "few-readings",
-                f"{where(alone, total)} there are too few readings to estimate the scatter; standard errors are "
-                "infinite; repeat the test.",
-            )
+        yield Note(
+            "few-readings",
+            f"{where(alone, total)} there are too few readings to estimate the scatter; standard errors are "
+            "infinite; repeat the test.",
         )
-    return notes
 
 
 def _significant(
@@ -219,18 +200,16 @@ def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]
     return [sum(one.rows.size for one in rolling[group.temperature, group.speed] if group.alike(one)) for group in some]
 
 
-def constant_force(runs: TractionRuns) -> list[Note]:
-    """Return a note if all readings of the force are the same, as those of a force cell that was not recorded."""
+def constant_force(runs: TractionRuns) -> Iterator[Note]:
+    """Yield a note if all readings of the force are the same, as those of a force cell that was not recorded."""
     force = runs.traction_force
-    if force.size < _FEWEST_FOR_OUTLIERS or np.ptp(force) > 0.0:
-        return []
-    note = Note(
-        "constant-force",
-        f"All {force.size} readings of the traction force are the same, {shown_number(float(force[0]), '.4g')} N, so "
-        "that all friction is zero; check whether the force was recorded.",
-        values={"readings": int(force.size), "force": float(force[0])},
-    )
-    return [note]
+    if force.size >= _FEWEST_FOR_OUTLIERS and np.ptp(force) == 0.0:
+        yield Note(
+            "constant-force",
+            f"All {force.size} readings of the traction force are the same, {shown_number(float(force[0]), '.4g')} N, "
+            "so that all friction is zero; check whether the force was recorded.",
+            values={"readings": int(force.size), "force": float(force[0])},
+        )
 
 
 def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], list[Note]]:
@@ -298,7 +277,7 @@ def outliers(runs: TractionRuns, groups: list[Condition], entries: list[Entry]) 
     return found
 
 
-def outlier_notes(runs: TractionRuns, found: list[tuple[Condition, int]], *, left_out: bool) -> list[str]:
+def outlier_notes(runs: TractionRuns, found: list[tuple[Condition, int]], *, left_out: bool) -> list[Note]:
     """Return a note that names outliers by their rows in the runs."""
     if not found:
         return []

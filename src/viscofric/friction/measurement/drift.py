@@ -15,6 +15,8 @@ from viscofric.notes import Note
 from viscofric.units import shown_number
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from viscofric.arrays import Array, Integers
     from viscofric.friction.measurement.fit import Entry
 
@@ -86,50 +88,42 @@ class Drift:
         entry = fit.entry(self.weights, zeros, error, freedom)
         return entry.widened((self.error * fit.each[:, :, DRIFT].mean(axis=0)) ** 2, self.freedom)
 
-    def notes(self, fits: list[Fit]) -> list[Note]:
-        """Return notes on the drift and its treatment."""
-        notes = []
+    def notes(self, fits: list[Fit]) -> Iterator[Note]:
+        """Yield notes on the drift and its treatment."""
         load = float(np.mean([fit.group.load for fit in fits]))
         if self.follows:
-            notes.append(
-                Note(
-                    "zero-unsteady",
-                    "The zero of the force cell changes from one recording to the next and the forces change with "
-                    "it, so that each reading is taken relative to its own recorded zero.",
-                )
+            yield Note(
+                "zero-unsteady",
+                "The zero of the force cell changes from one recording to the next and the forces change with it, so "
+                "that each reading is taken relative to its own recorded zero.",
             )
         if self.rate:
             moved = np.array([fit.each[:, 1:3, DRIFT].mean(axis=0) for fit in fits if fit.fits_offset])
             size = np.abs(self.rate * moved).max(axis=0)
-            notes.append(
-                Note(
-                    "zero-drifts",
-                    f"The zero of the force cell drifts by {shown_number(_PER_HOUR * self.rate, '.2g')} ± "
-                    f"{_PER_HOUR * self.error:.1g} N/h, "
-                    f"which is taken out; left in, it would change the friction coefficients by up to {size[0]:.2g} "
-                    f"(viscoelastic) and {size[1]:.2g} (Coulomb).",
-                    values={  # rate and its error in N/s
-                        "rate": self.rate,
-                        "error": self.error,
-                        "viscoelastic": float(size[0]),
-                        "coulomb": float(size[1]),
-                    },
-                )
+            yield Note(
+                "zero-drifts",
+                f"The zero of the force cell drifts by {shown_number(_PER_HOUR * self.rate, '.2g')} ± "
+                f"{_PER_HOUR * self.error:.1g} N/h, "
+                f"which is taken out; left in, it would change the friction coefficients by up to {size[0]:.2g} "
+                f"(viscoelastic) and {size[1]:.2g} (Coulomb).",
+                values={  # rate and its error in N/s
+                    "rate": self.rate,
+                    "error": self.error,
+                    "viscoelastic": float(size[0]),
+                    "coulomb": float(size[1]),
+                },
             )
         if self.wandering:
             how, advice = "unevenly ", "measure the configurations of a condition in quick succession"
             if not self.timed:
                 how, advice = "", "record the times of the readings (time)"
-            notes.append(
-                Note(
-                    "zero-wanders",
-                    f"The zero of the force cell moves {how}in the course of the test, with a standard deviation of "
-                    f"{self.wandering:.2g} N ({self.wandering / load:.2g} of the load), which cannot be taken out; "
-                    f"{advice}.",
-                    values={"standard_deviation": self.wandering, "of_load": self.wandering / load},
-                )
+            yield Note(
+                "zero-wanders",
+                f"The zero of the force cell moves {how}in the course of the test, with a standard deviation of "
+                f"{self.wandering:.2g} N ({self.wandering / load:.2g} of the load), which cannot be taken out; "
+                f"{advice}.",
+                values={"standard_deviation": self.wandering, "of_load": self.wandering / load},
             )
-        return notes
 
 
 def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:

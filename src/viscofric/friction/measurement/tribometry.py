@@ -23,6 +23,8 @@ from viscofric.traction import TractionRuns
 from viscofric.units import Quantity, positive, share
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from viscofric.arrays import Array, Integers
     from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.fit import Entry
@@ -215,7 +217,7 @@ class _Separation:
         ]
         return cls(fits, entries, places, notes)
 
-    def curves(self, runs: TractionRuns, assumed: Assumed, notes: list[str]) -> FrictionCurves:
+    def curves(self, runs: TractionRuns, assumed: Assumed, notes: Sequence[str]) -> FrictionCurves:
         """Return one entry for each condition."""
         groups = [fit.group for fit in self.fits]
         sliding = any(entry.slides for entry in self.entries)

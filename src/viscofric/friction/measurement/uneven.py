@@ -13,6 +13,8 @@ from viscofric.friction.measurement.growth import Growth
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from viscofric.arrays import Array
     from viscofric.friction.measurement.fit import Entry, Fit
     from viscofric.traction import TractionRuns
@@ -67,9 +69,8 @@ class Uneven:
         )
         return entry.widened(by_scatter, entry.freedom[1]).widened(by_rest, np.inf)
 
-    def notes(self, groups: list[Condition], entries: list[Entry]) -> list[Note]:
-        """Return notes on conditions where the speeds differ."""
-        notes = []
+    def notes(self, groups: list[Condition], entries: list[Entry]) -> Iterator[Note]:
+        """Yield notes on conditions where the speeds differ."""
         largest = 100 * float(np.abs(self.apart).max(initial=0.0))
         for taken in (True, False):
             found = [place for place, one in enumerate(self.growths) if one is not None and one.known == taken]
@@ -81,21 +82,14 @@ class Uneven:
                 else "cannot be removed without other speeds, and half of it is in Coulomb friction; the standard "
                 f"errors allow for a change as steep as speed itself{_size(found, entries)}"
             )
-            place = where([groups[one] for one in found], len(groups))
-            notes.append(
-                Note(
-                    "speed-differs",
-                    f"{place} the disc's speed differs by up to {largest:.2g} % between directions of slip; the "
-                    f"change of viscoelastic friction between them {what}.",
-                    values={
-                        "conditions": len(found),
-                        "of": len(groups),
-                        "difference": 0.01 * largest,
-                        "removed": taken,
-                    },
-                )
-            )
-        return notes
+            yield Note(
+                "speed-differs",
+                f"{where([groups[one] for one in found], len(groups))} the disc's speed differs by up to "
+                f"{largest:.2g} % between directions of slip; the change of viscoelastic friction between them {what}.",
+                values={
+                    "conditions": len(found), "of": len(groups), "difference": 0.01 * largest, "removed": taken,
+                },
+            )  # fmt: skip
 
 
 def _size(found: list[int], entries: list[Entry]) -> str:

@@ -13,6 +13,8 @@ from viscofric.notes import Note
 from viscofric.units import Quantity, shown_number, to_si
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from viscofric.arrays import Array, Indices, Integers
     from viscofric.friction.measurement.conditions import Condition
     from viscofric.traction import TractionRuns
@@ -116,46 +118,33 @@ class Zeros:
             self.covers(group) and group.determines(offset=False, coulomb=coulomb)
         )
 
-    def notes(self, groups: list[Condition], used: list[Condition]) -> list[str]:
-        """Return a note on viscoelastic friction that depends on a recorded zero."""
+    def notes(self, groups: list[Condition], used: list[Condition]) -> Iterator[Note]:
+        """Yield a note on viscoelastic friction that depends on a recorded zero."""
         if self.given or not used:
-            return []
+            return
         load = float(np.mean([group.load for group in used]))
+        values: dict[str, float] = {"conditions": len(used), "of": len(groups), "recordings": self.recordings.size}
+        said = ", of one recording, whose error is not in the standard errors of viscoelastic friction."
+        if self.recordings.size > 1:
+            values["error"] = self.error
+            said = (
+                f", whose {self.recordings.size} recordings scatter by {self.error:.2g} N ({self.error / load:.2g} of "
+                "the load); this is in the standard errors of viscoelastic friction."
+            )
         where = f"At {len(used)} of {len(groups)} conditions the zero of the force cell is the recorded one"
-        if self.recordings.size < 2:
-            return [
-                Note(
-                    "recorded-zero",
-                    f"{where}, of one recording, whose error is not in the standard errors of viscoelastic friction.",
-                    values={"conditions": len(used), "of": len(groups), "recordings": self.recordings.size},
-                )
-            ]
-        note = Note(
-            "recorded-zero",
-            f"{where}, whose {self.recordings.size} recordings scatter by {self.error:.2g} N "
-            f"({self.error / load:.2g} of the load); this is in the standard errors of viscoelastic friction.",
-            values={
-                "conditions": len(used),
-                "of": len(groups),
-                "recordings": self.recordings.size,
-                "error": self.error,
-            },
-        )
-        return [note]
+        yield Note("recorded-zero", where + said, values=values)
 
-    def drift(self, load: float) -> list[str]:
-        """Return a note on recordings that drift."""
-        if not wanders(self.recordings):
-            return []
-        first, last = float(self.recordings[0]), float(self.recordings[-1])
-        span = float(np.ptp(self.recordings))
-        note = Note(
-            "recorded-zero-drifts",
-            f"The recorded zero of the force cell drifts, from {shown_number(first, '.3g')} N at first to "
-            f"{shown_number(last, '.3g')} N at last, within {span:.2g} N ({span / load:.2g} of the load).",
-            values={"first": first, "last": last, "span": span, "of_load": span / load},
-        )
-        return [note]
+    def drift(self, load: float) -> Iterator[Note]:
+        """Yield a note on recordings that drift."""
+        if wanders(self.recordings):
+            first, last = float(self.recordings[0]), float(self.recordings[-1])
+            span = float(np.ptp(self.recordings))
+            yield Note(
+                "recorded-zero-drifts",
+                f"The recorded zero of the force cell drifts, from {shown_number(first, '.3g')} N at first to "
+                f"{shown_number(last, '.3g')} N at last, within {span:.2g} N ({span / load:.2g} of the load).",
+                values={"first": first, "last": last, "span": span, "of_load": span / load},
+            )
 
 
 def wanders(values: Array) -> bool:
@@ -172,24 +161,22 @@ def wanders(values: Array) -> bool:
     return ratio < 2.0 - _DRIFTS * 2.0 * math.sqrt((count - 2.0) / (count**2 - 1.0))
 
 
-def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> list[str]:
-    """Return a note on a given zero that the sign configurations contradict."""
+def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> Iterator[Note]:
+    """Yield a note on a given zero that the sign configurations contradict."""
     if not zeros.given:
-        return []
+        return
     fitted = np.array([_zero(runs, group) for group in groups if group.determines(offset=True, coulomb=True)])
     if fitted.size < _FEWEST:
-        return []
+        return
     mean, error = float(fitted.mean()), float(fitted.std(ddof=1)) / np.sqrt(fitted.size)
     given = float(zeros.value[0])
-    if abs(mean - given) <= _AWAY * np.hypot(error, zeros.error) + ROUNDING * float(runs.load.max()):
-        return []
-    sentence = Note(
-        "given-zero-contradicted",
-        f"The given zero of the force cell, {shown_number(given, '.3g')} N, is used, though the configurations at "
-        f"{fitted.size} conditions give another one, {shown_number(mean, '.3g')} ± {error:.1g} N.",
-        values={"given": given, "fitted": mean, "error": float(error), "conditions": fitted.size},
-    )
-    return [sentence]
+    if abs(mean - given) > _AWAY * np.hypot(error, zeros.error) + ROUNDING * float(runs.load.max()):
+        yield Note(
+            "given-zero-contradicted",
+            f"The given zero of the force cell, {shown_number(given, '.3g')} N, is used, though the configurations at "
+            f"{fitted.size} conditions give another one, {shown_number(mean, '.3g')} ± {error:.1g} N.",
+            values={"given": given, "fitted": mean, "error": float(error), "conditions": fitted.size},
+        )
 
 
 def _zero(runs: TractionRuns, group: Condition) -> float:

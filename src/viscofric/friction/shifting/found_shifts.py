@@ -26,7 +26,7 @@ from viscofric.rheology.superposition.overlap import Join
 from viscofric.units import kelvin_hint, shown_celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from viscofric.arrays import Array
     from viscofric.friction.shifting.isotherms import FrictionIsotherm
@@ -206,19 +206,17 @@ def _at_reference(chosen: Sequence[FrictionIsotherm], reference: float) -> tuple
     return temperatures, weights
 
 
-def _marginal(chosen: Sequence[FrictionIsotherm], factors: Array) -> tuple[str, ...]:
-    """Return where curves overlap so little that their overlap was found by chance."""
+def _marginal(chosen: Sequence[FrictionIsotherm], factors: Array) -> Iterator[Note]:
+    """Yield where curves overlap so little that their overlap was found by chance."""
     found = np.flatnonzero(factors > NOTED)
-    if not found.size:
-        return ()
-    places = ", ".join(f"{shown(chosen[one])} and {shown(chosen[one + 1])}" for one in found.tolist())
-    note = Note(
-        "marginal-overlap",
-        f"The friction curves at {places} overlap little for their errors. Such overlaps are found by chance, with "
-        " shifts that err to one side; their standard errors are therefore enlarged, up to "
-        f"{math.sqrt(float(factors.max())):.2g} times.",
-    )
-    return (note,)
+    if found.size:
+        places = ", ".join(f"{shown(chosen[one])} and {shown(chosen[one + 1])}" for one in found.tolist())
+        yield Note(
+            "marginal-overlap",
+            f"The friction curves at {places} overlap little for their errors. Such overlaps are found by chance, with "
+            " shifts that err to one side; their standard errors are therefore enlarged, up to "
+            f"{math.sqrt(float(factors.max())):.2g} times.",
+        )
 
 
 def _of_levels(chosen: Sequence[FrictionIsotherm], values: Array, reference: float, level_error: float) -> Array:

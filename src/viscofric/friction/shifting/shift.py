@@ -21,6 +21,8 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
@@ -156,8 +158,8 @@ def shift_friction(
     )
 
 
-def _below_zero(curves: FrictionCurves) -> tuple[str, ...]:
-    """Return the number of points of negative friction, which is impossible for rubber.
+def _below_zero(curves: FrictionCurves) -> Iterator[Note]:
+    """Yield the number of points of negative friction, which is impossible for rubber.
 
     As many as chance does not explain, of all points together (Y. Benjamini and Y. Hochberg, J. R. Stat. Soc. B 57
     (1995) 289).
@@ -174,15 +176,13 @@ def _below_zero(curves: FrictionCurves) -> tuple[str, ...]:
     chance = np.sort(np.where(known, stdtr(np.where(known, freedom, 1.0), errors), ndtr(errors)))
     allowed = BY_CHANCE * np.arange(1, len(curves) + 1) / len(curves)
     count = int(np.max(np.flatnonzero(chance <= allowed), initial=-1)) + 1
-    if not count:
-        return ()
-    sentence = Note(
-        "friction-below-zero",
-        f"Viscoelastic friction is below zero at {count} of {len(curves)} points, by more than chance explains; that "
-        "of rubber never is; check the signs of the forces.",
-        values={"points": count, "of": len(curves)},
-    )
-    return (sentence,)
+    if count:
+        yield Note(
+            "friction-below-zero",
+            f"Viscoelastic friction is below zero at {count} of {len(curves)} points, by more than chance explains; "
+            "that of rubber never is; check the signs of the forces.",
+            values={"points": count, "of": len(curves)},
+        )
 
 
 def _at_one_load(

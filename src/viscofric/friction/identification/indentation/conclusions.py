@@ -18,6 +18,8 @@ from viscofric.friction.identification.result import IdentifiedBand, with_origin
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from viscofric.arrays import Array
     from viscofric.friction.identification.drawn_materials import Posterior
     from viscofric.friction.identification.indentation.problem import IndentationProblem
@@ -122,33 +124,27 @@ def _fitted(usable: Usable, posterior: Posterior[IndentationProblem]) -> tuple[F
     return tuple(found)
 
 
-def _doubts(records: tuple[FittedRecord, ...], error_scale: float) -> list[Note]:
-    """Return notes on doubtful residuals."""
-    notes = []
+def _doubts(records: tuple[FittedRecord, ...], error_scale: float) -> Iterator[Note]:
+    """Yield notes on doubtful residuals."""
     if error_scale > 1.0:
-        notes.append(
-            Note(
-                "errors-enlarged",
-                f"The residuals are {error_scale:.2g} times larger than the given standard errors, which were "
-                "multiplied by this factor. The errors are too small, or no one linear material describes all records.",
-                values={"factor": error_scale},
-            )
+        yield Note(
+            "errors-enlarged",
+            f"The residuals are {error_scale:.2g} times larger than the given standard errors, which were "
+            "multiplied by this factor. The errors are too small, or no one linear material describes all records.",
+            values={"factor": error_scale},
         )
     each = list(dict.fromkeys(id(one.record) for one in records))
     for one in records:
         number = 1 + each.index(id(one.record))
         size = float(np.sqrt(np.mean((one.residuals * one.error) ** 2)))
         if size > WORTH_A_NOTE and len(one.along) > LEAST_POINTS and correlation(one.residuals) > FOLLOWING:
-            notes.append(
-                Note(
-                    "structured-residuals",
-                    f"Record {number}: the residuals of {one.words}, {100.0 * size:.2g} % of it, are correlated: "
-                    "they are not scatter, and the bands are too narrow; check the zero of the depth, the beginning of "
-                    "the test, and whether the material is linear.",
-                    values={"record": number, "rms": size},
-                )
+            yield Note(
+                "structured-residuals",
+                f"Record {number}: the residuals of {one.words}, {100.0 * size:.2g} % of it, are correlated: "
+                "they are not scatter, and the bands are too narrow; check the zero of the depth, the beginning of "
+                "the test, and whether the material is linear.",
+                values={"record": number, "rms": size},
             )
-    return notes
 
 
 def _shared(best: Weighed[IndentationProblem], residuals: Array, error_scale: float) -> tuple[Note, ...]:
