@@ -61,18 +61,10 @@ def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> 
 
     Examples
     --------
-    >>> import numpy as np
     >>> import viscofric as vf
-    >>> n = 3
-    >>> curves = vf.FrictionCurves(
-    ...     speed=np.array([0.02, 0.06, 0.2]),
-    ...     temperature=np.full(n, 333.15),
-    ...     load=np.full(n, 25.0),
-    ...     viscoelastic=np.array([0.025, 0.020, 0.016]),
-    ...     viscoelastic_error=np.full(n, 2e-4),
-    ...     viscoelastic_scatter=np.full(n, 6e-4),
-    ...     replicates=np.full(n, 9),
-    ... )
+    >>> columns = {"speed": [0.02, 0.06, 0.2], "temperature": [333.15] * 3, "load": [25.0] * 3, "replicates": [9] * 3}
+    >>> columns |= {"viscoelastic": [0.025, 0.020, 0.016], "viscoelastic_error": [2e-4] * 3}
+    >>> curves = vf.FrictionCurves(**columns, viscoelastic_scatter=[6e-4] * 3)
     >>> vf.write_friction_curves(curves, "curves.csv")
     >>> bool((vf.read_friction_curves("curves.csv").speed == curves.speed).all())
     True
@@ -133,18 +125,10 @@ def read_friction_curves(
 
     Examples
     --------
-    >>> import numpy as np
     >>> import viscofric as vf
-    >>> n = 3
-    >>> curves = vf.FrictionCurves(
-    ...     speed=np.array([0.02, 0.06, 0.2]),
-    ...     temperature=np.full(n, 333.15),
-    ...     load=np.full(n, 25.0),
-    ...     viscoelastic=np.array([0.025, 0.020, 0.016]),
-    ...     viscoelastic_error=np.full(n, 2e-4),
-    ...     viscoelastic_scatter=np.full(n, 6e-4),
-    ...     replicates=np.full(n, 9),
-    ... )
+    >>> columns = {"speed": [0.02, 0.06, 0.2], "temperature": [333.15] * 3, "load": [25.0] * 3, "replicates": [9] * 3}
+    >>> columns |= {"viscoelastic": [0.025, 0.020, 0.016], "viscoelastic_error": [2e-4] * 3}
+    >>> curves = vf.FrictionCurves(**columns, viscoelastic_scatter=[6e-4] * 3)
     >>> vf.write_friction_curves(curves, "curves.csv")
     >>> again = vf.read_friction_curves("curves.csv")
     >>> again.viscoelastic
