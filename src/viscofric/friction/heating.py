@@ -89,8 +89,8 @@ def predict_heated(
     kelvins = sorted({one.kelvin for one in every})
     curves = [[one for one in every if one.kelvin == kelvin] for kelvin in kelvins]
     accuracy, material = contacts[0]["accuracy"], contacts[0]["material"]
-    with at_work(workers) as processes:
-        shared = None if exact else SharedContacts.of(material, contacts, processes, _untold)
+    with at_work(workers) as processes:  # progress is that of the states
+        shared = None if exact else SharedContacts.of(material, contacts, processes, lambda done: None)
         found = solve_states(curves, accuracy, processes, report, shared)
     of_contact = dict(zip([id(one) for curve in curves for one in curve], found, strict=True))
     states = [of_contact[id(one)] for one in every]
@@ -103,10 +103,6 @@ def predict_heated(
     friction = columns_of_records(records, unit)
     friction["notes"] += beyond_range(material, records, friction["temperature"] + columns["temperature_rise"])
     return HeatedFrictionCurves(**friction, source="predicted", **columns)
-
-
-def _untold(done: int) -> None:
-    """Progress is that of the states."""
 
 
 def _record(one: States) -> Record:

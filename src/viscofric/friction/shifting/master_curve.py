@@ -268,13 +268,8 @@ class FrictionMasterCurve(Plotted):
 
     def _arguments(self, speed: Quantities, temperature: Quantities | None) -> tuple[Array, Array, bool]:
         """Return speeds and temperatures of one shape, and whether both are single."""
-        velocity, single_speed = _values(speed, "m/s", "speed")
-        kelvin, single_temperature = (
-            (np.array(self.reference), True) if temperature is None else _values(temperature, "K", "temperature")
-        )
-        single = single_speed and single_temperature
-        if single:
-            velocity, kelvin = velocity.reshape(()), kelvin.reshape(())
+        velocity = to_si_in_shape(speed, "m/s", "speed")
+        kelvin = to_si_in_shape(self.reference if temperature is None else temperature, "K", "temperature")
         try:
             velocity, kelvin = np.broadcast_arrays(velocity, kelvin)
         except ValueError:
@@ -288,7 +283,7 @@ class FrictionMasterCurve(Plotted):
                 f"speed must be above zero everywhere, but one is {shown_number(float(velocity.min()), 'g')} m/s.",
                 code="not-positive",
             )
-        return velocity, kelvin, single
+        return velocity, kelvin, velocity.ndim == 0
 
     def _relative_load(self, load: Quantity | None) -> float:
         unit = self.curves.load_unit
@@ -333,9 +328,3 @@ class FrictionMasterCurve(Plotted):
             f"friction is known for {there}, and this lies {place}; predict it there with predict_friction().",
             code="not-covered",
         )
-
-
-def _values(values: Quantities, unit: str, name: str) -> tuple[Array, bool]:
-    """Return values in SI units in their shape, and whether there is a single one."""
-    found = to_si_in_shape(values, unit, name)
-    return np.atleast_1d(found), found.ndim == 0
