@@ -27,7 +27,7 @@ from bands import sweeps
 from interface import KINDS, planted
 
 import viscofric as vf
-from viscofric.friction.interface.prediction import with_interface
+from viscofric.friction.coulomb import with_interface
 from viscofric.rheology.interface.friction import friction_on_area
 
 SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "rough")

@@ -9,7 +9,7 @@ import pytest
 
 import viscofric as vf
 from viscofric.contact.coupling import sheared_compliance
-from viscofric.friction.interface.prediction import with_interface
+from viscofric.friction.coulomb import with_interface
 
 RUBBER = vf.synthetic_fluoroelastomer()
 TRUE = vf.friction.GaussianShearStress("0.4 MPa", "4 mm/s", 1.2, shift=vf.Arrhenius("70 kJ/mol", "60 degC"))

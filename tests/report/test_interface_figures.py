@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 import viscofric as vf
 from viscofric import report
 from viscofric.datasets import dataset
-from viscofric.friction.interface.prediction import with_interface
+from viscofric.friction.coulomb import with_interface
 from viscofric.report.figures.interface import parts_figure
 
 LAW = vf.friction.PowerShearStress(

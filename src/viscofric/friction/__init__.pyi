@@ -15,8 +15,8 @@ from viscofric.friction.identification.indentation.tables import OscillationReco
 from viscofric.friction.identification.indentation.tables import ReboundRecord as ReboundRecord
 from viscofric.friction.identification.result import Identified as Identified
 from viscofric.friction.identification.result import IdentifiedMaterial as IdentifiedMaterial
-from viscofric.friction.interface.shear_stress import ShearStress as ShearStress
-from viscofric.friction.interface.shear_stress import shear_stress as shear_stress
+from viscofric.friction.interface_stress import ShearStress as ShearStress
+from viscofric.friction.interface_stress import shear_stress as shear_stress
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve as FrictionMasterCurve
 from viscofric.friction.shifting.shift_agreement import ShiftAgreement as ShiftAgreement
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors as compare_shift_factors

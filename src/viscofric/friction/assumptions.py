@@ -11,7 +11,7 @@ from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, Place, verdict
-from viscofric.friction.coupling import check_coupling
+from viscofric.friction.coulomb import check_coupling
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.finite_thickness import check_half_space
 from viscofric.friction.warming import Warming

@@ -16,10 +16,9 @@ from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.cases.record import beyond_range, columns_of_records, indenter_record
-from viscofric.friction.coupling import shear_notes
+from viscofric.friction.coulomb import check_interface, shear_notes, with_interface
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
-from viscofric.friction.interface.prediction import check_interface, with_interface
 from viscofric.friction.planning.shared import SharedContacts, places_of
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.heat.heating import Heating

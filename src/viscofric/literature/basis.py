@@ -15,7 +15,7 @@ from viscofric.files import parse_toml
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.indentation.result import MaterialFromIndentation
 from viscofric.friction.identification.result import IdentifiedMaterial
-from viscofric.friction.interface.shear_stress import ShearStress
+from viscofric.friction.interface_stress import ShearStress
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.literature.references import PAPER, REFERENCES, Reference
 from viscofric.rheology.catalogue import catalogue_material

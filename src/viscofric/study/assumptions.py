@@ -11,7 +11,7 @@ from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, assumptions_dataset
 from viscofric.friction.assumptions import check_assumptions
 from viscofric.friction.cases.surfaces import MadeSurface, surface_of
-from viscofric.friction.interface.prediction import with_interface
+from viscofric.friction.coulomb import with_interface
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.study.study_rubber import curves_of
 

@@ -11,8 +11,8 @@ from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.errors import InputError
 from viscofric.friction.cases.record import Record
 from viscofric.friction.cases.surfaces import surface_of
-from viscofric.friction.interface.prediction import with_interface
-from viscofric.friction.interface.shear_stress import shear_stress
+from viscofric.friction.coulomb import with_interface
+from viscofric.friction.interface_stress import shear_stress
 from viscofric.notes import Note, note_of
 from viscofric.rheology.interface.friction import interface_friction, interface_notes
 from viscofric.study.study_rubber import curves_of

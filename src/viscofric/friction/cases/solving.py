@@ -139,7 +139,7 @@ def written(value: Any) -> object:
 _ROOMS = ("heat", "rheology/shifts", "rheology/interface", "contact", "motion", "roughness", "readers/topography")
 _OWN = {
     "friction": (
-        *("sensitivity.py", "prediction.py", "heating.py", "interface/prediction.py"),
+        *("sensitivity.py", "prediction.py", "heating.py", "coulomb.py"),
         *("cases/solving.py", "cases/record.py", "cases/surfaces.py"),
     ),
     "study": ("cases/history.py", "cases/heating.py"),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.friction.assumption_check import ContactSize
-from viscofric.friction.coupling import check_coupling
+from viscofric.friction.coulomb import check_coupling
 from viscofric.friction.curve_checks import implausible
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import Findings, level_family, limits

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.interface.shear_stress import ShearStress
+    from viscofric.friction.interface_stress import ShearStress
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.roughness.persson_result import PerssonTheory
 

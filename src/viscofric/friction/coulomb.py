@@ -1,15 +1,22 @@
-"""Coulomb friction of friction curves that changes viscoelastic friction, see `viscofric.contact.coupling`."""
+"""Coulomb friction of friction curves: that of a predicted interface, and its effect on viscoelastic friction.
+
+For the latter see `viscofric.contact.coupling`.
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.contact.coupling import LARGEST, REMEDY, ShearedContact, coupling_notes, sheared_compliance
+from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, Place, modes_by_temperature, modes_of, verdict
 from viscofric.notes import Note
+from viscofric.rheology.interface.friction import insist_on_interface, interface_friction, interface_notes
+from viscofric.units import to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,8 +24,10 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.bodies import Layer
     from viscofric.friction.curves import FrictionCurves
+    from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
+    from viscofric.units import Quantities
 
 
 def shear_notes(
@@ -97,4 +106,50 @@ def _sheared(
         compliance=sheared_compliance(modes, ratio, layer, radius, float(curves.speed[row]), line=line),
         line=line,
         where=str(Place.of(curves, row)),
+    )
+
+
+def check_interface(interface: object, slip: object) -> None:
+    """Raise `InputError` for an interface that is none, and for a slip without an interface."""
+    if interface is not None:
+        insist_on_interface(interface)
+    elif slip is not None:
+        raise InputError("slip has a meaning with an interface only; give interface too.", code="interface-needed")
+
+
+def with_interface(
+    curves: FrictionCurves,
+    interface: InterfaceLaw,
+    slip: Quantities | None = None,
+    *,
+    rise: Array | None = None,
+) -> FrictionCurves:
+    """Put the friction of an interface into predicted curves, as their Coulomb friction.
+
+    `slip` is the slip speed (m/s) of all points or of each; the speed of the curves without it (pure sliding).  `rise`
+    is that of the contacts' temperature (n,), K.
+    """
+    assert curves.mean_pressure is not None
+    assert curves.mean_pressure_error is not None
+    speed = curves.speed if slip is None else to_si_array(slip, "m/s", "slip")
+    if speed.size not in (1, len(curves)):
+        raise InputError(
+            f"slip has {speed.size} values: must be one, or one for each of the {len(curves)} points.",
+            code="different-lengths",
+        )
+    speed = np.broadcast_to(speed, curves.speed.shape).copy()
+    kelvin = curves.temperature if rise is None else curves.temperature + rise
+    friction, error = interface_friction(interface, speed, kelvin, curves.mean_pressure, curves.mean_pressure_error)
+    share = friction / (friction + curves.viscoelastic)
+    low, high = float(share.min()), float(share.max())
+    size = f"{100 * low:.0f} %" if high - low < 0.005 else f"{100 * low:.0f} to {100 * high:.0f} %"
+    said = f"The interface makes {size} of the total friction, hysteresis the rest; both are predicted."
+    notes = interface_notes(interface, speed, kelvin, curves.mean_pressure)
+    return replace(
+        curves,
+        coulomb=friction,
+        coulomb_error=error,
+        coulomb_scatter=np.zeros(len(curves)),
+        slip=speed,
+        notes=(*curves.notes, *notes, Note("interface-share", said, values={"lowest": low, "highest": high})),
     )
