@@ -19,6 +19,7 @@ from viscofric.friction.identification.result import (
     IdentifiedBand,
     IdentifiedMaterial,
     LevelFit,
+    log_magnitudes,
     with_origin,
 )
 from viscofric.notes import Note, Remedy, codes
@@ -186,7 +187,7 @@ def _follow_each_other(best: Weighed[Problem], residuals: Array) -> bool:
 
 def _anchor_notes(best: Weighed[Problem], drawn: MaterialSamples, middle: float, limit: float) -> Iterator[Note]:
     """Yield notes on anchors that do not determine the level, or contradict the friction or each other."""
-    spread = float(np.std([np.log(np.abs(one.complex_modulus(middle))) for one in drawn.materials], ddof=1))
+    spread = float(np.std(log_magnitudes(drawn, middle), ddof=1))
     if spread > limit:
         yield Note(
             "level-not-fixed",

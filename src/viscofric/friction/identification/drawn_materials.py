@@ -11,7 +11,7 @@ from viscofric.errors import ConvergenceError, InputError
 from viscofric.friction.identification.iteration import AnyProblem, most_evident
 from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.posterior import descend, draws
-from viscofric.friction.identification.result import IdentifiedBand, LevelFit
+from viscofric.friction.identification.result import IdentifiedBand, LevelFit, log_magnitudes
 from viscofric.friction.identification.solving import spectrum_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -157,8 +157,7 @@ def _spread(samples: MaterialSamples, omega: Array, part: str, middle: float, re
     values = {"magnitude": np.abs(E), "storage": E.real, "loss": E.imag}[part]
     rows = np.log(values)
     if relative:
-        levels = [np.log(np.abs(material.complex_modulus(middle))) for material in samples.materials]
-        rows = rows - np.array(levels)[:, None]
+        rows = rows - log_magnitudes(samples, middle)[:, None]
     return np.asarray(rows.std(axis=0, ddof=1))
 
 

@@ -36,6 +36,11 @@ _BEYOND = 10.0
 _FREQUENCIES = 300
 
 
+def log_magnitudes(samples: MaterialSamples, angular_frequency: Array | float) -> Array:
+    """Return ln |E| of every sample (samples, …) at angular frequencies, rad/s."""
+    return np.array([np.log(np.abs(one.complex_modulus(angular_frequency))) for one in samples.materials])
+
+
 @dataclass(frozen=True)
 class IdentifiedBand:
     """Angular frequencies at the reference over which a modulus is determined."""
@@ -134,7 +139,7 @@ class Identified(Plotted):
             Whether of |E(ω)| over that at the middle frequency; if not given, without an anchor.
         """
         omega = in_si(angular_frequency, "rad/s", "angular_frequency")
-        rows = np.array([np.log(np.abs(one.complex_modulus(omega))) for one in self.samples.materials])
+        rows = log_magnitudes(self.samples, omega)
         if not self.anchored if relative is None else flag(relative, "relative"):
             level = self._levels
             rows = rows - level.reshape((-1,) + (1,) * omega.ndim)
@@ -198,7 +203,7 @@ class Identified(Plotted):
 
     @cached_property
     def _levels(self) -> Array:
-        return np.array([np.log(np.abs(one.complex_modulus(self.middle))) for one in self.samples.materials])
+        return log_magnitudes(self.samples, self.middle)
 
     @property
     def known(self) -> tuple[str, ...]:

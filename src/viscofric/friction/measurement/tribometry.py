@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -25,7 +25,7 @@ from viscofric.units import Quantity, positive, share
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.arrays import Array, Integers
+    from viscofric.arrays import Array
     from viscofric.friction.measurement.conditions import Condition
     from viscofric.friction.measurement.fit import Entry
 
@@ -165,7 +165,7 @@ def separate(
     far = far_readings(runs, groups, found.entries)
     notes = outlier_notes(runs, far, left_out=outliers == "leave out")
     if far and outliers == "leave out":
-        rest = _without(runs, np.array([row for _, row in far]))
+        rest = runs.select(np.setdiff1d(np.arange(len(runs)), [row for _, row in far]))
         found = _Separation.of(rest, zero, assumed, gap, kelvin)
     return found.curves(runs, assumed, notes)
 
@@ -274,11 +274,3 @@ def _fitted(runs: TractionRuns, groups: list[Condition], zeros: Zeros, assumed: 
     bare = [drift.entry(fit, zeros, *one) for fit, *one in zip(fits, errors.error, errors.freedom, strict=True)]
     entries = [uneven.widened(place, *one) for place, one in enumerate(zip(fits, bare, strict=True))]
     return _Fitted(fits, drift, errors, bare, entries)
-
-
-def _without(runs: TractionRuns, rows: Integers) -> TractionRuns:
-    """Return the runs without some rows."""
-    keep = np.full(len(runs), True)
-    keep[rows] = False
-    columns = {one.name: getattr(runs, one.name) for one in fields(runs)}
-    return replace(runs, **{name: value[keep] for name, value in columns.items() if isinstance(value, np.ndarray)})
