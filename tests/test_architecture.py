@@ -440,7 +440,7 @@ FOREIGN_TEXT = (
     "viscofric.cli.speed_options",
     "viscofric.readers",
     "viscofric.rheology.cards",
-    "viscofric.rheology.shifts.shift_table",
+    "viscofric.rheology.shifts.shift_files",
     "viscofric.units",
     "viscofric.files",
     "viscofric.contact.arrays.backend",

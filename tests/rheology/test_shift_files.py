@@ -162,10 +162,11 @@ def test_rising_table_is_refused_unless_it_is_said_to_be_inverse(tmp_path):
 @pytest.mark.parametrize(
     ("text", "refusal"),
     [
-        ("", ("no-table",)),
-        ("T_C,log10_aT\n", ("no-table",)),
+        ("", ("empty",)),
+        ("T_C,log10_aT\n", ("no-points",)),
         ("T_C,E\n1,2\n3,4\n", ("missing-columns", "'T_C'", "'log10 aT'")),
-        ("T,log_aT\n1,2\n3,0\n", ("no-unit", "'T_C'")),
+        ("T_C,log10(f)\n1,2\n3,0\n", ("missing-columns", "'log10(f)'", "'log10 aT'")),
+        ("T,log_aT\n1,2\n3,0\n", ("no-unit", "'T (degC)'")),
         ("T_C,aT\n1,2\n3,-1\n", ("not-positive", "line 3")),
         ("T_C,log_aT\n1,2\n3\n", ("row-length", "line 3")),
         ("T_C,log_aT\n1,2\n3,zero\n", ("not-a-number", "line 3", "'zero'", "'log_aT'")),

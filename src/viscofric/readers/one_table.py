@@ -1,8 +1,7 @@
-"""The one table of a text or a workbook under a vocabulary, such as that of shift factors or of histories."""
+"""The one table of a text or a workbook under a vocabulary; that of histories."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 from os import PathLike
@@ -55,53 +54,6 @@ def only_table(source: Source, vocabulary: Vocabulary) -> Table:
     return next(iter(tables.values()))
 
 
-_NAMES = ("at", "a", "alpha", "alphat", "alpha t", "shift factor", "shift", "horizontal shift")
-#: Quantity -> log10 α for one of its units; None for α itself.
-_SCALES: dict[str, float | None] = {
-    "log10 shift factor": 1.0,
-    "ln shift factor": 1.0 / math.log(10.0),
-    "shift factor": None,
-}
-
-#: The words of tables of shift factors.
-SHIFT_FACTORS = Vocabulary(
-    "a table of shift factors",
-    {
-        "temperature": TEMPERATURE,
-        "log10 shift factor": frozenset(f"{log} {name}" for log in ("log10", "log", "lg") for name in _NAMES),
-        "ln shift factor": frozenset(f"ln {name}" for name in _NAMES),
-        "shift factor": frozenset({"aT", "α", "at", "alpha", "shift factor", "horizontal shift factor"}),
-        "standard error": frozenset({"standard error", "std error", "uncertainty"}),
-    },
-    needed=(("temperature",), ("log10 shift factor", "ln shift factor", "shift factor")),
-    example="a table of shift factors has 'temperature (degC)' and 'log10 aT' or 'aT'",
-    key="material.shift_factor_columns",
-    offered=(("temperature", "degC"), ("log10 shift factor", ""), ("shift factor", ""), ("standard error", "")),
-)
-
-
-class ShiftColumns(NamedTuple):
-    """Columns of a table of shift factors, (n,) each."""
-
-    temperatures: Array  # K
-    values: Array  # as printed
-    scale: float | None  # log10 α for one of them, None where they are α itself
-    standard_error: Array | None  # of log10 α
-    lines: list[int]
-
-
-def shift_columns(source: Source) -> ShiftColumns:
-    """Return the shift factors of a workbook, or of a text whose headings the user names."""
-    table = one_table(source, SHIFT_FACTORS)
-    _insist_on_columns(table, SHIFT_FACTORS)
-    places = {what: table.place(what) for what in SHIFT_FACTORS.quantities}
-    at, error = places["temperature"], places["standard error"]
-    name, of = next((name, place) for name in _SCALES if (place := places[name]) is not None)
-    assert at is not None  # nothing needed is missing
-    errors = None if error is None else table.numbers(error)
-    return ShiftColumns(table.values(at, "K"), table.numbers(of), _SCALES[name], errors, table.lines.tolist())
-
-
 #: Quantity -> its SI unit, and names of its column.
 _QUANTITIES: dict[str, tuple[str, frozenset[str]]] = {
     "time": ("s", frozenset({"t", "time"})),
@@ -151,7 +103,7 @@ def history_columns(
 ) -> HistoryColumns:
     """Return the columns of a history in a text table or a workbook."""
     table = table_of(path, HISTORY, columns, sheet)
-    _insist_on_columns(table, HISTORY)
+    insist_on_columns(table, HISTORY)
     places = {name: place for name in _QUANTITIES if (place := table.place(name)) is not None}
     load_unit = _load_unit(table, places.get("load"))
     units = {name: load_unit if name == "load" else unit for name, (unit, _) in _QUANTITIES.items()}
@@ -171,7 +123,8 @@ def _load_unit(table: Table, place: int | None) -> str:
     return "N"
 
 
-def _insist_on_columns(table: Table, vocabulary: Vocabulary) -> None:
+def insist_on_columns(table: Table, vocabulary: Vocabulary) -> None:
+    """Raise `DataFileError` where a table lacks what its vocabulary needs."""
     missing = vocabulary.missing(column.quantity for column in table.columns)
     if missing:
         problem = f"there is no column of the {' and the '.join(missing)}; there are {table.headings()}"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -9,13 +11,13 @@ import numpy as np
 
 from viscofric.arguments import sentences, whole_number
 from viscofric.errors import InputError
+from viscofric.files import file_path, write_atomically
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
 from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw, checked_columns
-from viscofric.rheology.shifts.shift_table import ShiftTable, write_shift_table
 from viscofric.showing import Items, rows_of
-from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si
+from viscofric.units import CELSIUS_ZERO, kelvin_hint, positive, shown_celsius, shown_number, to_si
 
 if TYPE_CHECKING:
     import os
@@ -274,8 +276,16 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         DataFileError
             If the file cannot be written.
         """
-        table = ShiftTable(self.temperatures, self.log10_values, self.reference, self.covariance, self.notes)
-        write_shift_table(table, path)
+        text = io.StringIO()
+        text.write(f"# viscofric shift factors\n# reference (degC): {_in_celsius(self.reference)}\n")
+        text.writelines(f"# note: {' '.join(note.split())}\n" for note in self.notes)
+        rows = csv.writer(text, lineterminator="\n")
+        numbered = [f"cov {place}" for place in range(1, len(self) + 1)]
+        rows.writerow(["temperature (degC)", "log10 shift factor", "standard error", *numbered])
+        columns = (self.temperatures, self.log10_values, self.standard_errors, self.covariance)
+        for kelvin, value, error, covariance in zip(*columns, strict=True):
+            rows.writerow([_in_celsius(kelvin), *(repr(float(number)) for number in (value, error, *covariance))])
+        write_atomically(file_path(path), text.getvalue().encode(), make_folder=False)
 
     @overload
     def law(self, kind: Literal["wlf"], *, above: Quantity | None = None) -> WLF: ...
@@ -352,6 +362,11 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         return law_fitting.FactorTable.of(
             self.temperatures[keep], self.log10_values[keep], self.covariance[np.ix_(keep, keep)], self.reference
         )
+
+
+def _in_celsius(kelvin: float) -> str:
+    # The difference and its inverse are exact between half and double of 273.15 (Sterbenz).
+    return repr(float(kelvin) - CELSIUS_ZERO)
 
 
 def referenced_covariance(temperatures: Array, covariance: Array, reference: float) -> Array:

@@ -5,8 +5,11 @@ The sign is that of E(ω, T) = E(α(T) ω, T0): α falls as the temperature rise
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Mapping
 from os import PathLike
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,15 +19,56 @@ from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.eplexor_master import SHIFT_LIST, ShiftList, shift_list
-from viscofric.readers.headings import heading
-from viscofric.readers.one_table import SHIFT_FACTORS, shift_columns
-from viscofric.readers.source import Source, checked_sheet
+from viscofric.readers.dma.names import TEMPERATURE
+from viscofric.readers.headings import Column, Vocabulary
+from viscofric.readers.one_table import insist_on_columns, only_table
+from viscofric.readers.source import Source, checked_sheet, insist_on_content
+from viscofric.readers.table import Table
 from viscofric.readers.tables import name_columns
 from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.shifts.shift_table import ShiftTable, logarithms, read_shift_table
-from viscofric.units import Quantity, positive, shown_celsius
+from viscofric.units import Quantity, conversion, positive, shown_celsius
+
+_NAMES = ("at", "a t", "a", "alpha", "alphat", "alpha t", "shift factor", "shift", "horizontal shift")
+_LOGARITHMS = ("log10", "log", "lg")
+#: Quantity -> log10 α for one of its units; None for α itself.
+_SCALES: dict[str, float | None] = {
+    "log10 shift factor": 1.0,
+    "ln shift factor": 1.0 / math.log(10.0),
+    "shift factor": None,
+}
+#: The words of tables of shift factors; a logarithm alone has its argument in brackets, as a unit has.
+SHIFT_FACTORS = Vocabulary(
+    "a table of shift factors",
+    {
+        "temperature": TEMPERATURE,
+        "log10 shift factor": frozenset(f"{log} {name}" for log in _LOGARITHMS for name in _NAMES) | {*_LOGARITHMS},
+        "ln shift factor": frozenset({"ln", *(f"ln {name}" for name in _NAMES)}),
+        "shift factor": frozenset({"aT", "α", "at", "alpha", "alphat", "shift factor", "horizontal shift factor"}),
+        "standard error": frozenset({"standard error", "std error", "uncertainty"}),
+    },
+    needed=(("temperature",), ("log10 shift factor", "ln shift factor", "shift factor")),
+    example="a table of shift factors has 'temperature (degC)' or 'T_C', and 'log10 aT' or 'aT'",
+    key="material.shift_factor_columns",
+    offered=(("temperature", "degC"), ("log10 shift factor", ""), ("shift factor", ""), ("standard error", "")),
+)
+#: Beyond this, α or 1/α over- or underflows.
+_LARGEST_LOGARITHM = 300.0
+#: Comments of a saved file.
+_REFERENCE = re.compile(r"\s*#\s*reference\s*\((?P<unit>[^)]*)\)\s*:\s*(?P<number>[-+0-9.eE]+)\s*")
+_NOTE = re.compile(r"\s*#\s*note:\s*(?P<text>.*?)\s*")
+_COVARIANCE = re.compile(r"cov\s*(\d+)")
+
+
+class _Factors(NamedTuple):
+    """Content of a file of shift factors, in the order of its rows: K, decades, and what it states of them."""
+
+    temperatures: Array  # (n,)
+    log10_values: Array  # (n,), of α, or of 1/α where the file holds that
+    reference: float | None = None
+    covariance: Array | None = None  # (n, n)
+    notes: tuple[str, ...] = ()
 
 
 def read_shift_factors(
@@ -77,10 +121,7 @@ def read_shift_factors(
     """
     given = SHIFT_FACTORS.checked(columns)
     source = Source(str(path), read_bytes(path), columns=given, sheet=checked_sheet(sheet))
-    if given or source.sheet:
-        found = _from_columns(source)
-    else:
-        found = _from_workbook(source) if is_workbook(source) else _from_text(source)
+    found = _from_workbook(source) if is_workbook(source) and not (given or source.sheet) else _from_table(source)
     order = np.argsort(found.temperatures)
     kelvin, values = found.temperatures[order], found.log10_values[order]
     spread = None if found.covariance is None else found.covariance[np.ix_(order, order)]
@@ -149,11 +190,11 @@ def _eplexor_list(source: Source) -> ShiftList | None:
     return shift_list(sheets(source), source.path)
 
 
-def _from_workbook(source: Source) -> ShiftTable:
+def _from_workbook(source: Source) -> _Factors:
     found = _eplexor_list(source)
     if found is None:
         try:
-            return _from_columns(source)
+            return _from_table(source)
         except DataFileError as error:
             if error.code != "missing-columns":
                 raise
@@ -163,31 +204,69 @@ def _from_workbook(source: Source) -> ShiftTable:
             raise DataFileError(source.path, note) from None
     # The stated reference is the programmed temperature; α is 1 at the measured one.
     measured = found.measured_reference
-    return ShiftTable(found.temperatures, found.log10_shifts, found.reference if measured is None else measured)
+    return _Factors(found.temperatures, found.log10_shifts, found.reference if measured is None else measured)
 
 
-def _from_text(source: Source) -> ShiftTable:
-    if source.text is None:
+def _from_table(source: Source) -> _Factors:
+    insist_on_content(source)
+    if source.text is None and not is_workbook(source):
         raise DataFileError(
             source.path, "is a binary file; a table of shift factors is text, or an Eplexor workbook.", code="binary"
         )
-    try:
-        return read_shift_table(source.text, source.path)
-    except DataFileError as error:
-        found = error.note
-        if not found.values:
-            raise
-        missing = found.values["missing"]
-        values = SHIFT_FACTORS.header_values([heading(one) for one in found.values["headings"]], missing)
-        note = Note(found.code, found.text, "", name_columns(SHIFT_FACTORS.key, missing), values)
-        raise DataFileError(source.path, note) from None
+    table = only_table(source, SHIFT_FACTORS)
+    insist_on_columns(table, SHIFT_FACTORS)
+    at = table.place("temperature")
+    name, of = next((name, place) for name in _SCALES if (place := table.place(name)) is not None)
+    assert at is not None  # nothing needed is missing
+    _insist_on_argument(table, table.columns[of])
+    log10 = _logarithms(table, table.numbers(of), _SCALES[name])
+    reference, notes = _stated(source)
+    return _Factors(table.values(at, "K"), log10, reference, _covariance(table), notes)
 
 
-def _from_columns(source: Source) -> ShiftTable:
-    found = shift_columns(source)
-    log10 = logarithms(source.path, found.values, found.scale, found.lines)
-    covariance = None if found.standard_error is None else np.diag(found.standard_error**2)
-    return ShiftTable(found.temperatures, log10, None, covariance)
+def _insist_on_argument(table: Table, column: Column) -> None:
+    """Refuse the logarithm of something else, such as ``log10(f)``."""
+    argument = column.unit.lower().replace("_", " ")
+    if not column.given and column.name.lower() in (*_LOGARITHMS, "ln") and argument not in _NAMES:
+        problem = f"column {column.heading!r} is no logarithm of shift factors; {SHIFT_FACTORS.example}"
+        raise table.refused("missing-columns", problem, name_columns(SHIFT_FACTORS.key, ("log10 shift factor",)))
+
+
+def _logarithms(table: Table, values: Array, scale: float | None) -> Array:
+    """Return log10 α (n,) of a column: `scale` for one of its units, None where it holds α itself."""
+    bad = np.flatnonzero(values <= 0.0 if scale is None else np.abs(values) > _LARGEST_LOGARITHM)
+    if bad.size:
+        problem, code = "a logarithm of a shift factor beyond 300 is none of a material.", "out-of-range"
+        if scale is None:
+            problem = "a shift factor aT must be above zero; name the column 'log10 aT' if it holds logarithms."
+            code = "not-positive"
+        raise DataFileError(table.path, problem, int(table.lines[bad[0]]), code=code)
+    return np.log10(values) if scale is None else np.asarray(scale * values)
+
+
+def _covariance(table: Table) -> Array | None:
+    """Return the covariance that a table states, in full or by standard errors, or None."""
+    places = {int(match[1]): place for place, one in enumerate(table.columns) if (match := _COVARIANCE.match(one.name))}
+    size = len(table.rows)
+    if places:
+        if set(places) != set(range(1, size + 1)):
+            problem = f"the covariance must have the columns cov 1 to cov {size}, one for each row."
+            raise DataFileError(table.path, problem, code="missing-columns")
+        return np.column_stack([table.numbers(places[number]) for number in range(1, size + 1)])
+    error = table.place("standard error")
+    return None if error is None else np.diag(table.numbers(error) ** 2)
+
+
+def _stated(source: Source) -> tuple[float | None, tuple[str, ...]]:
+    """Return reference (K) and notes of a saved file's comments; those of other programs are ignored."""
+    reference, notes = None, []
+    for line in (source.text or "").splitlines():
+        if note := _NOTE.fullmatch(line):
+            notes.append(note["text"])
+        elif stated := _REFERENCE.fullmatch(line):
+            factor, offset = conversion(stated["unit"], "K", "reference")
+            reference = factor * float(stated["number"]) + offset
+    return reference, tuple(notes)
 
 
 def _falling(path: str, kelvin: Array, values: Array, inverse: bool) -> Array:
