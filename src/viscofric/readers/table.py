@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -235,6 +235,17 @@ def make_table(
     comma = comma_is_free and decimal_comma(path, printed)
     numbers = np.array(lines, dtype=np.int64)
     return Table(path, columns, tuple(rows), numbers, comma, empty_rows=empty, vocabulary=vocabulary)
+
+
+def instrument_table(
+    path: str,
+    columns: Sequence[tuple[str, str, str]],
+    rows: Sequence[NumberedRow],
+    vocabulary: Vocabulary,
+) -> Table:
+    """Return a table of an instrument's export: its columns are name, unit and quantity, which the format knows."""
+    headed = tuple(Column(name, name, unit, quantity) for name, unit, quantity in columns)
+    return replace(make_table(path, headed, rows), vocabulary=vocabulary)
 
 
 def or_name_it(key: str, what: str, said: str) -> Remedy:

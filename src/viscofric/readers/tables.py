@@ -85,7 +85,7 @@ def _of_workbook(source: Source, words: Vocabulary) -> dict[str, Table]:
     found = {}
     for name, cells in known.items():
         if source.sheet in ("", name):
-            rows = _numbered(f"{source.path}, sheet {name!r}", cells)
+            rows = numbered_rows(f"{source.path}, sheet {name!r}", cells)
             one = header_of(rows, words)
             if one is not None:
                 found[name] = one
@@ -107,7 +107,7 @@ def _of_workbook(source: Source, words: Vocabulary) -> dict[str, Table]:
 def _no_header_in_workbook(source: Source, words: Vocabulary) -> DataFileError:
     known = sheets(source)
     read = [source.sheet] if source.sheet in known else [*known]
-    headings = {name: guessed(_numbered(f"{source.path}, sheet {name!r}", known[name])) for name in read}
+    headings = {name: guessed(numbered_rows(f"{source.path}, sheet {name!r}", known[name])) for name in read}
     return _not_understood(source.path, words, max(headings.values(), key=len, default=[]), [*known])
 
 
@@ -292,7 +292,7 @@ def _split(line: str, delimiter: str) -> list[str]:
         return []
 
 
-def _numbered(path: str, cells: Rows) -> list[NumberedRow]:
+def numbered_rows(path: str, cells: Rows) -> list[NumberedRow]:
     """Return the rows of a sheet that are not blank as text, with their numbers."""
     texts = ((cell, n) for n, row in enumerate(cells, start=1) for cell in row if isinstance(cell, str))
     comma = decimal_comma(path, texts)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from viscofric.arrays import Array, Indices, Integers, Mask
 from viscofric.data import Deformation, Isotherm
+from viscofric.errors import DataFileError
 from viscofric.notes import Remedy
 from viscofric.units import shown_celsius
 
@@ -67,6 +68,46 @@ class Readings:
 
     def __len__(self) -> int:
         return len(self.temperature)
+
+    @property
+    def complete(self) -> Mask:
+        """Which points have a temperature, a frequency above zero and both moduli, (n,)."""
+        known = self.temperature + self.storage_modulus + self.loss_modulus
+        return np.isfinite(known) & (self.angular_frequency > 0.0)
+
+    def taken(self, rows: Indices) -> Readings:
+        """Return some of the points, in the order of their rows."""
+        amplitude, step = self.strain_amplitude, self.step
+        return replace(
+            self,
+            places=tuple(self.places[row] for row in rows),
+            temperature=self.temperature[rows],
+            angular_frequency=self.angular_frequency[rows],
+            storage_modulus=self.storage_modulus[rows],
+            loss_modulus=self.loss_modulus[rows],
+            strain_amplitude=None if amplitude is None else amplitude[rows],
+            step=None if step is None else step[rows],
+        )
+
+
+def of_one_file(parts: Sequence[Readings], what: str) -> Readings:
+    """Join the points of tables of one file, called `what` in an error, without their steps."""
+    stating = next((part for part in parts if part.deformation is not None), parts[0])
+    if any(part.deformation not in (None, stating.deformation) for part in parts):
+        raise DataFileError(stating.source, f"{what} differ in E and G; separate them.", code="deformation-contradicts")
+    points = joined(parts)
+    return replace(
+        stating,
+        places=tuple(place for part in parts for place in part.places),
+        temperature=points.temperature,
+        angular_frequency=points.angular_frequency,
+        storage_modulus=points.storage_modulus,
+        loss_modulus=points.loss_modulus,
+        strain_amplitude=points.strain_amplitude if np.any(np.isfinite(points.strain_amplitude)) else None,
+        step=None,
+        lacks_unit=any(part.lacks_unit for part in parts),
+        notes=tuple(dict.fromkeys(note for part in parts for note in part.notes)),
+    )
 
 
 #: Number of places named in one note.

@@ -7,13 +7,13 @@ the shifts that `eplexor_master` undoes.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.checks import insist_on_agreement
 from viscofric.readers.dma.instruments.eplexor_master import (
     AS_IT_IS,
     insist_on_sense,
@@ -21,8 +21,10 @@ from viscofric.readers.dma.instruments.eplexor_master import (
     programmed_frequencies,
     shift_list,
 )
-from viscofric.readers.dma.readings import Readings
-from viscofric.readers.source import LARGEST_FACTOR, decimal_comma, unit_conversion
+from viscofric.readers.dma.names import DMA, quantity
+from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.table import instrument_table
+from viscofric.readers.tables import numbered_rows
 from viscofric.readers.workbook import sheet_names, sheets
 from viscofric.units import shown_celsius
 
@@ -30,16 +32,16 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.arrays import Array, Indices, Mask
-    from viscofric.data import Deformation
     from viscofric.readers.dma.instruments.eplexor_master import ShiftList
+    from viscofric.readers.dma.readings import Readings
     from viscofric.readers.source import Source
+    from viscofric.readers.table import Table
 
     Rows = Sequence[Sequence[Any]]
 
 NAME = "Netzsch Eplexor workbook"
 DATA = "Exported Data"
 
-_MISSING = ("", "---")
 #: All rows of a master curve carry one temperature, digit by digit; measured ones scatter.
 _SAME_TEMPERATURE = 1e-9  # K
 #: Frequency range beyond that of any instrument; a master curve has it.
@@ -62,130 +64,61 @@ def recognises(source: Source) -> bool:
 def read(source: Source) -> Readings:
     """Return the points; rows of a master curve are moved back to their measured temperatures and frequencies."""
     tables = sheets(source)
-    sheet = _Sheet(source.path, tables[DATA])
-    if {"E'", "G'"} <= set(sheet.names):
-        raise DataFileError(
-            source.path,
-            f"sheet {DATA!r} names E' and G'; keep the columns of one of them.",
-            code="deformation-contradicts",
-        )
-    deformation: Deformation = "tension" if "E'" in sheet.names else "shear"
-    letter = "E" if deformation == "tension" else "G"
-    needed = {name: sheet.column(name) for name in ("f", "T", f"{letter}'", f"{letter}''")}
-    complete = np.all([np.isfinite(column) for column in needed.values()], axis=0)
-    notes = _passed_over(sheet, complete)
-    if not complete.any():
-        raise DataFileError(
-            source.path, f"sheet {DATA!r} has no row with all of {', '.join(needed)}.", code="no-points"
-        )
-    kept = np.flatnonzero(complete)
-    frequency = sheet.in_unit("f", "Hz")[kept]
-    temperature = sheet.in_unit("T", "K")[kept]
-    time = sheet.column("Time")[kept] if "Time" in sheet.names else None
-    step = None
+    table = _table(source.path, tables[DATA])
+    whole = read_points(table, source, NAME, "", f"sheet {DATA!r}, row", strict=True)
+    notes = [*_passed_over(table, whole.complete), *whole.notes]
+    if not whole.complete.any():
+        problem = f"sheet {DATA!r} has no row with all of temperature, frequency and both moduli."
+        raise DataFileError(source.path, problem, code="no-points")
+    kept = np.flatnonzero(whole.complete)
+    points = whole.taken(kept)
+    if points.strain_amplitude is not None:
+        notes.append(_AMPLITUDE_NOTE)
+    frequency = points.angular_frequency / (2.0 * math.pi)
     shifts = shift_list(tables, source.path)
     programmed = programmed_frequencies(tables)
-    if _is_master(temperature, frequency, shifts, programmed):
-        places = [sheet.places[row] for row in kept]
-        step = _isotherms(source.path, places, frequency, time, shifts, programmed, temperature)
+    if _is_master(points.temperature, frequency, shifts, programmed):
+        clock = next((place for place, column in enumerate(table.columns) if column.name == "Time"), None)
+        time = None if clock is None else table.numbers_or_missing(clock)[kept]
+        step = _isotherms(source.path, points.places, frequency, time, shifts, programmed, points.temperature)
         assert shifts is not None  # else `_isotherms` refused
-        insist_on_sense(shifts, float(temperature[0]), source.path)
-        order = np.argsort(shifts.temperatures[step], kind="stable")
-        kept, step = kept[order], step[order]
-        frequency = frequency[order] / 10.0 ** shifts.log10_shifts[step]
-        temperature = shifts.temperatures[step]
+        insist_on_sense(shifts, float(points.temperature[0]), source.path)
+        points = replace(
+            points,
+            format=f"{NAME}, master curve",
+            temperature=shifts.temperatures[step],
+            angular_frequency=points.angular_frequency / 10.0 ** shifts.log10_shifts[step],
+            step=step.astype(np.int64),
+        ).taken(np.argsort(shifts.temperatures[step], kind="stable"))
         notes += _taken_apart(shifts, step)
-    storage, loss = (sheet.in_unit(f"{letter}{prime}", "Pa")[kept] for prime in ("'", "''"))
-    tangent = sheet.column("tan delta")[kept] if "tan delta" in sheet.names else None
-    absolute = sheet.in_unit(f"|{letter}*|", "Pa")[kept] if f"|{letter}*|" in sheet.names else None
-    insist_on_agreement(source.path, storage, loss, tangent, absolute)
-    amplitude = None
-    if "Strain dyn" in sheet.names and sheet.unit("Strain dyn") == "%":
-        amplitude = 0.01 * sheet.column("Strain dyn")[kept]
-        notes.append(_AMPLITUDE_NOTE)
-    return Readings(
-        source.path,
-        NAME + (", master curve" if step is not None else ""),
-        tuple(sheet.places[row] for row in kept),
-        temperature,
-        2.0 * math.pi * frequency,
-        storage,
-        loss,
-        deformation,
-        f"the heading {letter}' ({sheet.unit(letter + chr(39))})",
-        amplitude,
-        None if step is None else step.astype(np.int64),
-        tuple(notes),
-    )
+    return replace(points, notes=tuple(notes))
 
 
 def _names(rows: Rows) -> list[str]:
     return [str(cell).strip() for cell in rows[0]] if len(rows) else []
 
 
-class _Sheet:
-    """Sheet 'Exported Data': a row of names, a row of units, rows of numbers."""
-
-    def __init__(self, path: str, rows: Rows) -> None:
-        self.path, self.names = path, _names(rows)
-        units = [str(cell).strip() for cell in rows[1]] if len(rows) > 1 else []
-        self.units = units + [""] * (len(self.names) - len(units))
-        body = [(place, row) for place, row in enumerate(rows[2:], start=3) if any(cell != "" for cell in row)]
-        self.places = [f"sheet {DATA!r}, row {place}" for place, _ in body]
-        self.rows = [row for _, row in body]
-        texts = ((cell, place) for place, row in body for cell in row if isinstance(cell, str))
-        decimal_comma(f"{path}, sheet {DATA!r}", texts)
-
-    def _index(self, name: str) -> int:
-        if name not in self.names:
-            raise DataFileError(self.path, f"sheet {DATA!r} has no column {name!r}.", code="missing-columns")
-        return self.names.index(name)
-
-    def unit(self, name: str) -> str:
-        return self.units[self._index(name)]
-
-    def column(self, name: str) -> Array:
-        """Return the numbers of a column as printed, NaN where they are missing."""
-        index = self._index(name)
-        return np.array([self._number(row, index, place) for row, place in zip(self.rows, self.places, strict=True)])
-
-    def _number(self, row: Sequence[Any], index: int, place: str) -> float:
-        cell = row[index] if index < len(row) else ""
-        text = str(cell).strip()
-        if text in _MISSING:
-            return math.nan
-        try:
-            value = float(text.replace(",", "."))
-        except ValueError:
-            value = math.nan
-        if isinstance(cell, bool) or "_" in text or not math.isfinite(value * LARGEST_FACTOR):
-            raise DataFileError(
-                self.path,
-                f"{place}: {text!r} in column {self.names[index]!r} is not a finite number.",
-                code="not-a-number",
-            )
-        return value
-
-    def in_unit(self, name: str, unit: str) -> Array:
-        try:
-            factor, offset = unit_conversion(self.unit(name), unit, name)
-        except InputError:
-            example = {"K": "°C", "Pa": "MPa"}.get(unit, unit)
-            problem = (
-                f"column {name!r} of sheet {DATA!r} has the unit {self.unit(name)!r}; it must be like {example!r}."
-            )
-            raise DataFileError(self.path, problem, code="wrong-unit") from None
-        values = factor * self.column(name) + offset
-        if unit in ("K", "Hz") and np.any(values <= 0.0):
-            row = int(np.argmax(values <= 0.0))
-            bound = "absolute zero" if unit == "K" else "zero"
-            problem = f"{self.places[row]}: column {name!r} must be above {bound}."
-            raise DataFileError(self.path, problem, code="not-positive")
-        return np.asarray(values)
+def _table(path: str, rows: Rows) -> Table:
+    """Return sheet 'Exported Data': a row of names, a row of units, rows of numbers."""
+    names = _names(rows)
+    if {"E'", "G'"} <= set(names):
+        raise DataFileError(
+            path, f"sheet {DATA!r} names E' and G'; keep the columns of one of them.", code="deformation-contradicts"
+        )
+    letter = "E" if "E'" in names else "G"
+    known = {"f", "T", f"{letter}'", f"{letter}''", f"|{letter}*|", "tan delta", "Strain dyn"}
+    units = [str(cell).strip() for cell in rows[1]] if len(rows) > 1 else []
+    columns = [
+        (name, unit, quantity(name) or "" if name in known and place == names.index(name) else "")
+        for place, (name, unit) in enumerate(zip(names, [*units, *[""] * len(names)], strict=False))
+    ]
+    shown = f"{path}, sheet {DATA!r}"
+    body = [(number, cells[: len(names)]) for number, cells in numbered_rows(shown, rows) if number > 2]
+    return instrument_table(shown, columns, body, DMA)
 
 
-def _passed_over(sheet: _Sheet, complete: Mask) -> list[Note]:
-    missing = [place.rsplit(", ", 1)[1] for place, kept in zip(sheet.places, complete, strict=True) if not kept]
+def _passed_over(table: Table, complete: Mask) -> list[Note]:
+    missing = [f"row {line}" for line, kept in zip(table.lines, complete, strict=True) if not kept]
     if not missing:
         return []
     shown = ", ".join(missing[:3]) + (f" and {len(missing) - 3} more" if len(missing) > 3 else "")

@@ -6,24 +6,25 @@ holds one temperature or several blocks, each numbered from 0 anew.  Tried on ge
 
 from __future__ import annotations
 
-import math
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from viscofric.arrays import Array
-from viscofric.data import Deformation
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.checks import insist_on_agreement
-from viscofric.readers.dma.readings import Readings
-from viscofric.readers.source import LARGEST_FACTOR, Source, decimal_comma, unit_conversion
+from viscofric.readers.dma.names import DMA, quantity
+from viscofric.readers.dma.readings import Readings, of_one_file
+from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.source import Source
+from viscofric.readers.table import Table, instrument_table
 
 NAME = "Mettler-Toledo DMA text"
 
 _UNIT = re.compile(r"\[[^\[\]]*\]")
 _WORD = re.compile(r"\S+")
+_QUANTITIES = {"Ts": "temperature", "tan_delta": "tan delta"}
+_KNOWN = (*_QUANTITIES, "f", "E'", "G'", "E''", "G''", "E*", "G*")
 #: Names and units stand within the first lines; what comes before is empty.
 _FIRST_LINES = 10
 
@@ -60,52 +61,23 @@ def _primes(text: str) -> str:
 def read(source: Source) -> Readings:
     """Return the points, or raise `DataFileError` for a missing column, a wrong unit or a damaged row."""
     blocks = _blocks(source)
-    letters = {letter for block in blocks for letter in "EG" if f"{letter}'" in block.names}
-    if len(letters) != 1:
-        raise DataFileError(
-            source.path,
-            "some blocks hold E', others G'; split the file by deformation.",
-            code="deformation-contradicts",
-        )
-    letter = letters.pop()
-    deformation: Deformation = "tension" if letter == "E" else "shear"
-    columns = [
-        np.concatenate([_column(source.path, block, name, unit) for block in blocks])
-        for name, unit in (("Ts", "K"), ("f", "Hz"), (f"{letter}'", "Pa"), (f"{letter}''", "Pa"))
-    ]
-    temperature, frequency, storage, loss = columns
-    printed = {
-        name: np.concatenate([_column(source.path, block, name, unit) for block in blocks])
-        for name, unit in (("tan_delta", ""), (f"{letter}*", "Pa"))
-        if all(name in block.names for block in blocks)
-    }
-    insist_on_agreement(source.path, storage, loss, printed.get("tan_delta"), printed.get(f"{letter}*"))
-    lines = [line for block in blocks for line in block.lines]
-    for values, name in ((temperature, "Ts"), (frequency, "f")):
-        if np.any(values <= 0.0):
-            bound = "absolute zero" if name == "Ts" else "zero"
-            row = int(np.argmax(values <= 0.0))
-            raise DataFileError(
-                source.path, f"the number in column {name!r} must be above {bound}.", lines[row], code="not-positive"
-            )
-    notes = []
+    parts = [read_points(_table(source.path, block), source, NAME, "", strict=True) for block in blocks]
+    whole = of_one_file(parts, "some blocks")
+    notes = whole.notes
     if "x" in blocks[0].names:
         said = "The amplitude x is a displacement and the sample's length is missing, so the strain is unknown."
-        notes.append(Note("strain-unknown", said))
-    return Readings(
-        source.path,
-        NAME,
-        tuple(f"line {line}" for line in lines),
-        temperature,
-        2.0 * math.pi * frequency,
-        storage,
-        loss,
-        deformation,
-        f"the heading {letter}' {blocks[0].units[blocks[0].names.index(letter + chr(39))]}",
-        None,
-        np.array([step for block in blocks for step in block.steps], dtype=np.int64),
-        tuple(notes),
-    )
+        notes = (*notes, Note("strain-unknown", said))
+    steps = np.array([step for block in blocks for step in block.steps], dtype=np.int64)
+    return replace(whole, step=steps, notes=notes)
+
+
+def _table(path: str, block: _Block) -> Table:
+    known = {name: _QUANTITIES.get(name) or quantity(name) or "" for name in _KNOWN}
+    columns = [
+        (name, unit.strip("[] ") if name != "tan_delta" else "", known.get(name, ""))
+        for name, unit in zip(block.names, block.units, strict=True)
+    ]
+    return instrument_table(path, columns, list(zip(block.lines, block.rows, strict=True)), DMA)
 
 
 def _blocks(source: Source) -> list[_Block]:
@@ -140,8 +112,6 @@ def _blocks(source: Source) -> list[_Block]:
     blocks = [block for block in blocks if block.rows]
     if not blocks:
         raise DataFileError(source.path, "there is a header, but no row of numbers under it.", code="no-points")
-    numbered = [one for block in blocks for one in zip(block.rows, block.lines, strict=True)]
-    decimal_comma(source.path, ((cell, line) for row, line in numbered for cell in row))
     return blocks
 
 
@@ -154,33 +124,3 @@ def _cells(line: str, block: _Block, path: str, number: int) -> list[str]:
         problem = f"the row has {len(cells)} cells where the header names {len(block.names)} columns."
         raise DataFileError(path, problem, number, code="row-length")
     return cells
-
-
-def _column(path: str, block: _Block, name: str, unit: str) -> Array:
-    if name not in block.names:
-        raise DataFileError(
-            path, f"there is no column {name!r}, only {', '.join(block.names)}.", code="missing-columns"
-        )
-    place = block.names.index(name)
-    values = []
-    for row, line in zip(block.rows, block.lines, strict=True):
-        try:
-            value = float(row[place].replace(",", "."))
-        except ValueError:
-            value = math.nan
-        if not math.isfinite(value * LARGEST_FACTOR) or "_" in row[place]:
-            raise DataFileError(
-                path, f"{row[place]!r} in column {name!r} is not a finite number.", line, code="not-a-number"
-            )
-        values.append(value)
-    text = block.units[place].strip("[] ")
-    if not unit:
-        return np.array(values)
-    try:
-        factor, offset = unit_conversion(text, unit, name)
-    except InputError:
-        example = {"K": "°C", "Pa": "MPa"}.get(unit, unit)
-        raise DataFileError(
-            path, f"column {name!r} has the unit {text!r}; it must be like {example!r}.", code="wrong-unit"
-        ) from None
-    return np.asarray(factor * np.array(values) + offset)

@@ -20,11 +20,15 @@ from viscofric.readers.table import MISSING
 from viscofric.readers.tables import name_columns
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from viscofric.arrays import Array, Integers
     from viscofric.readers.dma.names import Said
     from viscofric.readers.source import Source
     from viscofric.readers.table import Table
 
+    #: Labels and values that name a sample holder.
+    Tools = Sequence[tuple[str, str]]
 
 _OF_OSCILLATION = re.compile(r"complex|oscillat|amplitude|dynamic|\bdyn\b", re.IGNORECASE)
 #: Segment and number of a point, as HAAKE RheoWin prints them.
@@ -163,16 +167,23 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
             notes.append(note)
     else:
         factor, offset = table.conversion(column, "Pa", _HINT)
-    return factor * table.numbers_or_missing(place) + offset
+    with np.errstate(over="ignore"):
+        values = factor * table.numbers_or_missing(place) + offset
+    if np.any(np.isinf(values)):
+        raise table.wrong_cell(int(np.argmax(np.isinf(values))), place, "a finite number of pascal", "not-a-number")
+    return values
 
 
-def deformation(table: Table, places: dict[str, int]) -> Said:
-    """Return tension or shear and the words that state it; moduli of both kinds are a `DataFileError`."""
+def deformation(table: Table, places: dict[str, int], tools: Tools | None = None) -> Said:
+    """Return tension or shear and the words that state it; moduli of both kinds are a `DataFileError`.
+
+    `tools` are label and value of the sample holder, if it is not named above the table.
+    """
     said = [(deformation_of(table.columns[places[m]].name), places[m]) for m in _MODULI if m in places]
     if {"tension", "shear"} <= {kind for kind, _ in said}:
         problem = "one modulus is tensile (E) by its heading, the other shear (G)."
         raise DataFileError(table.path, problem, code="deformation-contradicts")
-    tools = names.tools_in(table.above)
+    tools = names.tools_in(table.above) if tools is None else tools
     for kind, place in said:
         if kind is not None:
             return names.held(kind, table.columns[place].heading, tools)
@@ -188,11 +199,20 @@ def deformation(table: Table, places: dict[str, int]) -> Said:
 WIDEST_SWEEP = 7.0  # decades
 
 
-def read_points(table: Table, source: Source, format: str, name: str, where: str = "line") -> Readings:  # noqa: A002
+def read_points(
+    table: Table,
+    source: Source,
+    format: str,  # noqa: A002
+    name: str,
+    where: str = "line",
+    *,
+    strict: bool = False,
+    tools: Tools | None = None,
+) -> Readings:
     """Return the points of one table.
 
     `name` is that of the file or sheet, which may contain the temperature; numbers of rows count lines, or what `where`
-    says.
+    says.  `strict`: no frequency may be zero or less, as in exports of an instrument; `tools` as for `deformation`.
     """
     places = find_columns(table)
     if is_reduced(table, places):
@@ -204,17 +224,19 @@ def read_points(table: Table, source: Source, format: str, name: str, where: str
         notes.append(Note("empty-rows", f"{rows} neither frequency nor modulus; skipped."))
     frequency = angular_frequency(table, places, notes)
     insist_on_one_frequency(table, places, frequency)
+    if strict and np.any(frequency <= 0.0):
+        raise table.wrong_cell(int(np.argmax(frequency <= 0.0)), places["frequency"], "above zero")
     storage, loss = moduli(table, places, source, notes)
     temperature = _temperature(table, places, source, name, frequency, notes)
     _insist_on_most(table, places, "frequency", frequency)
     _insist_on_most(table, places, "storage modulus", storage)
-    kind, said_by = deformation(table, places)
+    kind, said_by = deformation(table, places, tools)
     amplitude = _strain_amplitude(table, notes)
     _note_numbered(table, notes)
     return Readings(
         source=source.path,
         format=format,
-        places=tuple(f"{where} {number}" for number in table.lines),
+        places=tuple(f"{where} {number}" for number in table.lines.tolist()),
         temperature=temperature,
         angular_frequency=frequency,
         storage_modulus=storage,

@@ -12,7 +12,7 @@ from viscofric.errors import DataFileError
 from viscofric.notes import Note, setting
 from viscofric.readers.dma.instruments import rheocompass
 from viscofric.readers.dma.names import DMA
-from viscofric.readers.dma.readings import Readings
+from viscofric.readers.dma.readings import Readings, of_one_file
 from viscofric.readers.dma.tables.dma_table import read_points
 from viscofric.readers.source import Source
 from viscofric.readers.tables import find_tables
@@ -53,8 +53,12 @@ def read(source: Source) -> Readings:
     if held:
         sheets = f"sheet {held[0]!r} is" if len(held) == 1 else f"sheets {', '.join(map(repr, held))} are"
         notes.append(Note("no-frequency-sweep", f"The {sheets} at one frequency, no frequency sweep; skipped."))
-    whole = _joined(source, readings)
-    return replace(whole, notes=(*notes, *whole.notes))
+    if len(readings) == 1:
+        return replace(whole := next(iter(readings.values())), notes=(*notes, *whole.notes))
+    listed = ", ".join(map(repr, readings))
+    said = f"The sheets {listed} were read as temperatures of one specimen."
+    whole = of_one_file(list(readings.values()), f"the sheets {listed}")
+    return replace(whole, notes=(*notes, Note("sheets-as-temperatures", said), *whole.notes))
 
 
 def _of_exports(source: Source) -> dict[str, Readings]:
@@ -91,44 +95,3 @@ def _insist_on_own_temperatures(source: Source, readings: dict[str, Readings]) -
             remedy = setting("material.sheet", "Sheet", repr(name)) + "."
             values = {"sheets": list(readings)}
             raise DataFileError(source.path, problem, code="several-tables", remedy=remedy, values=values)
-
-
-def _joined(source: Source, readings: dict[str, Readings]) -> Readings:
-    """Put the points of all sheets in one row."""
-    names, parts = list(readings), list(readings.values())
-    if len(parts) == 1:
-        return parts[0]
-    stating = next((part for part in parts if part.deformation is not None), parts[0])
-    if any(part.deformation not in (None, stating.deformation) for part in parts):
-        raise DataFileError(
-            source.path,
-            f"the sheets {', '.join(map(repr, names))} differ in E and G; separate them.",
-            code="deformation-contradicts",
-        )
-
-    def all_of(column: str) -> Array:
-        return np.concatenate([getattr(part, column) for part in parts])
-
-    nothing = [np.full(len(part), np.nan) for part in parts]
-    amplitudes = [
-        none if part.strain_amplitude is None else part.strain_amplitude
-        for part, none in zip(parts, nothing, strict=True)
-    ]
-    joined = Note(
-        "sheets-as-temperatures",
-        f"The sheets {', '.join(map(repr, names))} were read as temperatures of one specimen.",
-    )
-    return Readings(
-        source=source.path,
-        format=NAME,
-        places=tuple(place for part in parts for place in part.places),
-        temperature=all_of("temperature"),
-        angular_frequency=all_of("angular_frequency"),
-        storage_modulus=all_of("storage_modulus"),
-        loss_modulus=all_of("loss_modulus"),
-        deformation=stating.deformation,
-        said_by=stating.said_by,
-        strain_amplitude=np.concatenate(amplitudes) if any(p.strain_amplitude is not None for p in parts) else None,
-        lacks_unit=any(part.lacks_unit for part in parts),
-        notes=(joined, *dict.fromkeys(note for part in parts for note in part.notes)),
-    )
