@@ -21,7 +21,7 @@ from viscofric.data import DEFORMATIONS, Deformation
 from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments import trios_text
-from viscofric.readers.dma.instruments.ta_steps import Table as StepTable
+from viscofric.readers.dma.instruments.ta_steps import StepText
 from viscofric.readers.dma.names import NOT_SAID, said_by_columns, tools_in
 from viscofric.readers.given_files import sources_of
 from viscofric.readers.source import Source, insist_on_content
@@ -191,7 +191,7 @@ def _trios_parts(source: Source, kind: StepKind | None) -> list[_Part]:
     return parts
 
 
-def _table_of_step(path: str, step: StepTable) -> Table | None:
+def _table_of_step(path: str, step: StepText) -> Table | None:
     """Return one step of a programme as a table, None if it is no creep or relaxation test."""
     names = ["" if name.strip().endswith("(step)") else name for name in step.names]
     units = [*step.units, *[""] * len(names)]

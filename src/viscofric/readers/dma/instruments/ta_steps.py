@@ -1,18 +1,26 @@
-"""Steps of a TA Instruments file: its tables as text, their signals as numbers, and which are frequency sweeps."""
+"""Steps of a TA Instruments file: tables of the columns that a sweep needs, and the points of all sweeps among them."""
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, Mask
 from viscofric.errors import DataFileError
-from viscofric.readers.source import COMMA_NUMBER, Test, decimal_comma
+from viscofric.notes import Note
+from viscofric.readers.dma.names import DMA
+from viscofric.readers.dma.readings import Readings, of_one_file
+from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.headings import Column
+from viscofric.readers.source import COMMA_NUMBER, Source, Test, decimal_comma
+from viscofric.readers.table import Table
 
+#: Tests in words.
+TESTS = {"frequency": "frequency sweep", "temperature": "temperature ramp", "amplitude": "amplitude sweep"}
 #: What a column holds -> its names, in small letters.
 ROLES = {
     "temperature": re.compile(r"(sample )?temperature"),
@@ -21,7 +29,7 @@ ROLES = {
     "storage modulus": re.compile(r"((tensile|shear|young's) )?storage modulus( [eg]')?|[eg]'"),
     "loss modulus": re.compile(r"((tensile|shear|young's) )?loss modulus( [eg](''|\"))?|[eg](''|\")"),
     "tan delta": re.compile(r"tan ?\(?(delta|δ)\)?"),
-    "strain": re.compile(r"oscillation strain"),
+    "strain amplitude": re.compile(r"oscillation strain"),
     "oscillation torque": re.compile(r"oscillation torque"),
     "oscillation force": re.compile(r"oscillation force"),
 }
@@ -35,49 +43,46 @@ RAMP, SWEPT = 5.0, 2.0
 
 
 @dataclass(frozen=True, eq=False)
-class Signal:
-    """One column of a step as printed; NaN for an empty cell, or one without a finite number."""
-
-    heading: str
-    unit: str
-    values: Array
-
-
-@dataclass(frozen=True, eq=False)
 class Step:
-    """One step of an instrument's programme: its signals by role, and the place of each point (``"line 18"``).
+    """One step of an instrument's programme: its columns by role, and what the numbers of its rows count.
 
     `named_by_instrument`: the name is that of a technique; names by users carry no information.
     """
 
     name: str
-    signals: Mapping[str, Signal]
-    places: tuple[str, ...]
+    table: Table
+    where: str = "line"
     named_by_instrument: bool = True
 
+    def values(self, *roles: str) -> Array | None:
+        """Return the first of some columns that there is, as printed; NaN for a cell without a finite number."""
+        return next((self._numbers[role] for role in roles if role in self._numbers), None)
+
+    @cached_property
+    def _numbers(self) -> dict[str, Array]:
+        columns = enumerate(self.table.columns)
+        return {column.quantity: self.table.numbers_or_missing(place) for place, column in columns}
+
     @property
-    def frequency(self) -> Signal | None:
-        """The angular frequency, or where there is none the frequency."""
-        return self.signals.get("angular frequency") or self.signals.get("frequency")
+    def needed(self) -> list[Array | None]:
+        """Frequency, storage modulus, and loss modulus or tan δ, as printed."""
+        wanted = (("angular frequency", "frequency"), ("storage modulus",), ("loss modulus", "tan delta"))
+        return [self.values(*roles) for roles in wanted]
 
     @property
     def has_moduli(self) -> bool:
         """Whether there are E' and E'' (or tan δ) and a frequency."""
-        return (
-            self.frequency is not None
-            and "storage modulus" in self.signals
-            and ("loss modulus" in self.signals or "tan delta" in self.signals)
-        )
+        return all(values is not None for values in self.needed)
 
     def is_of(self, test: Test) -> bool:
         """Whether the step sweeps the frequency, the temperature or the strain amplitude, with moduli."""
         if test == "frequency":
             return self.is_frequency_sweep
         technique = self.name.lower() if self.named_by_instrument else ""
-        signal = self.signals.get("strain" if test == "amplitude" else "temperature")
-        if signal is None or not self.has_moduli:
+        values = self.values("strain amplitude" if test == "amplitude" else "temperature")
+        if values is None or not self.has_moduli:
             return False
-        values = signal.values[np.isfinite(signal.values)]
+        values = values[np.isfinite(values)]
         if test == "temperature":
             return bool(values.size and np.ptp(values) > RAMP and not _AMPLITUDE.search(technique))
         values = values[values > 0.0]
@@ -87,11 +92,29 @@ class Step:
     def is_frequency_sweep(self) -> bool:
         """Whether the step holds moduli at several frequencies, or is named a frequency sweep."""
         technique = self.name.lower() if self.named_by_instrument else ""
-        if self.frequency is None or not self.has_moduli or _AMPLITUDE.search(technique):
+        frequency = self.needed[0]
+        if frequency is None or not self.has_moduli or _AMPLITUDE.search(technique):
             return False
-        values = self.frequency.values[self.frequency.values > 0]
+        values = frequency[frequency > 0]
         several = values.size > 0 and values.max() > (1.0 + _SAME_FREQUENCY) * values.min()
         return bool(several or (values.size and "frequency" in technique))
+
+    @property
+    def usable(self) -> Mask:
+        """Which rows have numbers for temperature and moduli, and a frequency above zero."""
+        columns = [values for values in (*self.needed, self.values("temperature")) if values is not None]
+        return np.asarray(np.all(np.isfinite(columns), axis=0) & (columns[0] > 0.0))
+
+    def taken(self, rows: Mask) -> Step:
+        """Return the step with some of its rows."""
+        kept = np.flatnonzero(rows)
+        table = replace(self.table, rows=tuple(self.table.rows[row] for row in kept), lines=self.table.lines[kept])
+        return replace(self, table=table)
+
+    @property
+    def places(self) -> list[str]:
+        """The place of each row in words: ``"line 18"``."""
+        return [f"{self.where} {line}" for line in self.table.lines]
 
 
 def roles(names: Sequence[str]) -> dict[str, int]:
@@ -109,7 +132,7 @@ _NUMBER = re.compile(r"\s*[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?\s*")
 
 
 @dataclass
-class Table:
+class StepText:
     """One step as printed; rows have a line number from 1, and may be shorter than the list of names."""
 
     name: str
@@ -118,19 +141,21 @@ class Table:
     rows: list[tuple[int, list[str]]] = field(default_factory=list)
 
 
-def steps_of(path: str, tables: Sequence[Table], also: Mapping[str, str] | None = None) -> list[Step]:
-    """Return steps of numbers from all tables of a file, which share one decimal mark."""
+def steps_of(
+    path: str, texts: Sequence[StepText], also: Mapping[str, str] | None = None, where: str = "line"
+) -> list[Step]:
+    """Return the steps of a file, which share one decimal mark; `also` are names of columns, rows count `where`."""
     found = []
-    for table in tables:
-        places = roles([(also or {}).get(name.strip().lower(), name) for name in table.names])
+    for text in texts:
+        places = roles([(also or {}).get(name.strip().lower(), name) for name in text.names])
         if "storage modulus" in places:
-            _insist_on_columns(path, table)
-        found.append((table, places))
+            _insist_on_columns(path, text)
+        found.append((text, places))
     comma = _decimal_comma(path, found)
-    return [_step(table, places, comma) for table, places in found]
+    return [Step(text.name, _table(path, text, places, comma), where) for text, places in found]
 
 
-def _insist_on_columns(path: str, table: Table) -> None:
+def _insist_on_columns(path: str, table: StepText) -> None:
     """Refuse rows that are longer than their header: columns and names no longer belong together."""
     columns = max(len(table.names), len(table.units))
     for line, cells in table.rows:
@@ -139,7 +164,7 @@ def _insist_on_columns(path: str, table: Table) -> None:
             raise DataFileError(path, problem, line, code="row-length")
 
 
-def _decimal_comma(path: str, found: Sequence[tuple[Table, dict[str, int]]]) -> bool:
+def _decimal_comma(path: str, found: Sequence[tuple[StepText, dict[str, int]]]) -> bool:
     numbers = [
         (cells[place], line)
         for table, places in found
@@ -155,19 +180,91 @@ def _decimal_comma(path: str, found: Sequence[tuple[Table, dict[str, int]]]) -> 
     return decimal_comma(path, numbers)
 
 
-def _step(table: Table, places: Mapping[str, int], comma: bool) -> Step:
-    signals = {}
-    for role, place in places.items():
-        values = np.array([_number(cells[place] if place < len(cells) else "", comma) for _, cells in table.rows])
-        unit = table.units[place].strip() if place < len(table.units) else ""
-        signals[role] = Signal(table.names[place].strip(), unit, values.astype(float))
-    return Step(table.name, signals, tuple(f"line {line}" for line, _ in table.rows))
+def _table(path: str, text: StepText, places: Mapping[str, int], comma: bool) -> Table:
+    """Return the columns that have a number; a cell that is no number of an instrument, such as ``1_000``, is empty."""
+    cells = {
+        role: [_plain(row[place], comma) if place < len(row) else "" for _, row in text.rows]
+        for role, place in places.items()
+    }
+    columns = []
+    for role in (held := [role for role in cells if any(cells[role]) or not text.rows]):
+        name = text.names[places[role]].strip()
+        unit = text.units[places[role]].strip() if places[role] < len(text.units) and role != "tan delta" else ""
+        columns.append(Column(name, name, unit, role))
+    rows = tuple(zip(*(cells[role] for role in held), strict=True)) if held else ((),) * len(text.rows)
+    lines = np.array([line for line, _ in text.rows], dtype=np.int64)
+    return Table(f"{path}, step {text.name!r}", tuple(columns), rows, lines, False, vocabulary=DMA)
 
 
-def _number(cell: str, comma: bool) -> float:
-    """Return a finite number, or NaN; ``inf``, ``nan`` and ``1_000`` are no numbers of an instrument."""
+def _plain(cell: str, comma: bool) -> str:
     plain = cell.replace("−", "-")
-    if comma:
-        plain = plain.replace(",", ".")
-    number = float(plain) if _NUMBER.fullmatch(plain) else math.nan
-    return number if math.isfinite(number) else math.nan
+    plain = plain.replace(",", ".") if comma else plain
+    return plain if _NUMBER.fullmatch(plain) and np.isfinite(float(plain)) else ""
+
+
+def readings_of(
+    source: Source, kind: str, steps: Sequence[Step], tools: Sequence[tuple[str, str]], notes: Sequence[str]
+) -> Readings:
+    """Return the points of all sweeps, of what the source says, among the steps of a file."""
+    swept = [step.is_of(source.test) for step in steps]
+    sweeps = [(number, step) for number, (step, one) in enumerate(zip(steps, swept, strict=True), start=1) if one]
+    if not sweeps:
+        raise DataFileError(
+            source.path,
+            f"contains no {TESTS[source.test]} of an oscillation; {_contents(steps)}.",
+            code=f"no-{TESTS[source.test].replace(' ', '-')}",
+        )
+    notes = [*notes, *_passed_over([step for step, one in zip(steps, swept, strict=True) if not one], source.test)]
+    left_out = [place for _, step in sweeps for place in step.taken(~step.usable).places]
+    if left_out:
+        points = "1 point was" if len(left_out) == 1 else f"{len(left_out)} points were"
+        want = "without a number for temperature, modulus or frequency (above zero)"
+        notes.append(Note("points-left-out", f"{points} left out, {want}: {_listed(left_out)}."))
+    used = [(number, step.taken(step.usable)) for number, step in sweeps if step.usable.any()]
+    if not used:
+        problem = "no point of its frequency sweeps has all of temperature, frequency and moduli."
+        raise DataFileError(source.path, problem, code="no-points")
+    torque = all(step.table.has("oscillation torque") for _, step in sweeps)
+    with np.errstate(all="ignore"):  # of products that overflow
+        parts = [_points(source, kind, step, tools, torque=torque) for _, step in used]
+    whole = of_one_file(parts, "the steps")
+    step = np.repeat([number for number, _ in used], [len(part) for part in parts]).astype(np.int64)
+    return replace(whole, step=step, notes=tuple(dict.fromkeys((*notes, *whole.notes))))
+
+
+def _points(source: Source, kind: str, step: Step, tools: Sequence[tuple[str, str]], *, torque: bool) -> Readings:
+    table = step.table
+    if not torque:  # of some of the steps only, it says nothing of the others
+        columns = (replace(one, name="") if one.quantity == "oscillation torque" else one for one in table.columns)
+        table = replace(table, columns=tuple(columns))
+    found = read_points(table, source, kind, "", step.where, tools=tools)
+    return found.taken(np.flatnonzero(found.complete))
+
+
+def _contents(steps: Sequence[Step]) -> str:
+    """Return in words what there is instead of a frequency sweep."""
+    if not steps:
+        return "it has no steps with data"
+    names = [repr(step.name) for step in steps]
+    have = [repr(step.name) for step in steps if step.has_moduli]
+    listed = f"its step{' is' if len(steps) == 1 else 's are'} {_listed(names)}"
+    if not have:
+        return f"{listed}, without moduli"
+    which = "" if have == names else f" of which {_listed(have)}"
+    return f"{listed},{which} with moduli, but not over frequency"
+
+
+def _passed_over(steps: Sequence[Step], test: Test) -> list[str]:
+    others = [repr(step.name) for step in steps]
+    if not others:
+        return []
+    what = f"1 step that is not {'an' if test == 'amplitude' else 'a'} {TESTS[test]} was"
+    if len(others) > 1:
+        what = f"{len(others)} steps that are not {TESTS[test]}s were"
+    values = {"steps": [step.name for step in steps]}
+    return [Note(f"no-{TESTS[test].replace(' ', '-')}", f"{what} skipped: {_listed(others)}.", values=values)]
+
+
+def _listed(names: Sequence[str], most: int = 6) -> str:
+    """Name the first few."""
+    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")

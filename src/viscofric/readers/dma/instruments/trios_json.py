@@ -7,18 +7,13 @@ written after it.
 from __future__ import annotations
 
 import json
-import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from typing import Any
-
-import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.files import parse_json
 from viscofric.notes import Note
-from viscofric.readers.dma.instruments.ta_steps import Signal, Step, roles
-from viscofric.readers.dma.instruments.ta_sweeps import readings_of
+from viscofric.readers.dma.instruments.ta_steps import StepText, readings_of, steps_of
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.source import Source
 
@@ -27,20 +22,10 @@ NAME = "TA Instruments TRIOS JSON"
 #: Sections of the results, in the order in which they are preferred: as measured first.
 _SECTIONS = ("Original", "Raw", "Processed")
 _STEP_ID = "Results Step Id"
+_NAMELESS = "(without a name)"
 _HEAD = 20000  # characters that show the layout
 #: Names of the classification of unmodified results.
 _AS_MEASURED = frozenset({"Unmodified", ""})
-
-
-@dataclass(frozen=True)
-class _Results:
-    """One section of the results: names and units of the columns, cells by column, and the name of each row's step."""
-
-    headings: list[str]
-    units: list[str]
-    columns: list[Sequence[Any]]
-    step_ids: list[str]
-    step_names: dict[str, str]
 
 
 def recognises(source: Source) -> bool:
@@ -69,8 +54,8 @@ def read(source: Source) -> Readings:
             code="no-points",
         )
     section = held[name]
-    steps = _steps(_results(section), f"{name.lower()} results")
-    return readings_of(source, NAME, steps, _geometry(document), _notes(name, section))
+    steps = steps_of(source.path, _steps(section), where=f"{name.lower()} results, row")
+    return readings_of(source, NAME, steps, list(_geometry(document)), _notes(name, section))
 
 
 def _part(parent: Any, key: str) -> Any:
@@ -96,53 +81,26 @@ def _notes(name: str, section: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def _results(section: Mapping[str, Any]) -> _Results:
-    """Return headers and rows, which the file holds by key, and the names of the steps by their id."""
+def _steps(section: Mapping[str, Any]) -> list[StepText]:
+    """Return the rows by their step, in the order of the list of steps; headers and rows are held by key."""
     headers = {key: header for key, header in section["ColumnHeaders"].items() if isinstance(header, dict)}
-    listed = section.get("Rows")
-    rows = [row for row in listed if isinstance(row, dict)] if isinstance(listed, list) else []
-    steps = section.get("ResultsSteps")
-    names = {
-        str(step.get("Id")): str(step.get("Name", ""))
-        for step in (steps if isinstance(steps, list) else [])
-        if isinstance(step, dict)
-    }
-    return _Results(
-        [str(header.get("DisplayName", key)) for key, header in headers.items()],
-        [str(_part(header, "Unit").get("Name") or "") for header in headers.values()],
-        [[row.get(key) for row in rows] for key in headers],
-        [str(row.get(_STEP_ID)) for row in rows],
-        names,
-    )
+    listed, named = (held if isinstance(held := section.get(key), list) else [] for key in ("Rows", "ResultsSteps"))
+    names = {str(one.get("Id")): str(one.get("Name", "")) for one in named if isinstance(one, dict)}
+    headings = [str(header.get("DisplayName", key)) for key, header in headers.items()]
+    units = [str(_part(header, "Unit").get("Name") or "") for header in headers.values()]
+    steps = {one: StepText(name or _NAMELESS, headings, units) for one, name in names.items()}
+    for number, row in enumerate((row for row in listed if isinstance(row, dict)), start=1):
+        step = steps.setdefault(str(row.get(_STEP_ID)), StepText(_NAMELESS, headings, units))
+        step.rows.append((number, [_number(row.get(key)) for key in headers]))
+    return list(steps.values())
 
 
-def _steps(results: _Results, where: str) -> list[Step]:
-    """Part the rows by their step, in the order of the list of steps."""
-    places = roles(results.headings)
-    values = {role: np.array([_number(cell) for cell in results.columns[place]]) for role, place in places.items()}
-    order = list(dict.fromkeys([*results.step_names, *results.step_ids]))
-    rows_of: dict[str, list[int]] = {one: [] for one in order}
-    for row, one in enumerate(results.step_ids):
-        rows_of[one].append(row)
-    steps = []
-    for one, rows in rows_of.items():
-        signals = {
-            role: Signal(results.headings[place], results.units[place], values[role][rows])
-            for role, place in places.items()
-            if np.any(np.isfinite(values[role][rows]))  # the headers are those of all steps together
-        }
-        name = results.step_names.get(one) or "(without a name)"
-        steps.append(Step(name, signals, tuple(f"row {row + 1} of the {where}" for row in rows)))
-    return steps
-
-
-def _number(cell: object) -> float:
-    """Return a finite number, or NaN."""
+def _number(cell: object) -> str:
+    """Return a number as an export would print it, empty for what is none."""
     try:
-        number = float(cell) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else math.nan
+        return repr(float(cell)) if isinstance(cell, (int, float)) and not isinstance(cell, bool) else ""
     except OverflowError:
-        return math.nan
-    return number if math.isfinite(number) else math.nan
+        return ""
 
 
 def _geometry(document: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.instruments.ta_steps import Table, steps_of
-from viscofric.readers.dma.instruments.ta_sweeps import readings_of
+from viscofric.readers.dma.instruments.ta_steps import StepText, readings_of, steps_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -54,7 +53,7 @@ class Tables:
     """The steps of a file as text, label and value of its sample holder, and notes."""
 
     format: str
-    tables: list[Table]
+    tables: list[StepText]
     tools: list[tuple[str, str]]
     notes: list[str]
 
@@ -115,8 +114,8 @@ def _drop_torn_cell(draft: list[Row]) -> None:
         draft[-1] = (line, [*cells[:-1], ""])
 
 
-def _lims_table(draft: list[Row], notes: list[str]) -> Table:
-    table, stated = Table("(without a name)"), ""
+def _lims_table(draft: list[Row], notes: list[str]) -> StepText:
+    table, stated = StepText("(without a name)"), ""
     for line, cells in draft:
         label, values = cells[0].strip().lower(), cells[1:]
         if label == "step name" and values:
@@ -135,8 +134,8 @@ def _lims_table(draft: list[Row], notes: list[str]) -> Table:
     return table
 
 
-def _short_table(draft: list[Row]) -> Table:
-    table = Table("(without a name)")
+def _short_table(draft: list[Row]) -> StepText:
+    table = StepText("(without a name)")
     if draft:
         table.name = draft[0][1][0].strip()
     if len(draft) > 2:

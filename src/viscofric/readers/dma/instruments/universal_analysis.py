@@ -21,10 +21,12 @@ from viscofric.arrays import Array
 from viscofric.errors import DataFileError
 from viscofric.files import decoded
 from viscofric.notes import Note
-from viscofric.readers.dma.instruments.ta_steps import Signal, Step, Table, roles, steps_of
-from viscofric.readers.dma.instruments.ta_sweeps import readings_of
+from viscofric.readers.dma.instruments.ta_steps import StepText, readings_of, steps_of
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.source import Source
+
+#: Number of a line or a record, and its cells.
+Row = tuple[int, list[str]]
 
 NAME = "TA Instruments Universal Analysis (Q800) text or binary"
 
@@ -54,13 +56,15 @@ def read(source: Source) -> Readings:
         kind = "TA Instruments Universal Analysis text"
         header, rows = _split(source.path, _text(source))
         names, units = _signals(source.path, header)
-        step = _step_of_text(source.path, _title(header), names, units, rows, notes)
+        rows, where = _measured(source.path, len(names), rows, notes), "line"
     else:
         kind = "TA Instruments Q800 binary"
         start = len(_UTF16) if source.data.startswith(_UTF16) else 0
         header = [_tag(line) for line in source.data[start:end].decode("utf-16-le", "replace").splitlines()]
         names, units = _signals(source.path, header)
-        step = _step_of_records(_title(header), names, units, source.data[end + len(_END_OF_HEADER) + 1 :], notes)
+        rows, where = _records(len(names), source.data[end + len(_END_OF_HEADER) + 1 :], notes), "record"
+    step = steps_of(source.path, [StepText(_title(header), names, units, rows)], _ALSO, where)[0]
+    step = replace(step, named_by_instrument=False)
     if not step.has_moduli:
         instrument = next((value for tag, value in header if tag.lower() == "instrument"), "the instrument")
         raise DataFileError(
@@ -96,7 +100,7 @@ def _tag(line: str) -> tuple[str, str]:
     return tag, value.strip()
 
 
-def _split(path: str, text: str) -> tuple[list[tuple[str, str]], list[tuple[int, list[str]]]]:
+def _split(path: str, text: str) -> tuple[list[tuple[str, str]], list[Row]]:
     """Part a text export into the tags of its header and the cells of its rows with their lines."""
     lines = re.split(r"\r\n|\r|\n", text)
     start = next((place for place, line in enumerate(lines) if line.strip().lower() == "startofdata"), None)
@@ -144,9 +148,8 @@ def _name_and_unit(signal: str) -> tuple[str, str]:
     return (name.strip(), unit.strip(") ")) if bracket and signal.endswith(")") else (signal, "")
 
 
-def _step_of_text(
-    path: str, title: str, names: list[str], units: list[str], rows: list[tuple[int, list[str]]], notes: list[str]
-) -> Step:
+def _measured(path: str, count: int, rows: list[Row], notes: list[str]) -> list[Row]:
+    """Return the rows of a text export that are points, of so many signals."""
     measured = [row for row in rows if not row[1][0].strip().startswith(("-", "−"))]
     events = len(rows) - len(measured)
     if events:
@@ -156,23 +159,23 @@ def _step_of_text(
             else f"{events} rows with a negative time mark events"
         )
         notes.append(Note("events", f"{marks}; no point was read there."))
-    if measured and rows[-1] is measured[-1] and len(rows[-1][1]) < len(names):
+    if measured and rows[-1] is measured[-1] and len(rows[-1][1]) < count:
         line, _ = measured.pop()
         said = f"The last row (line {line}) is torn and was left out; the file may have been cut short."
         notes.append(Note("cut-short", said))
     for line, cells in measured:
-        if len(cells) < len(names):
-            problem = f"the row has {len(cells)} cells where the header names {len(names)} signals."
+        if len(cells) < count:
+            problem = f"the row has {len(cells)} cells where the header names {count} signals."
             raise DataFileError(path, problem, line, code="row-length")
-    step = steps_of(path, [Table(title, names, units, measured)], _ALSO)[0]
-    return replace(step, named_by_instrument=False)
+    return measured
 
 
-def _step_of_records(title: str, names: list[str], units: list[str], data: bytes, notes: list[str]) -> Step:
-    size = 4 * len(names)
+def _records(signals: int, data: bytes, notes: list[str]) -> list[Row]:
+    """Return the records of a binary file up to the end of the data, as an export would print them."""
+    size = 4 * signals
     count = len(data) // size
     with np.errstate(invalid="ignore"):  # what is no number is sorted out below
-        records = np.frombuffer(data[: count * size], dtype="<f4").reshape(count, len(names)).astype(float)
+        records = np.frombuffer(data[: count * size], dtype="<f4").reshape(count, signals).astype(float)
     negative = np.flatnonzero(records[:, 0] < 0)
     if negative.size:
         _note_records_behind(records, int(negative[0]), notes)
@@ -183,10 +186,7 @@ def _step_of_records(title: str, names: list[str], units: list[str], data: bytes
     else:
         said = "No record with a negative time closes the data; the file may have been cut short."
         notes.append(Note("cut-short", said))
-    records = np.where(np.isfinite(records), records, np.nan)
-    places = roles([_ALSO.get(name.lower(), name) for name in names])
-    signals = {role: Signal(names[place], units[place], records[:, place]) for role, place in places.items()}
-    return Step(title, signals, tuple(f"record {number}" for number in range(1, len(records) + 1)), False)
+    return [(number, list(map(repr, record))) for number, record in enumerate(records.tolist(), start=1)]
 
 
 def _note_records_behind(records: Array, end: int, notes: list[str]) -> None:
