@@ -117,7 +117,7 @@ def test_temperature_that_was_not_exported_is_asked_for():
     text = sweep(
         [row[1:] for row in ROWS], ("Angular Frequency", "Storage Modulus", "Loss Modulus"), ("[rad/s]", "[Pa]", "[Pa]")
     )
-    with refused("no-temperature", 1):
+    with refused("no-temperature", None, "interval in line 1"):
         rheocompass.read(written(text))
     assert rheocompass.read(written(text, temperature=300.0)).temperature.tolist() == [300.0, 300.0]
 
@@ -156,7 +156,7 @@ def test_file_that_breaks_off_is_refused(cut):
         (["25.0", "0", "1000", "100"], ("not-positive", 5)),
         (["-300", "5", "1000", "100"], ("not-positive", 5)),
         (["25.0", "5", "10oo", "100"], ("not-a-number", 5, "'10oo'", "'Storage Modulus'")),
-        (["25.0", "5", "1e305", "100"], ("not-a-number", 5, "'1e305'")),
+        (["25.0", "5", "1e309", "100"], ("not-a-number", 5, "'1e309'")),
         (["25.0", "5", "inf", "100"], ("not-a-number", 5, "'inf'")),
     ],
 )
@@ -166,9 +166,9 @@ def test_damaged_cell_is_reported(row, refusal):
 
 
 def test_unit_of_another_kind_is_reported():
-    with refused("wrong-unit", 1, "'Storage Modulus'", "'N'"):
+    with refused("wrong-unit", None, "interval in line 1", "'Storage Modulus'", "'N'"):
         rheocompass.read(written(sweep(ROWS, units=("[°C]", "[rad/s]", "[N]", "[Pa]"))))
-    with refused("wrong-unit", 1, "'Angular Frequency'", "'Hz'"):
+    with refused("wrong-unit", None, "interval in line 1", "'Angular Frequency'", "'Hz'"):
         rheocompass.read(written(sweep(ROWS, units=("[°C]", "[Hz]", "[Pa]", "[Pa]"))))
 
 

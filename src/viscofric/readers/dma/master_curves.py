@@ -91,22 +91,24 @@ def read_master_curve(
     if modulus_unit is not None:
         unit_conversion(modulus_unit, "Pa", "modulus_unit")
     source = Source(str(path), read_bytes(path), None, modulus_unit or "", DMA.checked(columns), checked_sheet(sheet))
-    if not source.columns and reptate.recognises(source):
-        said: Deformation | None = "shear"  # RepTate has G' and G'' only
-        frequency, storage, loss, temperature = _of_reptate(source, kelvin)
-    else:
-        table = _table(source)
-        said, _ = dma_table.deformation(table, dma_table.find_columns(table, master_curve=True))
-        _insist_on_reference(source, _stated_reference(source), kelvin)
-        frequency, storage, loss, temperature = _of_table(table, source, kelvin)
+    table, stated = _table(source)
+    said, _ = dma_table.deformation(table, dma_table.find_columns(table, master_curve=True))
+    _insist_on_reference(source, stated, kelvin)
+    frequency, storage, loss, temperature = _of_table(table, source, kelvin)
     kind = _kind(source, said, deformation)
     factor = 1.0 if kind != "shear" else 2.0 * (1.0 + ratio)
     order = np.argsort(frequency, kind="stable")
     return MasterCurve(frequency[order], factor * storage[order], factor * loss[order], temperature[order], kelvin)
 
 
-def _table(source: Source) -> Table:
-    """Return the one table of a text file or a workbook."""
+def _table(source: Source) -> tuple[Table, float]:
+    """Return the one table of a text file or a workbook, and the reference temperature that it states, K, else NaN."""
+    if not source.columns and reptate.recognises(source):
+        table, parameters = reptate.table_of(source)
+        if not table.has("reduced frequency"):
+            problem = "is a sweep at one temperature (RepTate .osc), no master curve"
+            raise DataFileError(source.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
+        return table, reptate.temperature_of(parameters)
     found = format_of(source)
     if found.NAME not in (delimited.NAME, workbook.NAME):
         problem = f"is a file of an instrument ({found.NAME}), not a table of a master curve"
@@ -116,7 +118,7 @@ def _table(source: Source) -> Table:
         problem = f"the sheets {', '.join(map(repr, tables))} each contain a table with moduli; choose one with "
         remedy = setting("material.sheet", "Sheet", repr(next(iter(tables)))) + "."
         raise DataFileError(source.path, problem, code="several-tables", remedy=remedy)
-    return next(iter(tables.values()))
+    return next(iter(tables.values())), _stated_reference(source)
 
 
 def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
@@ -135,18 +137,6 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
     named = {"frequency": frequency, "storage modulus": storage, "loss modulus": loss, "temperature": temperature}
     _insist_on_positive(table.path, table.lines, named)
     return frequency, storage, loss, temperature
-
-
-def _of_reptate(source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
-    found = reptate.columns(source)
-    if not found.is_master_curve:
-        problem = "is a sweep at one temperature (RepTate .osc), no master curve"
-        raise DataFileError(source.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
-    _insist_on_reference(source, float(found.temperature[0]), reference)
-    columns = (found.angular_frequency, found.storage_modulus, found.loss_modulus)
-    named = dict(zip(("frequency", "storage modulus", "loss modulus"), columns, strict=True))
-    _insist_on_positive(source.path, found.lines, named)
-    return *columns, np.full(len(columns[0]), reference)
 
 
 def _stated_reference(source: Source) -> float:

@@ -23,9 +23,9 @@ from viscofric.notes import Note
 from viscofric.readers.dma.instruments import trios_text
 from viscofric.readers.dma.instruments.ta_steps import StepText
 from viscofric.readers.dma.names import NOT_SAID, said_by_columns, tools_in
+from viscofric.readers.dma.tables import reptate
 from viscofric.readers.given_files import sources_of
 from viscofric.readers.source import Source, insist_on_content
-from viscofric.readers.steps import reptate
 from viscofric.readers.steps.columns import STEPS, kind_in_name, kind_of, response_of, temperature_of, time_of
 from viscofric.readers.table import MISSING, Table, make_table
 from viscofric.readers.tables import find_tables

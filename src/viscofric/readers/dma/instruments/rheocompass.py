@@ -7,13 +7,13 @@ words of the field.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma import names
 from viscofric.readers.dma.instruments.rheocompass_intervals import (
     Decimals,
     Interval,
@@ -21,12 +21,13 @@ from viscofric.readers.dma.instruments.rheocompass_intervals import (
     head,
     intervals,
 )
-from viscofric.readers.dma.names import said_by_columns, tools_in
-from viscofric.readers.dma.readings import Readings
-from viscofric.readers.source import STRAIN_FACTORS, to_rad_per_second, unit_conversion
+from viscofric.readers.dma.names import DMA, tools_in
+from viscofric.readers.dma.readings import Readings, of_one_file
+from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.source import STRAIN_FACTORS
+from viscofric.readers.table import Table, instrument_table
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array
     from viscofric.readers.source import Source
 
     #: Line and cells of points.
@@ -48,21 +49,22 @@ def read(source: Source) -> Readings:
     found = intervals(source)
     oscillating = [interval for interval in found if interval.oscillates]
     decimals = Decimals.of(source.path, oscillating)
+    tools = tools_in(head(source))
     notes: list[Note] = []
-    tables, lines, steps = [], [], []
-    sweeps: list[Interval] = []
+    parts: list[Readings] = []
     for interval in oscillating:
         rows = _complete(interval)
-        frequency = _column(source.path, interval, "angular frequency", rows, decimals)
-        held = source.test != "frequency"
-        if not held and (frequency.size < 2 or np.ptp(frequency) <= _SAME_FREQUENCY * np.max(np.abs(frequency))):
+        if not rows:
             continue
-        tables.append(_table(source, interval, rows, frequency, decimals))
-        lines += [line for line, _ in rows]
-        steps += [len(sweeps)] * len(rows)
-        sweeps.append(interval)
+        table = _table(source.path, interval, rows, decimals)
+        assert interval.frequency is not None  # it oscillates
+        frequency = table.numbers(interval.frequency)
+        held = frequency.size < 2 or np.ptp(frequency) <= _SAME_FREQUENCY * np.max(np.abs(frequency))
+        if held and source.test == "frequency":
+            continue
+        parts.append(read_points(table, source, NAME, "", strict=True, tools=tools))
         notes += _doubts(interval)
-    if not tables:
+    if not parts:
         headings = ", ".join(repr(column) for column in found[0].columns[1:] if column)
         raise DataFileError(
             source.path,
@@ -70,34 +72,20 @@ def read(source: Source) -> Readings:
             f"has the columns {headings}.",
             code="no-frequency-sweep",
         )
-    others = len(found) - len(sweeps)
+    others = len(found) - len(parts)
     if others:
         what = "1 interval that is no frequency sweep was"
         what = what if others == 1 else f"{others} intervals that are no frequency sweeps were"
         notes.insert(0, Note("no-frequency-sweep", f"{what} skipped."))
-    moduli = [interval.columns[interval.places["storage modulus"]] for interval in sweeps]
-    columns = [column for interval in sweeps for column in interval.columns[1:]]
-    deformation, said_by = said_by_columns(moduli, columns, tools_in(head(source)))
-    temperature, frequency, storage, loss, amplitude = np.concatenate(tables, axis=1)
-    return Readings(
-        source.path,
-        NAME,
-        tuple(f"line {line}" for line in lines),
-        temperature,
-        frequency,
-        storage,
-        loss,
-        deformation,
-        said_by,
-        amplitude if np.any(np.isfinite(amplitude)) else None,
-        np.array(steps, dtype=np.int64),
-        tuple(dict.fromkeys(notes)),
-    )
+    whole = of_one_file(parts, "the intervals")
+    step = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    return replace(whole, step=step, notes=tuple(dict.fromkeys((*notes, *whole.notes))))
 
 
 def _needed(interval: Interval) -> list[int]:
-    whats = ("angular frequency", "storage modulus", "loss modulus", "temperature")
-    return [interval.places[what] for what in whats if what in interval.places]
+    whats = ("storage modulus", "loss modulus", "temperature")
+    places = (interval.frequency, *(interval.places.get(what) for what in whats))
+    return [place for place in places if place is not None]
 
 
 def _complete(interval: Interval) -> Rows:
@@ -105,41 +93,21 @@ def _complete(interval: Interval) -> Rows:
     return [(line, row) for line, row in interval.rows if all(row[place] for place in _needed(interval))]
 
 
-def _column(path: str, interval: Interval, what: str, rows: Rows, decimals: Decimals) -> Array:
-    """Return the numbers of a column as printed."""
-    place = interval.places[what]
-    heading = interval.columns[place]
-    return np.array([decimals.number(path, row[place], heading, line) for line, row in rows])
-
-
-def _table(source: Source, interval: Interval, rows: Rows, frequency: Array, decimals: Decimals) -> Array:
-    """Return temperature, angular frequency, moduli and strain amplitude in five rows."""
-    path = source.path
-    frequency = frequency * _to_angular(path, interval)
-    storage, loss = (
-        _conversion(path, interval, what, "Pa")[0] * _column(path, interval, what, rows, decimals)
-        for what in ("storage modulus", "loss modulus")
-    )
-    if "temperature" in interval.places:
-        factor, offset = _conversion(path, interval, "temperature", "K")
-        temperature = factor * _column(path, interval, "temperature", rows, decimals) + offset
-    elif source.temperature is not None:
-        temperature = np.full(frequency.shape, source.temperature)
-    else:
-        problem = "the interval has no column of temperatures; export it, or give temperature= for all points."
-        raise DataFileError(path, problem, interval.line, code="no-temperature")
-    for values, what, bound in ((frequency, "frequency", "zero"), (temperature, "temperature", "absolute zero")):
-        if np.any(values <= 0.0):
-            raise DataFileError(
-                path, f"the {what} must be above {bound}.", rows[int(np.argmax(values <= 0.0))][0], code="not-positive"
-            )
-    amplitude = np.full(frequency.shape, np.nan)
-    place = interval.places.get("strain amplitude")
-    if place is not None and interval.units[place] in STRAIN_FACTORS:
-        known = [index for index, (_, row) in enumerate(rows) if row[place]]
-        numbers = _column(path, interval, "strain amplitude", [rows[index] for index in known], decimals)
-        amplitude[known] = np.abs(numbers) * STRAIN_FACTORS[interval.units[place]]
-    return np.array([temperature, frequency, storage, loss, amplitude])
+def _table(path: str, interval: Interval, rows: Rows, decimals: Decimals) -> Table:
+    """Return complete points as a table; amplitudes of any sign, and those of an unknown unit are not read."""
+    quantities = {place: what for what, place in interval.places.items()}
+    strain = interval.places.get("strain amplitude", -1)
+    if interval.units[strain] not in STRAIN_FACTORS:
+        quantities.pop(strain, None)
+    columns = [
+        (name, unit, quantities.get(place, ""))
+        for place, (name, unit) in enumerate(zip(interval.columns, interval.units, strict=True))
+    ]
+    body = [
+        (line, [decimals.plain(cell.lstrip("-") if place == strain else cell) for place, cell in enumerate(row)])
+        for line, row in rows
+    ]
+    return instrument_table(f"{path}, interval in line {interval.line}", columns, body, DMA)
 
 
 def _doubts(interval: Interval) -> list[Note]:
@@ -167,26 +135,3 @@ def _doubts(interval: Interval) -> list[Note]:
             )
         )
     return notes
-
-
-def _to_angular(path: str, interval: Interval) -> float:
-    place = interval.places["angular frequency"]
-    heading, unit = interval.columns[place], interval.units[place]
-    angular = names.quantity(heading) == "angular frequency"
-    factor = to_rad_per_second(unit, angular=angular)
-    if factor is not None:
-        return factor
-    raise DataFileError(
-        path, f"column {heading!r} has the unit {unit!r}; it must be 'rad/s' or 'Hz'.", interval.line, code="wrong-unit"
-    )
-
-
-def _conversion(path: str, interval: Interval, what: str, unit: str) -> tuple[float, float]:
-    place = interval.places[what]
-    heading, text = interval.columns[place], interval.units[place]
-    try:
-        return unit_conversion(text, unit, heading)
-    except InputError:
-        example = {"K": "°C"}.get(unit, unit)
-        problem = f"column {heading!r} has the unit {text!r}; it must be one like {example!r}."
-        raise DataFileError(path, problem, interval.line, code="wrong-unit") from None

@@ -12,14 +12,13 @@ units in brackets, and one row for each point, its first cell empty::
 from __future__ import annotations
 
 import csv
-import math
 import re
 from dataclasses import dataclass
 from functools import cached_property
 
 from viscofric.errors import DataFileError
 from viscofric.readers.dma import names
-from viscofric.readers.source import LARGEST_FACTOR, Source, decimal_comma
+from viscofric.readers.source import Source, decimal_comma
 
 _INTERVAL = re.compile(
     r'^"?[^\t;,:"\r\n]{3,60}:"?(?P<mark>[\t;,])"?\d{1,6}"?(?P=mark)"?\d{1,6}"?[\t;, ]*\r?\n(?:[\t;, ]*\r?\n)?'
@@ -60,14 +59,17 @@ class Interval:
             what = "strain amplitude" if column.lower() in _STRAIN else names.quantity(column)
             if what is not None:
                 found.setdefault(what, place)
-        if "angular frequency" not in found and "frequency" in found:
-            found["angular frequency"] = found["frequency"]
         return found
 
     @property
     def oscillates(self) -> bool:
         """Whether there are a frequency and both moduli."""
-        return "angular frequency" in self.places and all(what in self.places for what in _SWEEP)
+        return self.frequency is not None and all(what in self.places for what in _SWEEP)
+
+    @property
+    def frequency(self) -> int | None:
+        """The column of the angular frequency, or where there is none of the frequency."""
+        return self.places.get("angular frequency", self.places.get("frequency"))
 
     @property
     def missing(self) -> int:
@@ -195,16 +197,7 @@ class Decimals:
             code="mixed-decimals",
         )
 
-    def number(self, path: str, cell: str, heading: str, line: int) -> float:
-        """Return a cell as a finite number, or raise `DataFileError`."""
+    def plain(self, cell: str) -> str:
+        """Return a cell with a decimal point and without separators of thousands."""
         plain = cell.replace(self.thousands, "") if self.thousands else cell
-        plain = plain.replace(",", ".") if self.point == "," else plain
-        try:
-            value = float(plain)
-        except ValueError:
-            value = math.nan
-        if not math.isfinite(value * LARGEST_FACTOR) or "_" in plain:
-            raise DataFileError(
-                path, f"{cell!r} in column {heading!r} is not a finite number.", line, code="not-a-number"
-            )
-        return value
+        return plain.replace(",", ".") if self.point == "," else plain

@@ -1,42 +1,31 @@
-"""Text files of RepTate: one line of parameters, then names and units, then frequency, G' and G'' in columns.
+"""Text files of RepTate: one line of parameters, then names and units, then numbers in columns.
 
 A sweep (.osc) names its columns and has one temperature; a master curve (.tts) is columns alone, in rad/s and Pa.
+Creep and relaxation files (.creep, .gt) have time, strain and stress.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
-from viscofric.arrays import Array, Integers
-from viscofric.errors import DataFileError, not_needed
-from viscofric.readers.dma.names import deformation_of, quantity
+from viscofric.errors import DataFileError
+from viscofric.readers.dma.names import DMA, quantity
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
+from viscofric.readers.dma.tables.dma_table import read_points
 from viscofric.readers.headings import heading
-from viscofric.readers.source import Source, to_rad_per_second, unit_conversion
+from viscofric.readers.source import Source
+from viscofric.readers.table import Table, instrument_table
 from viscofric.units import CELSIUS_ZERO
 
 NAME = "RepTate text (.osc, .tts)"
 #: Lines that show whether columns have names.
 _HEAD = 20
+_MODULI = ("storage modulus", "loss modulus")
+_UNNAMED = ("reduced angular frequency", "G'", "G''")
 _PARAMETERS = re.compile(r"\s*(?:[\w ]+=[^;=]*;)+(?:[\w ]+=[^;=]*)?\s*")
-
-
-@dataclass(frozen=True, eq=False)
-class RepTateColumns:
-    """The content of a RepTate file; without names of columns it is a master curve."""
-
-    parameters: dict[str, str]  # of the first line, such as {"T": "-35", "Mw": "2.4"}
-    is_master_curve: bool
-    lines: Integers  # of the file
-    angular_frequency: Array  # rad/s
-    storage_modulus: Array  # Pa
-    loss_modulus: Array  # Pa
-    temperature: Array  # K, NaN if unknown
-    strain_amplitude: Array | None  # fraction
-    said_by: str  # heading of the storage modulus
 
 
 def recognises(source: Source) -> bool:
@@ -63,86 +52,49 @@ def _parameters(line: str) -> dict[str, str]:
 
 def read(source: Source) -> Readings:
     """Return the points of one sweep (.osc); a master curve is an error, see `read_master_curve`."""
-    found = columns(source)
-    if found.is_master_curve:
-        reference = found.parameters.get("T", "25")
-        problem = f"is a master curve of RepTate at {reference} °C"
+    table, parameters = table_of(source)
+    if table.has("reduced frequency"):
+        problem = f"is a master curve of RepTate at {parameters.get('T', '25')} °C"
         raise DataFileError(source.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
-    if source.temperature is not None:
-        raise not_needed(
-            source.path, "temperature", "temperature-not-needed", "contains its temperature", " for this file"
-        )
-    if not np.all(np.isfinite(found.temperature)):
-        raise DataFileError(
-            source.path,
-            "contains no temperature, neither as T= in its first line nor in a column.",
-            code="no-temperature",
-        )
-    return Readings(
-        source=source.path,
-        format=NAME,
-        places=tuple(f"line {line}" for line in found.lines),
-        temperature=found.temperature,
-        angular_frequency=found.angular_frequency,
-        storage_modulus=found.storage_modulus,
-        loss_modulus=found.loss_modulus,
-        deformation=deformation_of(heading(found.said_by).name),
-        said_by=f"the heading {found.said_by!r}",
-        strain_amplitude=found.strain_amplitude,
-    )
+    return read_points(table, source, NAME, "")
 
 
-def columns(source: Source) -> RepTateColumns:
-    """Return the columns of a sweep or a master curve, or raise `DataFileError`."""
+def table_of(source: Source) -> tuple[Table, dict[str, str]]:
+    """Return the table of a sweep, or of a master curve, whose frequencies are reduced; and the parameters."""
     lines = enumerate((source.text or "").splitlines(), start=1)
     numbered = [(n, line) for n, line in lines if line.strip() and not line.lstrip().startswith("#")]
     parameters = _parameters(numbered[0][1])
     body = numbered[1:]
     names, units = _header(body)
-    rows = body[2:] if names and units else body[1:] if names else body
+    rows = [(number, line.split()) for number, line in body[bool(names) + bool(units) :]]
     if not rows:
         raise DataFileError(source.path, "there is no row of numbers under the line of parameters.", code="no-points")
     places = _places(source, names)
-    width = max(places[what] for what in ("frequency", "storage modulus", "loss modulus")) + 1
-    cells = [(number, line.split()) for number, line in rows]
-    short = next((number for number, row in cells if len(row) < width), None)
+    width = max(places[what] for what in ("frequency", *_MODULI)) + 1
+    short = next((number for number, cells in rows if len(cells) < width), None)
     if short is not None:
         raise DataFileError(source.path, f"the row has fewer than {width} columns.", short, code="row-length")
-
-    def column(what: str) -> Array | None:
-        place = places.get(what)
-        if place is None or (place >= width and any(len(row) <= place for _, row in cells)):
-            return None
-        factor, offset = _conversion(source, what, units[place] if place < len(units) else "")
-        return factor * np.array([_number(source, row[place], number) for number, row in cells]) + offset
-
-    frequency, storage, loss = (column(what) for what in ("frequency", "storage modulus", "loss modulus"))
-    assert frequency is not None  # its place is within the width
-    assert storage is not None
-    assert loss is not None
-    kelvin = column("temperature")
-    if kelvin is None:
-        kelvin = np.full(len(cells), _reference(parameters))
-    strain = column("strain amplitude")
-    return RepTateColumns(
-        parameters=parameters,
-        is_master_curve=not names,
-        lines=np.array([number for number, _ in cells], dtype=np.int64),
-        angular_frequency=frequency,
-        storage_modulus=storage,
-        loss_modulus=loss,
-        temperature=kelvin,
-        strain_amplitude=strain if strain is None else np.where(strain >= 0.0, strain, np.nan),
-        said_by=names[places["storage modulus"]] if names else "",
-    )
+    places = {what: place for what, place in places.items() if all(len(cells) > place for _, cells in rows)}
+    columns = [
+        (
+            heading(names[place]).name if names else _UNNAMED[place],
+            _unit(what, units[place] if place < len(units) else ""),
+            what if names or what != "frequency" else "reduced frequency",
+        )
+        for what, place in places.items()
+    ]
+    cells = [(number, [row[place] for place in places.values()]) for number, row in rows]
+    held = parameters.get("T", "")
+    if names and "temperature" not in places and _is_number(held):
+        columns.append(("T", "degC", "temperature"))
+        cells = [(number, [*row, held]) for number, row in cells]
+    return instrument_table(source.path, columns, cells, DMA), parameters
 
 
-def _reference(parameters: dict[str, str]) -> float:
+def temperature_of(parameters: dict[str, str]) -> float:
     """Return T of the first line, K (the file's is in °C), NaN without it."""
-    try:
-        return float(parameters.get("T", "nan")) + CELSIUS_ZERO
-    except ValueError:
-        return float("nan")
+    held = parameters.get("T", "")
+    return float(held) + CELSIUS_ZERO if _is_number(held) else float("nan")
 
 
 def _header(body: list[tuple[int, str]]) -> tuple[list[str], list[str]]:
@@ -164,7 +116,7 @@ def _places(source: Source, names: list[str]) -> dict[str, int]:
         what = quantity(heading(name).name)
         if what is not None:
             places.setdefault("frequency" if what == "angular frequency" else what, place)
-    missing = [what for what in ("frequency", "storage modulus", "loss modulus") if what not in places]
+    missing = [what for what in ("frequency", *_MODULI) if what not in places]
     if missing:
         raise DataFileError(
             source.path,
@@ -174,31 +126,13 @@ def _places(source: Source, names: list[str]) -> dict[str, int]:
     return places
 
 
-def _conversion(source: Source, what: str, unit: str) -> tuple[float, float]:
-    """Return factor and offset to SI; without units RepTate means rad/s, Pa, °C and per cent."""
-    if what == "frequency":
-        factor = to_rad_per_second(unit or "rad/s", angular=False)
-        if factor is None:
-            raise DataFileError(
-                source.path, f"the unit {unit!r} of the frequency must be 'rad/s' or 'Hz'.", code="wrong-unit"
-            )
-        return factor, 0.0
+def _unit(what: str, unit: str) -> str:
+    """Return the unit of a column; without any, RepTate means rad/s, Pa, °C and per cent."""
     if what == "strain amplitude":
-        return (1.0 if unit in ("-", "1") else 0.01), 0.0
+        return "1" if unit in ("-", "1") else "%"
     if what == "temperature":
-        return 1.0, 0.0 if unit == "K" else CELSIUS_ZERO
-    try:
-        return unit_conversion(unit or "Pa", "Pa")
-    except ValueError:
-        raise DataFileError(
-            source.path, f"the unit {unit!r} of the {what} must be one like 'Pa'.", code="wrong-unit"
-        ) from None
-
-
-def _number(source: Source, cell: str, line: int) -> float:
-    if not _is_number(cell) or not np.isfinite(float(cell)):
-        raise DataFileError(source.path, f"{cell[:40]!r} is not a finite number.", line, code="not-a-number")
-    return float(cell)
+        return "K" if unit == "K" else "degC"
+    return unit or ("rad/s" if what == "frequency" else "Pa")
 
 
 def _is_number(cell: str) -> bool:
@@ -207,3 +141,34 @@ def _is_number(cell: str) -> bool:
     except ValueError:
         return False
     return "_" not in cell
+
+
+#: RepTate's names of columns -> heading with the unit that it means; its tests are in shear.
+_HEADINGS = {"t": "t (s)", "strain": "shear strain (-)", "stress": "shear stress (Pa)", "sxy": "shear stress (Pa)"}
+_HEADINGS |= {"T": "T (degC)", "Temp": "T (degC)"}
+
+
+def with_units(source: Source) -> Source:
+    """Return such a file as a table with a unit in every heading, any other file as it is.
+
+    The strain of a relaxation test (``gamma``, 1 if it is not given) and the temperature (``T``) are taken from the
+    parameters where there are no columns for them.
+    """
+    lines = (source.text or "").splitlines()
+    parameters = parameters_of(lines[0]) if lines else {}
+    names = lines[1].split() if len(lines) > 1 else []
+    if not parameters or names[:1] != ["t"] or not {"sxy", "strain"} & set(names):
+        return source
+    headings = [_HEADINGS.get(name, name) for name in names]
+    strain = [] if "strain" in names else [parameters.get("gamma", "1")]
+    stress = [] if {"stress", "sxy"} & set(names) else [parameters.get("stress", "")]
+    kelvin = source.temperature
+    if kelvin is None and not {"T", "Temp"} & set(names):
+        kelvin = None if np.isnan(found := temperature_of(parameters)) else found
+    more = [_HEADINGS["strain"]] * len(strain) + [_HEADINGS["stress"]] * len(stress)
+    text = ["# " + lines[0], "\t".join([*headings, *more])]
+    for line in lines[2:]:
+        cells = line.split()
+        numbers = bool(cells) and cells[0][:1] in "0123456789.+-"
+        text.append("\t".join([*cells, *strain, *stress]) if numbers else "")  # a row of units is not needed
+    return replace(source, data="\n".join(text).encode(), temperature=kelvin)
