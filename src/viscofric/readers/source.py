@@ -71,8 +71,6 @@ def _marked(data: bytes) -> bytes:
 
 COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
 _LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
-#: Above the factor of any unit, so that a damaged number overflows in the reader already.
-LARGEST_FACTOR = 1e12
 #: Relative agreement of Hz and rad/s in one row, both printed with about two digits.
 PRINTED_FREQUENCY = 0.05
 

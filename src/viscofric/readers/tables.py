@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from viscofric.readers.headings import Column, Vocabulary
     from viscofric.readers.source import Source
     from viscofric.readers.table import NumberedRow, Table
-    from viscofric.readers.workbook import Rows
 
 
 #: Characters of a text that may hold its header.
@@ -292,7 +291,7 @@ def _split(line: str, delimiter: str) -> list[str]:
         return []
 
 
-def numbered_rows(path: str, cells: Rows) -> list[NumberedRow]:
+def numbered_rows(path: str, cells: Sequence[Sequence[float | str]]) -> list[NumberedRow]:
     """Return the rows of a sheet that are not blank as text, with their numbers."""
     texts = ((cell, n) for n, row in enumerate(cells, start=1) for cell in row if isinstance(cell, str))
     comma = decimal_comma(path, texts)
