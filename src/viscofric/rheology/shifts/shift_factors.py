@@ -166,13 +166,13 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
 
     def _standard_error(self, kelvin: Array) -> Array:
         """Return the standard error of linear interpolation in 1/T, without the error of the interpolation itself."""
-        weights = _weights(self.temperatures, np.ravel(kelvin))
+        weights = weights_between(self.temperatures, np.ravel(kelvin))
         variance = np.einsum("ij,jk,ik->i", weights, self.covariance, weights)
         return np.asarray(np.sqrt(np.maximum(variance, 0.0)).reshape(np.shape(kelvin)))
 
     def _covariance(self, kelvin: Array) -> Array:
         """Return the covariance by the same interpolation, relative to a reference between temperatures."""
-        weights = _weights(self.temperatures, kelvin)
+        weights = weights_between(self.temperatures, kelvin)
         return np.asarray(
             weights @ referenced_covariance(self.temperatures, self.covariance, self.reference) @ weights.T
         )
@@ -371,11 +371,11 @@ def _in_celsius(kelvin: float) -> str:
 
 def referenced_covariance(temperatures: Array, covariance: Array, reference: float) -> Array:
     """Return the covariance of log10 α(T) − log10 α(reference), the latter interpolated linearly in 1/T."""
-    change = np.eye(len(temperatures)) - _weights(temperatures, np.array([reference]))
+    change = np.eye(len(temperatures)) - weights_between(temperatures, np.array([reference]))
     return np.asarray(change @ covariance @ change.T)
 
 
-def _weights(temperatures: Array, kelvin: Array) -> Array:
+def weights_between(temperatures: Array, kelvin: Array) -> Array:
     """Return the weights (m, n) of values at (n,) temperatures in values between them, linear in 1/T."""
     inverse = 1.0 / temperatures[::-1]
     return np.stack([np.interp(1.0 / kelvin, inverse, unit) for unit in np.eye(len(inverse))[::-1]], axis=-1)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -12,7 +11,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.data import MasterCurve
 from viscofric.errors import LiquidError
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
 from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Misfit, Modes
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import shown_modulus
@@ -85,62 +84,26 @@ def _missed_at_low_end(misfit: Misfit, modes: Modes) -> float:
 
 def judged(
     spectrum: RetardationSpectrum,
-    curve: Curve,
-    *,
+    *curves: Curve,
+    ends: tuple[int, int] = (0, 0),
     method: str = "",
     tau_ratio: float | None = None,
     regularisation: float | None = None,
     notes: tuple[str, ...] = (),
 ) -> RetardationSpectrum:
-    """Return the spectrum with its `fit` judged against a master curve at the same temperature; see `SpectrumFit`."""
-    seen = _seen_over_time(spectrum, curve) if isinstance(curve, StepMasterCurve) else _seen(spectrum, curve)
-    fall = seen.fitted[0] / spectrum.E0 - 1.0
-    rise = spectrum.E_inf / seen.fitted[1] - 1.0
-    softest, stiffest = seen.moduli
-    at_limit = spectrum.E_inf >= (1.0 - ROUNDING) * STIFFEST * stiffest
-    fit = SpectrumFit(
-        *seen.rms[:2],
-        E0_extrapolated=fall > PLATEAU or seen.loss[0] > PLATEAU_LOSS_TANGENT,
-        E_inf_extrapolated=at_limit or rise > PLATEAU or seen.loss[1] > PLATEAU_LOSS_TANGENT,
-        frequency_range=seen.rates,
-        method=method,
-        modes=len(spectrum),
-        tau_ratio=tau_ratio,
-        regularisation=regularisation,
-        measured_storage=seen.moduli,
-        E_inf_at_limit=at_limit,
-        E0_missed=spectrum.E0 / softest > 1.0 + PLATEAU,
-        E_inf_missed=spectrum.E_inf < stiffest * (1.0 - PLATEAU),
-        rms_step=seen.rms[2],
-    )
-    notes = (*_about_rubber(spectrum, fit, seen), *_about_glass(spectrum, fit, seen), *notes)
-    return RetardationSpectrum(spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, replace(fit, notes=notes))
+    """Return the spectrum with its `fit` judged against master curves at the same temperature; see `SpectrumFit`.
 
-
-def judged_jointly(
-    spectrum: RetardationSpectrum,
-    curves: Sequence[Curve],
-    ends: tuple[int, int],
-    *,
-    method: str,
-    tau_ratio: float | None,
-    regularisation: float | None,
-    notes: tuple[str, ...],
-) -> RetardationSpectrum:
-    """Return the spectrum with its `fit` judged against curves of several kinds; `ends` reach lowest and highest."""
-    fits = []
-    for curve in curves:
-        fit = judged(spectrum, curve).fit
-        assert fit is not None
-        fits.append(fit)
+    Of several kinds of tests those at the places `ends` reach the lowest and the highest rates.
+    """
+    fits = [_fit_to(spectrum, curve) for curve in curves]
     low, high = (fits[place] for place in ends)
     known = [one.measured_storage for one in fits if one.measured_storage is not None]
 
     def first(name: str) -> float | None:
         return next((getattr(one, name) for one in fits if getattr(one, name) is not None), None)
 
-    plateau = [note for note in low.notes if str(getattr(note, "code", "")).startswith("plateau")]
-    glass = [note for note in high.notes if str(getattr(note, "code", "")).startswith("glass")]
+    plateau = [note for note in map(note_of, low.notes) if note.code.startswith("plateau")]
+    glass = [note for note in map(note_of, high.notes) if note.code.startswith("glass")]
     fit = SpectrumFit(
         first("rms_storage"),
         first("rms_loss"),
@@ -159,6 +122,26 @@ def judged_jointly(
         rms_step=first("rms_step"),
     )
     return replace(spectrum, fit=fit)
+
+
+def _fit_to(spectrum: RetardationSpectrum, curve: Curve) -> SpectrumFit:
+    """Return the quality of the fit to one curve, with notes on both ends."""
+    seen = _seen_over_time(spectrum, curve) if isinstance(curve, StepMasterCurve) else _seen(spectrum, curve)
+    softest, stiffest = seen.moduli
+    at_limit = spectrum.E_inf >= (1.0 - ROUNDING) * STIFFEST * stiffest
+    rise = spectrum.E_inf / seen.fitted[1] - 1.0
+    fit = SpectrumFit(
+        *seen.rms[:2],
+        E0_extrapolated=seen.fitted[0] / spectrum.E0 - 1.0 > PLATEAU or seen.loss[0] > PLATEAU_LOSS_TANGENT,
+        E_inf_extrapolated=at_limit or rise > PLATEAU or seen.loss[1] > PLATEAU_LOSS_TANGENT,
+        frequency_range=seen.rates,
+        measured_storage=seen.moduli,
+        E_inf_at_limit=at_limit,
+        E0_missed=spectrum.E0 / softest > 1.0 + PLATEAU,
+        E_inf_missed=spectrum.E_inf < stiffest * (1.0 - PLATEAU),
+        rms_step=seen.rms[2],
+    )
+    return replace(fit, notes=(*_about_rubber(spectrum, fit, seen), *_about_glass(spectrum, fit, seen)))
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.rheology.spectra import regularised, sparse
-from viscofric.rheology.spectra.fit_verdict import Curve, judged, judged_jointly, solid_modes
+from viscofric.rheology.spectra.fit_verdict import Curve, judged, solid_modes
 from viscofric.rheology.spectra.modulus_misfit import CurveMisfit, Misfit, Modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.sparse import lattice, nonnegative_modes
@@ -161,10 +161,10 @@ def _of_several(
         _at_level(curve, float(level) if free else 0.0)
         for curve, level, free in zip(curves, levels, misfit.free, strict=True)
     ]
-    return judged_jointly(
+    return judged(
         spectrum,
-        at_level,
-        (curves.index(low), curves.index(high)),
+        *at_level,
+        ends=(curves.index(low), curves.index(high)),
         method=method,
         tau_ratio=None if method == "sparse" else tau_ratio,
         regularisation=strength,

@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.showing import Plotted
@@ -86,11 +86,11 @@ def joined_kinds(alone: Sequence[Part], reference: float) -> JointSuperposition:
     for one in alone:
         own = one.shift_factors
         pick = np.eye(size)[np.abs(own.temperatures[:, None] - temperatures).argmin(axis=1)]
-        weights = _weights(own.temperatures, reference)
+        weights = weights_between(own.temperatures, np.array([reference]))
         picks.append(pick)
         onto.append(pick - weights @ pick)
         inverse.append(np.linalg.pinv(own.covariance, rcond=1e-10, hermitian=True))
-    gauge = _weights(temperatures, reference)
+    gauge = weights_between(temperatures, np.array([reference]))[0]
     information = sum((R.T @ V @ R for R, V in zip(onto, inverse, strict=True)), np.zeros((size, size)))
     information += float(np.trace(information)) * np.outer(gauge, gauge)
     solved = np.linalg.pinv(information, rcond=1e-14, hermitian=True)
@@ -119,12 +119,6 @@ def of_all_kinds(temperatures: Sequence[Array]) -> Array:
     kelvin = np.sort(np.concatenate(temperatures))
     groups = np.concatenate([[0], np.cumsum(np.diff(kelvin) > SAME)])
     return np.bincount(groups, weights=kelvin) / np.bincount(groups)
-
-
-def _weights(temperatures: Array, reference: float) -> Array:
-    """Return the weights (n,) of interpolation at the reference, linear in 1/T."""
-    inverse = 1.0 / temperatures[::-1]
-    return np.array([np.interp(1.0 / reference, inverse, unit) for unit in np.eye(len(inverse))])[::-1]
 
 
 def _agreement(misfit: float, freedom: int) -> list[str]:

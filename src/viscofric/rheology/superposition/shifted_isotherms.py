@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.data import Isotherm
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.superposition.common_shifts import CommonShifts, common_shifts
@@ -74,7 +74,7 @@ def held_places(fixed: Mapping[Any, float], temperatures: Array, reference: floa
                 code="given-twice",
             )
         held[place] = log10_alpha
-    around = np.flatnonzero(_weights(1.0 / reference, 1.0 / temperatures[::-1])[::-1])
+    around = np.flatnonzero(weights_between(temperatures, np.array([reference])))
     if len(around) == 1 and held.get(int(around[0]), 0.0) != 0.0:
         raise InputError(
             f"a shift factor is fixed at {shown(reference)}, which is the reference, where log10 α is 0; leave it out.",
@@ -123,8 +123,7 @@ def given_shifts(joined: JoinedIsotherms[Any], reference: float, shift: ShiftLaw
     nothing = np.zeros((len(values), len(values)))
     covariance = nothing
     if isinstance(shift, ShiftFactors):
-        inverse = 1.0 / shift.temperatures[::-1]
-        weights = np.array([_weights(1.0 / kelvin, inverse)[::-1] for kelvin in temperatures])
+        weights = weights_between(shift.temperatures, temperatures)
         covariance = weights @ shift.covariance @ weights.T
     if not free:
         return CommonShifts(values, covariance, np.zeros(len(values)), nothing, nothing)
@@ -138,14 +137,9 @@ def _temperatures(joined: JoinedIsotherms[Any]) -> Array:
 
 
 def _gauge(temperatures: Array, reference: float, held: dict[int, float], free: bool) -> Gauge:
-    inverse = 1.0 / temperatures
-    weights = _weights(1.0 / reference, inverse[::-1])[::-1]
-    return Gauge(inverse, weights, _weights(reference, temperatures), held, free)
-
-
-def _weights(at: float, points: Array) -> Array:
-    """Return the weights of linear interpolation at one position among ascending points."""
-    return np.array([np.interp(at, points, unit) for unit in np.eye(len(points))])
+    weights = weights_between(temperatures, np.array([reference]))[0]
+    vertical = np.array([np.interp(reference, temperatures, unit) for unit in np.eye(len(temperatures))])
+    return Gauge(1.0 / temperatures, weights, vertical, held, free)
 
 
 #: Weight of the alternative model, with a free vertical shift or without one, where isotherms drift.
