@@ -135,6 +135,12 @@ class Table:
         """Return the columns with a name at all other places."""
         return [column for place, column in enumerate(self.columns) if place not in used and column.name]
 
+    @property
+    def filled(self) -> list[str]:
+        """Names of the columns that have a cell."""
+        cells = enumerate(self.columns)
+        return [one.name for place, one in cells if any(row[place].strip().lower() not in MISSING for row in self.rows)]
+
     def place(self, what: str) -> int | None:
         """Return the place of the one column of a quantity, or None; several such columns are an error."""
         found = [place for place, column in enumerate(self.columns) if column.quantity == what]

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from viscofric.notes import Note, setting
-from viscofric.readers.headings import Vocabulary
+from viscofric.readers.headings import Vocabulary, heading
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -262,12 +262,6 @@ def tools_in(rows: Iterable[Sequence[str]]) -> list[tuple[str, str]]:
     return found
 
 
-def held(kind: Deformation, heading: str, tools: Iterable[tuple[str, str]]) -> Said:
-    """Return what a heading states; where it is E, the sample holder separates compression and bending from tension."""
-    holder = tool_says(tools, axial=True) if kind == "tension" else (None, "")
-    return holder if holder[0] in ("compression", "bending") else (kind, f"the heading {heading[:80]!r}")
-
-
 def said_by_columns(moduli: Iterable[str], columns: Iterable[str], tools: Iterable[tuple[str, str]] = ()) -> Said:
     """Decide between E and G by headings and sample holder.
 
@@ -275,10 +269,11 @@ def said_by_columns(moduli: Iterable[str], columns: Iterable[str], tools: Iterab
     sample holder (see `tools_in`), then a column of shear strain, stress or rate, then a torque without a force.
     `columns` are the headings of all columns that hold numbers.
     """
-    for heading in moduli:
-        kind = deformation_of(heading)
+    for printed in moduli:
+        kind = deformation_of(heading(printed).name)
         if kind is not None:
-            return held(kind, heading, tools)
+            holder = tool_says(tools, axial=True) if kind == "tension" else (None, "")
+            return holder if holder[0] in ("compression", "bending") else (kind, f"the heading {printed[:80]!r}")
     plain = {" ".join(column.lower().split()): column for column in columns}
     torques = [column for name, column in plain.items() if _TORQUE.fullmatch(name)]
     forces = [column for name, column in plain.items() if _FORCE.fullmatch(name)]

@@ -27,7 +27,7 @@ from viscofric.readers.dma.tables import reptate
 from viscofric.readers.given_files import sources_of
 from viscofric.readers.source import Source, insist_on_content
 from viscofric.readers.steps.columns import STEPS, kind_in_name, kind_of, response_of, temperature_of, time_of
-from viscofric.readers.table import MISSING, Table, make_table
+from viscofric.readers.table import Table, make_table
 from viscofric.readers.tables import find_tables
 from viscofric.step_tests import StepKind, StepTest, StepTests
 from viscofric.units import Quantity, shown_celsius
@@ -216,12 +216,7 @@ def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: 
     time = time_of(table, notes)
     known = kind or kind_of(table, name)
     response, heading, lacks_unit = response_of(table, source, known, notes)
-    filled = [
-        column.name
-        for place, column in enumerate(table.columns)
-        if any(row[place].strip().lower() not in MISSING for row in table.rows)
-    ]
-    deformation, _ = said_by_columns([heading.replace("(t)", "")], filled, tools_in(table.above))
+    deformation, _ = said_by_columns([heading.replace("(t)", "")], table.filled, tools_in(table.above))
     kelvin = temperature_of(table, source, name, len(time), notes)
     return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit)
 

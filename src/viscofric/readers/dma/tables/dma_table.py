@@ -16,7 +16,6 @@ from viscofric.readers.dma.names import deformation_of, quantity, said_by_column
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
-from viscofric.readers.table import MISSING
 from viscofric.readers.tables import name_columns
 
 if TYPE_CHECKING:
@@ -179,20 +178,12 @@ def deformation(table: Table, places: dict[str, int], tools: Tools | None = None
 
     `tools` are label and value of the sample holder, if it is not named above the table.
     """
-    said = [(deformation_of(table.columns[places[m]].name), places[m]) for m in _MODULI if m in places]
-    if {"tension", "shear"} <= {kind for kind, _ in said}:
+    moduli = [table.columns[places[modulus]] for modulus in _MODULI if modulus in places]
+    if {"tension", "shear"} <= {deformation_of(column.name) for column in moduli}:
         problem = "one modulus is tensile (E) by its heading, the other shear (G)."
         raise DataFileError(table.path, problem, code="deformation-contradicts")
     tools = names.tools_in(table.above) if tools is None else tools
-    for kind, place in said:
-        if kind is not None:
-            return names.held(kind, table.columns[place].heading, tools)
-    filled = [
-        column.name
-        for place, column in enumerate(table.columns)
-        if any(row[place].strip().lower() not in MISSING for row in table.rows)
-    ]
-    return said_by_columns((), filled, tools)
+    return said_by_columns([column.heading for column in moduli], table.filled, tools)
 
 
 #: Frequency range of the sweeps of any instrument; master curves exceed it.
