@@ -36,7 +36,7 @@ class Unsteady:
     def step(self, state, start, end):
         return state[0] + (end.time > start.time), end.time
 
-    def settle(self, state, instant):
+    def settle(self, state, instant, shortest):
         return state
 
     def accept(self, state, instant):

@@ -213,6 +213,18 @@ def test_a_mode_too_quick_for_any_step_dissipates_after_a_jump():
     assert run.energy_imbalance < 1e-4
 
 
+@pytest.mark.parametrize(("tau", "end", "times"), [(1e-3, 1e9, [1e-4, 1e-3, 1e-2]), (1e-14, 1.0, None)])
+def test_creep_at_times_much_shorter_than_the_history_is_that_of_lee_and_radok(tau, end, times):
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=tau)
+    run = vf.motion.solve_transient(rubber, BALL, vf.motion.History([0.0, end], load=1.0), times=times)
+    if times is not None:
+        assert run.time.tolist() == times
+    creep = rubber.spectrum.creep_compliance(run.time)
+    exact = (0.75 * 0.75 * 0.01 * creep) ** (2.0 / 3.0) / 0.01
+    assert np.all(np.abs(run.indentation - exact) <= run.errors.indentation)
+    assert run.errors.indentation.max() < 2e-3 * exact[-1]
+
+
 def test_temperature_runs_the_clock():
     """At another temperature a creep test is the same by the material's clock; a ramp too."""
     law = vf.WLF(C1=8.0, C2=100.0, reference=300.0)

@@ -70,9 +70,11 @@ def test_energy_of_a_step_is_the_integral_of_its_parts(kappa: float, shape: tupl
     turn = np.array([0.0, 1e-5, 0.3, -4.0]).reshape(shape)
     q0, p0, p1 = generator.normal(size=(3, *shape)) + 1j * generator.normal(size=(3, *shape))
     modes = Modes(1.0, np.array([2.0]), np.array([1.0]))
-    whole = advance(StepResponse.of(modes, kappa, turn), modes, q0[None], (p0, p1), stored_energy(modes, q0[None]))
+    whole = advance(
+        StepResponse.of(modes, np.array([kappa]), turn), modes, q0[None], (p0, p1), stored_energy(modes, q0[None])
+    )
     parts = 400
-    small = StepResponse.of(modes, kappa / parts, turn / parts)
+    small = StepResponse.of(modes, np.array([kappa / parts]), turn / parts)
     q, squares = q0[None], []
     for i in range(parts + 1):
         p = p0 + (p1 - p0) * i / parts
@@ -286,6 +288,24 @@ def test_temperature_sets_the_pace_of_the_material() -> None:
     assert np.array(seen[0]) == pytest.approx(np.array(seen[1]), rel=1e-6, abs=1e-12)
 
 
+def test_cooling_by_nine_decades_after_a_jump_is_solved_within_its_errors() -> None:
+    """At first ten modes follow the jump in less than 1e-12 s; the last two govern the friction at the end."""
+    law = vf.WLF(C1=17.44, C2=51.6, reference="280 K")
+    spectrum = vf.RetardationSpectrum(1e6, 1e8, np.full(12, 0.99e-6 / 12), np.geomspace(1e-9, 1e3, 12))
+    history = vf.motion.History([0.0, 1.0], pressure=2e4, speed=1e-4, temperature=[380.0, 290.0])
+    z = 1e-6 * np.cos(2.0 * np.pi * np.arange(12) / 12)[:, None]
+    rubber, surface = vf.Material(spectrum, shift=law), vf.contact.PeriodicSurface(z, 1e-4 / 12)
+    one, finer = (
+        vf.motion.solve_transient(rubber, surface, history, times=[0.0, 0.5, 1.0], accuracy=accuracy)
+        for accuracy in (3e-2, 6e-3)
+    )
+    for name, energy in (("friction_force", False), ("indentation", False), ("dissipated", True)):
+        off = np.abs(getattr(one, name) - getattr(finer, name))
+        assert np.all(off <= getattr(one.errors, "energy" if energy else name)), name
+    assert finer.friction_coefficient[-1] > 100.0 * finer.errors.friction_force[-1] / 2e4 > 0.0
+    assert finer.energy_imbalance < 6e-3
+
+
 def test_units_do_not_matter() -> None:
     # Another length, time and modulus: the same problem, and the same steps.
     times, seen = np.linspace(0.0, 4e-3, 9), []
@@ -354,7 +374,7 @@ def test_contact_without_memory_is_elastic(before: str) -> None:
 
 
 def test_memory_is_finite_for_instant_steps() -> None:
-    response = StepResponse.of(Modes(1.0, np.array([1.0]), np.array([1.0])), 0.0, np.array([[0.0, 0.5]]))
+    response = StepResponse.of(Modes(1.0, np.array([1.0]), np.array([1.0])), np.zeros(1), np.array([[0.0, 0.5]]))
     memory = np.array([[[1.0 + 0.0j, 2.0]]])
     none = np.zeros((1, 2), complex)
     found = advance(response, Modes(1.0, np.array([1.0]), np.array([1.0])), memory, (none, none), 2.5)

@@ -21,7 +21,7 @@ from viscofric.errors import ConvergenceError, InputError
 from viscofric.motion.chains import Link, Pair, Reached
 from viscofric.motion.cycle_numbers import Found, Period
 from viscofric.motion.cycle_solution import CycleSolution
-from viscofric.motion.march import march
+from viscofric.motion.march import INSTANT, march
 from viscofric.motion.shear import shear_notes
 from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
 from viscofric.motion.watch import Watch
@@ -188,7 +188,8 @@ class _Search:
         for _ in range(self.most_periods):
             memory = mover.memory_of(state)
             # The instantaneous pressure that belongs to this memory.
-            begun = mover.settle(mover.step(mover.with_memory(state, memory), first, first), first)
+            begun = mover.step(mover.with_memory(state, memory), first, first)
+            begun = mover.settle(begun, first, INSTANT * max(abs(schedule.start), abs(schedule.end)))
             begun = mover.emptied(begun)
             link = Link(begun, mover.observe(begun), 0.0)
             begin = Reached(Pair(link, link))

@@ -34,7 +34,7 @@ from viscofric.motion.chains import (
     moment_of,
     over_scales,
 )
-from viscofric.motion.mover import SHARE, Mover, Scales, State
+from viscofric.motion.mover import QUICK, SHARE, Mover, Scales, State
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -50,7 +50,9 @@ _FIRST, _FIRST_AFTER_JUMP = 1.0 / 32.0, 0.2
 #: Least step, as a part of an interval, and of the time, of which rounding is a hundredth.  Most least steps in an
 #: interval with too large a difference: contact conditions are met to a tolerance, so that a few may be by chance;
 #: where they can be met more closely, they are after fewer.
-_LEAST, _INSTANT, _MOST_LEAST, _FEW_LEAST = 1e-10, 1e-14, 100, 4
+_LEAST, INSTANT, _MOST_LEAST, _FEW_LEAST = 1e-10, 1e-14, 100, 4
+#: Times of a mode after which it has followed a jump.
+_FOLLOWED = 40.0
 
 
 class _NoisyError(Exception):
@@ -130,6 +132,7 @@ class _March(Generic[State]):
     rejected: int = 0
     _stored: float = 0.0  # before the start
     _pace: float = 0.0  # of the interval before, if no jump ended it
+    _shown_from: float = -math.inf  # time of the first step that may be returned, s
     _spread: Difference = SAME
     _limited: bool = False  # whether a step from tick to tick was longer than the accuracy asks for
 
@@ -221,11 +224,11 @@ class _March(Generic[State]):
             links.append(Link(state, seen, link.work + seen.stored - link.seen.stored, link.rubbed))
         return self._seen(Pair(*links))
 
-    def _settled(self, pair: Pair[State], instant: Instant) -> Pair[State]:
+    def _settled(self, pair: Pair[State], instant: Instant, shortest: float) -> Pair[State]:
         """Let the modes follow a jump that are too quick for steps; the load or the depth does not change."""
         links = []
         for link in pair:
-            state = self.mover.settle(link.state, instant)
+            state = self.mover.settle(link.state, instant, shortest)
             if state is link.state:
                 return pair
             seen, before = self.mover.observe(state), link.seen
@@ -236,8 +239,11 @@ class _March(Generic[State]):
     def _interval(self, pair: Pair[State], start: float, end: float) -> None:
         """March through a part without kinks, from its start or from where an earlier march has come to."""
         begun = max(start, float(self._at.time))  # type: ignore[arg-type]
-        pair = self._settled(pair, self.schedule.at(begun))
-        least = _INSTANT * max(abs(start), abs(end))
+        least = INSTANT * max(abs(start), abs(end))
+        settled = self._settled(pair, self.schedule.at(begun), least)
+        # Before it, modes that have followed at once would be shown too soft.
+        self._shown_from = begun if settled is pair else begun + _FOLLOWED * QUICK * least
+        pair = settled
         ticks = self.mover.ticks(self.schedule.at(start), self.schedule.at(end, after=False))
         if ticks is None:
             self._freely(pair, begun, end, least)
@@ -325,7 +331,7 @@ class _March(Generic[State]):
         if worst > self.accuracy and not self._limited:
             raise _TooLargeError(worst / self.accuracy)
         self._pace, self._at = pace, replace(self._at, pair=pair, time=reached, jumped=False)
-        if self.times is None and reached < end:
+        if self.times is None and self._shown_from <= reached < end:
             self._record(pair, self.schedule.at(reached), asked=True)
         if self.progress is not None:
             self.progress(reached, self.schedule.end)

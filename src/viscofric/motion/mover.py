@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 State = TypeVar("State")
 
+#: Retardation times that steps after a jump resolve, in the shortest step.
+QUICK = 100.0
 #: First part of the accuracy that one step may add to the difference of the chains; see `viscofric.motion.march`.
 SHARE = 0.05
 
@@ -118,8 +120,11 @@ class Mover(Protocol[State]):
         """
         ...
 
-    def settle(self, state: State, instant: Instant) -> State:
-        """Return the state soon after a jump, in which modes too quick for steps have followed; others as they are."""
+    def settle(self, state: State, instant: Instant, shortest: float) -> State:
+        """Return the state soon after a jump, in which modes too quick for steps have followed; others as they are.
+
+        `shortest` is the time of the shortest step that follows, s.
+        """
         ...
 
     def accept(self, state: State, instant: Instant) -> None:

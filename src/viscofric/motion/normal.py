@@ -26,11 +26,11 @@ import numpy as np
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.motion.memory import StepParts, quickest_time, recovery_at_depth, step_parts
-from viscofric.motion.mover import SHARE, Field, Observation, Scales
+from viscofric.motion.mover import QUICK, SHARE, Field, Observation, Scales
 from viscofric.motion.springs import both_sides, elastic_radius, graded_row, quadrature_error
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array, Mask
+    from viscofric.arrays import Array
     from viscofric.motion.problem import Problem
     from viscofric.motion.schedule import Instant, Schedule
 
@@ -42,8 +42,6 @@ _MARGIN = 1.05
 _POINTS = 230
 #: Parts of a period in contact that are distinguished.
 _LEVELS = 16
-#: Retardation times without steps of their own, in the duration of the history, whose digits end at 1e-16.
-_QUICK = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,11 +99,6 @@ class NormalMotion:
             spacing=edge / count,
         )  # fmt: skip
 
-    def _quick(self, start: float, end: float) -> Mask:
-        """Return the modes that follow a jump between two times before any later time of the schedule."""
-        slowest, _ = self.schedule.rates(start, end)
-        return np.asarray(self.tau < _QUICK * slowest * (self.schedule.end - self.schedule.start))
-
     def floor(self, largest: Scales) -> Scales:
         """Return zeros: the contact conditions are met to rounding."""
         return Scales(0.0, 0.0, 0.0, 0.0)
@@ -116,8 +109,7 @@ class NormalMotion:
     @cached_property
     def quickest(self) -> float:
         """Time in which the response to a jump changes noticeably, s of the clock."""
-        c, quick = self.compliances, self._quick(self.schedule.start, self.schedule.end)
-        return quickest_time(self.glassy + float(c[quick].sum()), c[~quick], self.tau[~quick])
+        return quickest_time(self.glassy, self.compliances, self.tau)
 
     @cached_property
     def scales(self) -> Scales:
@@ -170,9 +162,9 @@ class NormalMotion:
         lost_error = state.lost_error + quadrature_error(lost, self.s)
         return SpringState(depth, self._carried(force, end), force, memory, dissipated, threshold, lost_error)
 
-    def settle(self, state: SpringState, instant: Instant) -> SpringState:
+    def settle(self, state: SpringState, instant: Instant, shortest: float) -> SpringState:
         """Return the state soon after a jump; what is not stored of the work at a constant load has been dissipated."""
-        quick = self._quick(instant.time, instant.time)
+        quick = self.tau < QUICK * shortest * self.schedule.rates(instant.time, instant.time)[0]
         if not quick.any():
             return state
         known = state.memory[:, ~quick] @ self.compliances[~quick]

@@ -21,7 +21,7 @@ from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.motion.memory import Modes, quickest_time, recovery_at_depth
-from viscofric.motion.mover import Field, Observation, Scales
+from viscofric.motion.mover import QUICK, Field, Observation, Scales
 from viscofric.motion.wave_contact import StepContact, Target
 from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, stored_energy
 from viscofric.motion.waves import Waves
@@ -29,7 +29,7 @@ from viscofric.motion.waves import Waves
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.arrays import Array, ComplexArray
+    from viscofric.arrays import Array, ComplexArray, Mask
     from viscofric.motion.problem import Problem
     from viscofric.motion.schedule import Instant
 
@@ -46,6 +46,7 @@ _KEPT = 2
 # Points from which on residuals are extended, which saves products but costs time; blocks and reach, in cells.
 _EXTENDED, _BLOCK, _REACH = 10_000, 4, 1.0
 _SHARES = (0.05, 0.3)  # see `march`: for ridges, and for spots, where errors of steps that come and go nearly cancel
+_FOLLOWED = 1e30  # step of a mode that has followed, in its time
 _SAME = 1e-12  # relative difference up to which steps are the same
 _SINGLE = 1e-4  # accuracy from which on memory is in single precision: each step rounds it to 6e-8 of itself
 
@@ -183,22 +184,36 @@ class PeriodicMover:
         change = np.linalg.norm(self._scale * state.waves) ** 2 - np.linalg.norm(self._scale * found.waves) ** 2
         return replace(found, lagging=0.5 * lagging * float(change))
 
-    def settle(self, state: PeriodicState, instant: Instant) -> PeriodicState:
+    def settle(self, state: PeriodicState, instant: Instant, shortest: float) -> PeriodicState:
         """Return the state soon after a jump; what is not stored of the work at a constant load has been dissipated."""
-        if state.lagging == 0.0:
+        quick = self.modes.tau < QUICK * shortest * self.schedule.rates(instant.time, instant.time)[0]
+        if state.lagging == 0.0 and not quick.any():
             return state
-        found = self._stepped(state, instant, instant, 0.0, keep=True)
+        found = self._stepped(state, instant, instant, 0.0, keep=True, quick=quick)
         work = float(found.pressure.mean()) * (found.depth - state.depth)
         lost = work - (found.stored - state.stored - state.lagging)
         return replace(found, dissipated=state.dissipated + lost)
 
     def _stepped(
-        self, state: PeriodicState, start: Instant, end: Instant, lagging: float, *, keep: bool
+        self,
+        state: PeriodicState,
+        start: Instant,
+        end: Instant,
+        lagging: float,
+        *,
+        keep: bool,
+        quick: Mask | None = None,
     ) -> PeriodicState:
-        """Return the state at the end of a step; compliances that lag behind remember the pressure before it."""
+        """Return the state at the end of a step; compliances that lag behind remember the pressure before it.
+
+        Quick modes follow in no time.
+        """
         path = np.asarray(end.position) - np.asarray(start.position)
         clock_step = end.clock - start.clock
-        problem = self._step_of(clock_step, path, lagging)
+        if quick is not None and quick.any():
+            problem = self._made(StepResponse.of(self.modes, np.where(quick, _FOLLOWED, 0.0), np.zeros((1, 1))), path)
+        else:
+            problem = self._step_of(clock_step, path, lagging)
         past = problem.response.known(self.modes, state.memory, self._scale * state.waves)
         pressure, depth = self._solved(problem, past, end, state, clock_step)
         waves = self.grid.of(pressure)
@@ -322,7 +337,7 @@ class PeriodicMover:
             far = math.hypot(x - path[0], y - path[1])
             if abs(step - clock_step) <= _SAME * step and far <= _SAME * math.hypot(x, y) and late == lagging:
                 return problem
-        response = StepResponse.of(self.modes, clock_step, self.grid.turn(path))
+        response = StepResponse.of(self.modes, clock_step / self.modes.tau, self.grid.turn(path))
         if lagging > 0.0:
             response = replace(response, start=response.start + lagging, end=response.end - lagging)
         while len(self._steps) >= _KEPT:

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from viscofric.units import Quantities
 
 TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
-_ROUNDING = 1e-12  # of times, relative to the ends of the history
+_ROUNDING = 1e-12  # of times, relative to an end of the history
 _AGAIN = Note(
     "solved-again",
     "The run that is continued was a normal motion, and its continuation slides: its past is solved again, on cells.",
@@ -315,9 +315,11 @@ def checked_times(times: Quantities | None, schedule: Schedule) -> list[float] |
     seconds = to_si_array(times, "s", "times")
     if not len(seconds) or np.any(np.diff(seconds) < 0.0):
         raise wrong_argument("times", times, "must be one or more times in ascending order.", "not-sorted")
+    inside = np.clip(seconds, schedule.start, schedule.end)
     near = _ROUNDING * max(abs(schedule.start), abs(schedule.end))
+    seconds = np.where(np.abs(seconds - inside) <= near, inside, seconds)
     for end in (schedule.start, schedule.end):  # such as 0.1 + 0.2 of a history up to 0.3
-        seconds = np.where(np.abs(seconds - end) <= near, end, seconds)
+        seconds = np.where(np.abs(seconds - end) <= _ROUNDING * abs(end), end, seconds)
     if seconds[0] < schedule.start or seconds[-1] > schedule.end:
         outside = seconds[0] if seconds[0] < schedule.start else seconds[-1]
         raise InputError(

@@ -108,9 +108,9 @@ class Watch:
         """Return the state at the end of a step, with sums over load and depth that are linear within it."""
         return self._next(state, self.mover.step(state.state, start, end), start, end)
 
-    def settle(self, state: Watched, instant: Instant) -> Watched:
+    def settle(self, state: Watched, instant: Instant, shortest: float) -> Watched:
         """Return the state after a jump of what is not prescribed."""
-        settled = self.mover.settle(state.state, instant)
+        settled = self.mover.settle(state.state, instant, shortest)
         return state if settled is state.state else self._next(state, settled, instant, instant)
 
     def accept(self, state: Watched, instant: Instant) -> None:

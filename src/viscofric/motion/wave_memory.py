@@ -84,9 +84,8 @@ class StepResponse:
     few: StepCoefficients | None  # of each mode, (n, rows, columns), if these are few
 
     @classmethod
-    def of(cls, modes: Modes, clock_step: float, turn: Array) -> StepResponse:
-        """Return the response to a step, given its duration on the material's clock and the turn of each wave."""
-        steps = clock_step / modes.tau
+    def of(cls, modes: Modes, steps: Array, turn: Array) -> StepResponse:
+        """Return the response to a step, given its duration in the time of each mode (n,) and the turn of each wave."""
         if not turn.any():
             turn = np.zeros((1, 1))
         narrow = 1 in turn.shape
