@@ -28,10 +28,7 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
     (
         lambda: solve(load="1 MN", speed=0.0),
         "beyond-indenter",
-        (
-            "under 1e+06 N the contact would be about 333 mm wide, wider than the ball (20 mm): the material is "
-            "too soft; reduce the load."
-        ),
+        ("under 1e+06 N the contact would be about 333 mm wide, wider than the ball (20 mm); reduce the load."),
     ),
     (
         lambda: solve(BOWL),

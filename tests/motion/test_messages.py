@@ -52,6 +52,16 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
         "times: 2 s lies outside the history, 0 to 1 s.",
     ),
     (
+        lambda: vf.motion.solve_impact(RUBBER, BALL, mass=100.0, speed=10.0, accuracy=1e-2),
+        "beyond-indenter",
+        "at 10 m/s the contact would be about 116 mm wide, wider than the ball (20 mm); reduce the mass or the speed.",
+    ),
+    (
+        lambda: vf.motion.solve_transient(RUBBER, BALL, vf.motion.History([0.0, 1.0], indentation=0.02), times=[0.0]),
+        "beyond-indenter",
+        "under 5028.31 N the contact would be about 28.3 mm wide, wider than the ball (20 mm); reduce the indentation.",
+    ),
+    (
         lambda: vf.motion.solve_impact(RUBBER, vf.Ellipsoid("1 mm", "2 mm"), mass=1.0, speed=1.0),
         "not-available",
         (

@@ -347,7 +347,7 @@ def _solve(
         problem = replace(problem, geometry=scaled.geometry(geometry, counterface), layer=scaled)
     given_grid = GivenGrid.of(settings.window, settings.grid, scale)
     first = find_window(problem, problem.first_size)
-    indenter.check(shape.extent(first.window, first.result.pressure > 0.0), held)
+    indenter.check(shape.extent(first.window, first.result.pressure > 0.0), held, next(iter(given)))
     given_grid.check(first.extent, first.window.spacing, scale.length)
     finest = geometry.finest if settings.finest is None else settings.finest
     stages = refine(first, settings.accuracy, finest, given_grid)

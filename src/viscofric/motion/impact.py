@@ -292,7 +292,7 @@ class _Falling(NamedTuple):
     ) -> ImpactSolution:
         time, depth, velocity, force, radius, stored, dissipated, by_springs = np.array(fine.rows).T
         widest, deepest = float(radius.max()), float(depth.max())
-        self.indenter.check(Extent(widest, widest, widest), f"at {contacts[0].speed:g} m/s")
+        self.indenter.check(Extent(widest, widest, widest), f"at {contacts[0].speed:g} m/s", "mass or the speed")
         notes = [self.indenter.strain_warning(Extent(widest, widest, widest), deepest)]
         if contacts[-1].restitution == 0.0:
             notes.append(Note("no-rebound", "The indenter does not leave the surface again: it comes to rest on it."))

@@ -386,7 +386,7 @@ def assemble(
         geometry=problem.kind,
         direction=history.direction,
         warnings=(
-            *_doubts(problem.indenter, moments),
+            *_doubts(problem.indenter, moments, problem.schedule.control),
             *_beyond_measured(problem, moments),
             *notes,
             *problem.material.notes_on_modes,
@@ -396,7 +396,7 @@ def assemble(
     )
 
 
-def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]]) -> tuple[Note, ...]:
+def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]], control: str) -> tuple[Note, ...]:
     """Refuse a contact wider than the indenter; return notes on large strain."""
     if not isinstance(indenter, Indenter) or not moments:
         return ()
@@ -409,7 +409,7 @@ def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]]) ->
     if math.isinf(widest.side):  # of a line contact
         widest = widest._replace(side=0.0)
     load = max(one.seen.load for one in moments)
-    indenter.check(widest, f"under {load:g} {indenter.geometry.load_unit}")
+    indenter.check(widest, f"under {load:g} {indenter.geometry.load_unit}", control)
     deepest = max(one.seen.depth for one in moments)
     return tuple(filter(None, [indenter.strain_warning(widest, deepest)]))
 

@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.indenters.indenter import Indenter, too_steep
 from viscofric.errors import InputError
+from viscofric.notes import Remedy
 from viscofric.units import Quantity, in_si, positive
 
 if TYPE_CHECKING:
@@ -92,14 +93,14 @@ class HeightMap(Indenter):
         """Slope of the height along y at (x, y); zero beyond the map."""
         return np.where(self._inside(x, y), self._spline(*self._on_map(x, y), dy=1, grid=False), 0.0)
 
-    def check(self, contact: Extent, held: str) -> None:
+    def check(self, contact: Extent, held: str, reduce: str = "load") -> None:
         """Raise an error for a contact (m) that reaches the outermost points of the map; `held` begins its message."""
         (rear, front), side = self._ends[0], min(self._ends[1])
         if contact.rear > rear or contact.front > front or contact.side > side:
             raise InputError(
-                f"{held} the contact reaches the edge of the height map; give a map of a larger piece of the surface, "
-                "or reduce the load.",
+                f"{held} the contact reaches the edge of the height map; ",
                 code="beyond-indenter",
+                remedy=Remedy(f"give a map of a larger piece of the surface, or reduce the {reduce}."),
             )
 
     def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
@@ -204,13 +205,14 @@ class Profile(Indenter):
         """Slope of the height along y at (x, y): zero."""
         return 0.0 * x + 0.0 * y
 
-    def check(self, contact: Extent, held: str) -> None:
+    def check(self, contact: Extent, held: str, reduce: str = "load") -> None:
         """Raise an error for a contact (m) that reaches the outermost points of the profile; `held` begins it."""
         x, step = self._points, float(self.spacing)
         if contact.rear > -x[0] - step or contact.front > x[-1] - step:
             raise InputError(
-                f"{held} the contact reaches the end of the profile; give a longer one, or reduce the load.",
+                f"{held} the contact reaches the end of the profile; ",
                 code="beyond-indenter",
+                remedy=Remedy(f"give a longer one, or reduce the {reduce}."),
             )
 
     def strain_warning(self, contact: Extent, indentation: float) -> Note | None:

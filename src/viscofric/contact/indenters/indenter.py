@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from viscofric.contact.free.geometry import POINT, Geometry
 from viscofric.errors import InputError, wrong_argument
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.showing import Shown
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class Indenter(Shown, ABC):
         """Half the largest width that a contact can have, m."""
         return math.inf
 
-    def check(self, contact: Extent, held: str) -> None:
+    def check(self, contact: Extent, held: str, reduce: str = "load") -> None:
         """Refuse a contact that is wider than the indenter.
 
         Parameters
@@ -75,6 +75,8 @@ class Indenter(Shown, ABC):
             Along x and y of the indenter, in m.
         held : str
             The load or indentation in words, such as "under 25 N".
+        reduce : str
+            What makes the contact smaller, such as "mass or the speed".
 
         Raises
         ------
@@ -83,8 +85,9 @@ class Indenter(Shown, ABC):
         if contact.longest > 2.0 * self.reach:
             raise InputError(
                 f"{held} the contact would be about {1e3 * contact.longest:.3g} mm wide, wider than the {self.noun} "
-                f"({2e3 * self.reach:.3g} mm): the material is too soft; reduce the load.",
+                f"({2e3 * self.reach:.3g} mm); ",
                 code="beyond-indenter",
+                remedy=Remedy(f"reduce the {reduce}."),
             )
 
 
