@@ -210,6 +210,20 @@ def test_a_slow_ball_sinks_in_and_stays():
     assert 0.9 * still < hit.largest_indentation < 2.0 * still  # it oscillates about it
 
 
+def test_the_error_of_an_indenter_that_nearly_leaves_includes_its_restitution_if_it_did():
+    """Restitution jumps where the surface just catches up with the indenter: at 0.112352 m/s."""
+    stays, limit, leaves = (
+        vf.motion.solve_impact(rubber(1e-2), BALL, mass=0.03, speed=speed, gravity=9.81, accuracy=1e-2)
+        for speed in (0.1123, 0.11235, 0.1124)
+    )
+    assert (stays.restitution, limit.restitution) == (0.0, 0.0)
+    assert stays.restitution_error < 1e-6
+    (values,) = [note.values for note in map(note_of, stays.warnings) if note.code == "no-rebound"]
+    assert 0.0 < values["nearest"] < 2e-4 * stays.largest_indentation
+    assert leaves.restitution == pytest.approx(values["restitution"], rel=0.1)
+    assert limit.restitution_error == pytest.approx(leaves.restitution, rel=0.1)
+
+
 @pytest.mark.slow
 def test_the_curve_over_temperature_has_a_minimum_in_the_transition():
     warm = vf.Material(broad(12), shift=vf.WLF(C1=8.0, C2=100.0, reference=300.0))

@@ -88,6 +88,8 @@ class Contact(NamedTuple):
     time_of_largest: float
     separation_depth: float
     separates: bool
+    nearest: float = math.inf  # least indentation into the surface that is left, after the first turn, m
+    speed_nearest: float = 0.0  # upwards, then, m/s
 
 
 @dataclass(eq=False)
@@ -134,7 +136,7 @@ class Bounce:
         time, v, force = 0.0, speed, 0.0
         taken: list[float] = []
         deepest, deepest_time, peak, last_forces = depth, 0.0, 0.0, ((0.0, 0.0), (0.0, 0.0))
-        step, stiffness, reversals = self.first_step, 0.0, 0
+        step, stiffness, reversals, nearest, leaving = self.first_step, 0.0, 0, math.inf, 0.0
         self._record(start, depth, v, 0.0, 0.0)
         for _ in range(_MOST_STEPS):
             step = next(planned, None) or self._next_step(step, stiffness, mesh is not None)
@@ -176,6 +178,8 @@ class Bounce:
                     deepest, deepest_time = at_most, time + part * step
             if v * v1 < 0.0:
                 reversals += 1
+            if reversals and new - float(b[0]) < nearest:
+                nearest, leaving = new - float(b[0]), max(-v1, 0.0)
             depth, v, time = new, v1, time + step
             peak = max(peak, _top(last_forces, (time, force))) if force >= 0.5 * peak else peak
             last_forces = (last_forces[1], (time, force))
@@ -187,7 +191,9 @@ class Bounce:
                 self.taken.append(taken)
                 if depth > deepest:
                     deepest, deepest_time = depth, time
-                return Contact(start, math.inf, speed, 0.0, peak, deepest, deepest_time, depth, False), depth
+                return Contact(
+                    start, math.inf, speed, 0.0, peak, deepest, deepest_time, depth, False, nearest, leaving
+                ), depth
         raise ConvergenceError("the indenter neither leaves the surface nor comes to rest.", code="endless-contact")
 
     def _next_step(self, step: float, stiffness: float, planned: bool) -> float:

@@ -24,7 +24,6 @@ from viscofric.units import Quantity, number, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.motion.bounce import Contact
     from viscofric.units import Quantities
 
 TIGHTEST, LOOSEST = 1e-6, 1e-2  # accuracies
@@ -37,6 +36,8 @@ _MARGIN = 1.03
 _MOST_CONTACTS = 1000
 #: First step over the time to the depth on an elastic half-space of E∞, and shortest time that the modes resolve.
 _FIRST, _RESOLVED = 0.015, 1e-3
+#: Part of the largest indentation, less of which is left where an indenter that stays nearly leaves.
+_NEAR = 0.01
 #: Error of the compliance by modes that are merged, as a part of the accuracy.
 _MERGING = 0.1
 
@@ -265,7 +266,7 @@ class _Falling(NamedTuple):
         instantaneous = plane_strain * modes.instantaneous + self.counterface
         springs = Springs(g, s, weights, instantaneous, plane_strain * modes.C, modes.tau, indenter.has_walls)
         first = Bounce(springs, self.mass, self.gravity, _FIRST * duration).run(speed, rebounds)
-        coarse = None
+        coarse, contacts = None, tuple[ImpactContact, ...]()
         least = max(_LEAST_DIVISION, round(_STEPS / max(len(mesh) for mesh in first.taken)))
         for division in (least * 2**halving for halving in range(_HALVINGS)):
             fine = Bounce(springs, self.mass, self.gravity, 0.0, first.taken, division, recorded=coarse is not None)
@@ -273,10 +274,18 @@ class _Falling(NamedTuple):
             if coarse is not None:
                 radius = np.array([row[4] for row in fine.rows])
                 of_springs = _OF_SPRINGS / np.maximum(np.searchsorted(s, radius), 1) ** 2
-                contacts = _extrapolated(coarse.contacts, fine.contacts, modes.error, float(of_springs.min()))
-                if contacts and max(one.restitution_error for one in contacts) <= self.accuracy:
+                contacts = _extrapolated(coarse, fine, modes.error, float(of_springs.min()))
+                # The error of an indenter that stays is that of leaving after all, which jumps.
+                leaving = [one.restitution_error for one in contacts if math.isfinite(one.contact_time)]
+                if contacts and max(leaving, default=0.0) <= self.accuracy:
                     return self._solution(contacts, coarse, fine, temperature, modes.error + of_springs)
             coarse = fine
+        if not contacts:
+            raise ConvergenceError(
+                "whether the indenter leaves the surface depends on less than the errors of the solution; take another "
+                "mass or speed.",
+                code="rebound-not-certain",
+            )
         raise ConvergenceError(
             f"the restitution has not converged to {self.accuracy:g}; ask for a larger accuracy, or fewer rebounds.",
             code="steps-not-converged",
@@ -295,7 +304,16 @@ class _Falling(NamedTuple):
         self.indenter.check(Extent(widest, widest, widest), f"at {contacts[0].speed:g} m/s", "mass or the speed")
         notes = [self.indenter.strain_warning(Extent(widest, widest, widest), deepest)]
         if contacts[-1].restitution == 0.0:
-            notes.append(Note("no-rebound", "The indenter does not leave the surface again: it comes to rest on it."))
+            said = "The indenter does not leave the surface again: it comes to rest on it."
+            last, values = fine.contacts[-1], {}
+            if math.isfinite(last.nearest):
+                values = {"nearest": last.nearest, "restitution": last.speed_nearest / last.speed_in}
+            if last.nearest < _NEAR * last.largest_depth:
+                said += (
+                    f" On its way up {1e6 * last.nearest:.3g} µm of indentation are left at least: an impact in which "
+                    f"none are left has a restitution of about {values['restitution']:.2g}."
+                )
+            notes.append(Note("no-rebound", said, values=values))
         fit = self.material.modes_at(temperature).fit
         lasting = np.array([one.contact_time for one in contacts])
         beyond = () if fit is None else fit.beyond(np.pi / lasting, "frequency π over its duration")
@@ -326,22 +344,26 @@ class _Falling(NamedTuple):
         return ImpactSolution(contacts, run, velocity, self.mass, self.gravity, kelvin, run.warnings)
 
 
-def _extrapolated(
-    coarse: list[Contact], fine: list[Contact], merging: float, of_springs: float
-) -> tuple[ImpactContact, ...]:
+def _extrapolated(coarse: Bounce, fine: Bounce, merging: float, of_springs: float) -> tuple[ImpactContact, ...]:
     """Return the contacts of two runs, one with half the steps of the other; none if the contacts do not correspond.
 
-    The error of the restitution e is that of the steps, of merged modes, and of the stiffness by springs, de ~ e ln e.
+    The error of the restitution e is that of the steps, of merged modes, and of the stiffness by springs, de ~ e ln e;
+    of an indenter that stays, the restitution that these errors of its depth allow.
     """
-    if [one.separates for one in coarse] != [one.separates for one in fine]:
+    if [one.separates for one in coarse.contacts] != [one.separates for one in fine.contacts]:
         return ()
     found = []
-    for one, two in zip(coarse, fine, strict=True):
+    for one, two in zip(coarse.contacts, fine.contacts, strict=True):
         columns = [new + (new - old) / 3.0 for old, new in zip(one[:8], two[:8], strict=True)]
         start, duration, speed_in, speed_out, peak, deepest, when, last = columns
         before, after = one.speed_out / one.speed_in, two.speed_out / two.speed_in
         lasting = duration if two.separates else math.inf
         restitution = min(speed_out / speed_in, 1.0)
         error = abs(after - before) / 3.0 + merging + of_springs * -after * math.log(after or 1.0)
+        if not two.separates and math.isfinite(two.nearest):
+            off = abs(two.nearest - one.nearest) / 3.0 + (merging + of_springs) * two.largest_depth
+            if off >= two.nearest:  # it could leave, with this speed or that of a fall by the error
+                error += math.hypot(two.speed_nearest, math.sqrt(2.0 * fine.gravity * off)) / speed_in
+                error = min(error, 1.0)
         found.append(ImpactContact(start, speed_in, restitution, lasting, peak, deepest, when, last, error))
     return tuple(found)
