@@ -327,3 +327,14 @@ def test_motion_faster_than_the_material_was_measured_is_noted() -> None:
     assert hit("4 g") == []
     (slow,) = hit("10 kg")
     assert slow < 100.0
+
+    def press(time: list[float], load: list[float], before: str, times: list[float]) -> list[float]:
+        history = vf.motion.History(time, load=load, before=before)
+        return noted(vf.motion.solve_transient(material, vf.Ball("10 mm"), history, times=times))
+
+    # 1/t after a jump, and the rate of a load that grows from that at rest.
+    assert press([0.0, 5e-3], [1.0, 1.0], "untouched", [0.0, 1e-3, 5e-3]) == []
+    assert press([0.0, 5e-3], [1.0, 1.0], "untouched", [1e-4, 5e-3]) == pytest.approx([1e4])
+    assert press([0.0, 1.0], [1.0, 1.0], "untouched", [1.0]) == pytest.approx([1.0])
+    assert press([0.0, 1e-4, 1.0], [0.5, 1.0, 1.0], "at rest", [1.0]) == pytest.approx([5e3])
+    assert press([0.0, 1.0], [1.0, 1.0], "at rest", [1.0]) == []

@@ -148,6 +148,16 @@ class Schedule:
         ]
         return max(found, key=lambda velocity: math.hypot(*velocity))
 
+    def quickest_change(self, start: float, end: float) -> float:
+        """Return the largest rate of what is prescribed between two times, over its largest value, 1/s of the clock."""
+        times = [start, *self.kinks[(self.kinks > start) & (self.kinks < end)].tolist(), end]
+        found = [0.0]
+        for begin, until in pairwise(times):
+            if until > begin:
+                first, last = (sum(filter(None, one[3:])) for one in (self.at(begin), self.at(until, after=False)))
+                found.append(abs(last - first) / (self.largest * self.rates(begin, until)[0] * (until - begin)))
+        return max(found)
+
     def since_jump(self, instant: Instant) -> float:
         """Return the time since the last jump, or the first contact with an untouched body, s of the clock; or inf."""
         before = self._jumps[self._jumps <= instant.time]

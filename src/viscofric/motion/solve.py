@@ -415,12 +415,20 @@ def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]], co
 
 
 def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
-    """Return a note where an indenter slides faster than its material was measured, also between the moments."""
+    """Return a note where a motion is faster than its material was measured, also between the moments.
+
+    Without sliding, also where it is slower.
+    """
     schedule, times = problem.schedule, [one.instant.time for one in moments]
     fit = schedule.spectrum.fit
     if fit is None or not moments:
         return ()
     velocities = [schedule.fastest(start, end) for start, end in pairwise([schedule.start, *times])]
+    if not np.any(velocities):
+        since = np.array([schedule.since_jump(one.instant) for one in moments])
+        changes = [schedule.quickest_change(start, end) for start, end in pairwise([schedule.start, *times])]
+        with np.errstate(divide="ignore"):
+            return fit.beyond(np.maximum(changes, 1.0 / since), "rate of loading or 1/t after a jump")
     if isinstance(problem.indenter, PeriodicSurface):
         return _beyond_on_waves(problem, problem.indenter, moments, velocities)
     extents = [one.seen.extents for one in moments]
