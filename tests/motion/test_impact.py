@@ -337,4 +337,5 @@ def test_motion_faster_than_the_material_was_measured_is_noted() -> None:
     assert press([0.0, 5e-3], [1.0, 1.0], "untouched", [1e-4, 5e-3]) == pytest.approx([1e4])
     assert press([0.0, 1.0], [1.0, 1.0], "untouched", [1.0]) == pytest.approx([1.0])
     assert press([0.0, 1e-4, 1.0], [0.5, 1.0, 1.0], "at rest", [1.0]) == pytest.approx([5e3])
-    assert press([0.0, 1.0], [1.0, 1.0], "at rest", [1.0]) == []
+    for load in (1.0, 0.0):
+        assert press([0.0, 1.0], [load, load], "at rest", [1.0]) == []

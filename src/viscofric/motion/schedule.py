@@ -153,7 +153,7 @@ class Schedule:
         times = [start, *self.kinks[(self.kinks > start) & (self.kinks < end)].tolist(), end]
         found = [0.0]
         for begin, until in pairwise(times):
-            if until > begin:
+            if until > begin and self.largest > 0.0:
                 first, last = (sum(filter(None, one[3:])) for one in (self.at(begin), self.at(until, after=False)))
                 found.append(abs(last - first) / (self.largest * self.rates(begin, until)[0] * (until - begin)))
         return max(found)
