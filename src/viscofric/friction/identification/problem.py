@@ -25,9 +25,9 @@ if TYPE_CHECKING:
 
 
 #: Standard deviation of the prior of found shifts, about those from the overlap of the curves alone, in their standard
-#: errors, and in ln α.  A free spectrum also fits curves without overlap.  The prior adds to the information of the
-#: data one part in the square of the first number.
-OVERLAPPING, OVERLAPPING_LEAST = 5.0, 0.05
+#: errors, and in ln α.  A free spectrum also fits curves without overlap.  The prior counts the data twice, by one part
+#: in the square of the first number; errors that points share make this more: with 5, intervals of α held 90 %.
+OVERLAPPING, OVERLAPPING_LEAST = 12.0, 0.05
 #: Standard deviation of ln α known without an error, for rounding.
 EXACT = 1e-7
 _SAME = 1e-6  # K
