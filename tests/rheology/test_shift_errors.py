@@ -14,7 +14,7 @@ from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.notes import codes
 from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.gauge import BEND, Gauge, continued, continued_covariance
-from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets, OffsetSizes, estimated
+from viscofric.rheology.superposition.isotherm_offsets import BEFORE, SIZES, IsothermOffsets, OffsetSizes, estimated
 from viscofric.rheology.superposition.overlap import LogSweep, join, join_at
 from viscofric.rheology.superposition.shift_problem import ShiftProblem
 from viscofric.rheology.superposition.step_profiles import StepProfiles
@@ -74,8 +74,10 @@ def test_few_points_leave_as_many_degrees_of_freedom_as_there_are_beyond_shifts_
     # A variance from 35 degrees of freedom is known to √(2/35) = 24 %, the mean of 40 to 4 %; three of that.  Shifts
     # left uncounted make 35/42 = 0.83 of it.
     assert np.mean(ratios) == pytest.approx(1.0, abs=0.12)
-    # Three points a sweep do not exclude offsets as large as the noise of a mean, a third of the variance of a point.
-    assert 1.0 < np.mean(with_offsets) < 4.0 / 3.0
+    # Power laws show nothing of offsets that E' and E'' share, for shifts take their place: of the variance before any
+    # sweep is seen, half is that of the mean of both offsets, of the isotherm and of the coldest one each.
+    unseen = np.mean(1.0 + BEFORE @ SIZES**2 / BEFORE.sum() / EXPONENT**2 / exact)  # 47
+    assert 0.6 * unseen < np.mean(with_offsets) < 1.1 * unseen
 
 
 def along_sweeps(random, size, points, alike):
@@ -106,8 +108,9 @@ def test_errors_alike_along_a_sweep_widen_the_standard_errors():
         known = factors.standard_errors > 1e-9
         scores.append(away[known] / factors.standard_errors[known])
     # One fit has some three independent scores: the standard deviation of 60 is known to 0.09, three of that and a
-    # little.  Taken for independent, the points would give √(1.7/0.3) = 2.4.
-    assert np.std(scores) == pytest.approx(1.0, abs=0.3)
+    # little.  Taken for independent, the points would give √(1.7/0.3) = 2.4.  The means of such sweeps differ as
+    # offsets of 0.3 % would; that these are not excluded makes 0.55 of 1.1.
+    assert 0.4 < np.std(scores) < 1.3
 
 
 @pytest.mark.parametrize("shared", [False, True], ids=["E' and E'' apart", "shared"])
@@ -126,7 +129,8 @@ def test_offsets_of_whole_isotherms_are_found_and_carried_into_the_errors(shared
     # 17 isotherms less their shifts leave some 12 values of each modulus: a size known to 20 %, the mean of 4 to 10 %.
     assert np.mean(sizes, axis=0) == pytest.approx([0.02, 0.02], rel=0.3)
     # 64 scores, a third of them independent: their spread is known to 15 %, two of that.  Points alone: above 1.8.
-    assert np.std(scores) == pytest.approx(1.0, abs=0.35)
+    # Errors are larger than those of the size planted, for sizes that are not excluded count, too.
+    assert 0.55 < np.std(scores) < 1.35
     # Offsets of 2 % against a mean of 17 points of 1 %: the errors are up to √(1 + (0.02/0.01)² 17) = 8 times as large.
     calm = planted_sweeps(0, NOISE, celsius=np.arange(0.0, 161.0, 10.0)).sweeps
     points = vf.superpose(calm, "30 degC").shift_factors.standard_errors
@@ -154,13 +158,18 @@ def test_offsets_beside_a_free_vertical_shift_keep_errors_where_they_are_found_t
     assert 0.7 < np.sqrt(np.mean(np.square(scores))) < 1.1
 
 
-@pytest.mark.parametrize(("tied", "none"), [(False, 3.0), (True, 0.3)], ids=["b known", "b fitted"])
-def test_sweeps_that_show_nothing_of_offsets_leave_them_as_likely_as_before(tied, none):
+@pytest.mark.parametrize("tied", [False, True], ids=["b known", "b fitted"])
+def test_sweeps_that_show_nothing_of_offsets_leave_them_as_likely_as_before(tied):
     isotherms = 3
     found = estimated(1e-6 * np.eye(1 + 2 * isotherms), np.zeros(1 + 2 * isotherms), np.eye(1), tied=tied)
     assert found.sizes.probability.sum() == pytest.approx(1.0, abs=1e-12)
-    without = np.all(found.sizes.deviations == 0.0, axis=1)
-    assert found.sizes.probability[without].sum() == pytest.approx(none / (1.0 + none), rel=1e-6)
+    if tied:
+        without = np.all(found.sizes.deviations == 0.0, axis=1)
+        assert found.sizes.probability[without].sum() == pytest.approx(0.3 / 1.3, rel=1e-6)
+    else:  # a half-Cauchy density of scale 0.01 decades; the cells end at 10^-0.1 and 10^1.1 of it
+        small = np.all(found.sizes.deviations < 0.0099, axis=1)
+        part = np.arctan(10.0**-0.1) / np.arctan(10.0**1.1)
+        assert found.sizes.probability @ small == pytest.approx(part**2, rel=1e-6)
     mean = found.sizes.probability @ found.sizes.deviations**2
     assert np.diag(found.covariance) == pytest.approx([mean.mean()] * 2, rel=1e-9)
 
@@ -196,7 +205,7 @@ def test_sweeps_without_offsets_keep_the_errors_of_their_points():
         errors = vf.superpose(sweeps, "0 degC").shift_factors.standard_errors[1:]
         ratios.append(np.median(errors / from_points_alone(sweeps)[1:]))
     # What ten isotherms cannot exclude: a few tenths of a per cent, as large as the noise of a mean of 17 points.
-    assert 0.95 < np.mean(ratios) < 1.25
+    assert 0.95 < np.mean(ratios) < 1.4
 
 
 @pytest.mark.slow

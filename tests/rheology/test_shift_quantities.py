@@ -77,7 +77,7 @@ def test_offsets_that_both_moduli_show_are_in_the_errors_of_one(by):
     assert joint.offsets is not None
     # Eleven isotherms determine a size to a quarter.
     assert found.offsets.standard_deviations * np.log(10.0) == pytest.approx([0.02, 0.02], rel=0.6)
-    assert found.offsets.standard_deviations == pytest.approx(joint.offsets.standard_deviations, rel=0.01)
+    assert found.offsets.standard_deviations == pytest.approx(joint.offsets.standard_deviations, rel=0.03)
     # One modulus shows a shift less well than both, whose offsets partly cancel.
     errors, of_both = (np.median(one.shift_factors.standard_errors) for one in (found, joint))
     assert errors > 0.9 * of_both

@@ -20,18 +20,23 @@ from viscofric.rheology.superposition.gauge import Gauge, continued
 #: Where one modulus is shifted, offsets larger than this in both are no offsets: the other modulus is wrong.  Sweeps of
 #: one sample repeat to 0.02 decades (`consistency.REPRODUCIBILITY`); the sizes found scatter by a third.
 LARGEST = 0.027  # decades
-#: Standard deviations tried, decades, 0.1 to 25 % …
-SIZES = np.logspace(-3.4, -1.0, 13)
-#: … and none, whose prior probability is this many times that of all these together.
+#: Standard deviations tried, decades: none, and 0.1 to 25 %.
+SIZES = np.append(0.0, np.logspace(-3.4, -1.0, 13))
+_ENDS = np.concatenate([[0.0], SIZES[1:] * 10.0**-0.1, [SIZES[-1] * 10.0**0.1]])
+#: Scale of the half-Cauchy density of a size before any sweep is seen, which excludes neither none nor large ones: A.
+#: Gelman, Bayesian Anal. 1 (2006) 515.
+USUAL = 0.01  # decades
+BEFORE = np.diff(np.arctan(_ENDS / USUAL))
+#: Of one quantity a shift takes the place of nearly all of an offset; none is then this many times as probable as all
+#: other sizes, which are equally probable, together …
 NONE = 3.0
 #: … or this many times where vertical shifts are fitted.  Few degrees of freedom are left there (3 of 13 isotherms of a
 #: soft rubber), so that this choice matters: with 3, errors of α were half of what they should be in a quarter of the
 #: sweeps that had offsets; with 0.3, errors of sweeps that have none are up to 1.6 times as large as with 3.
 NONE_BESIDE_VERTICAL = 0.3
-#: The sum and the difference of the offsets of log E' and log E'', over √2, have separate variances.  A priori the two
-#: sizes agree within a factor of 2: where the curves are power laws, a shift absorbs the sum.  The variance of a common
-#: factor of E' and E'' is then estimated some 20 % too small.  A factor of 4 would correct that, but sweeps of three
-#: points along a power law, without offsets, would have 1.8 times the errors due to their points.
+#: The sum and the difference of the offsets of log E' and log E'', over √2, have separate variances, independent a
+#: priori: clamping anew changes both moduli by one factor, so that nothing is seen in the difference, and where the
+#: curves are power laws, a shift takes the place of the sum.
 TURNS = {1: np.ones((1, 1)), 2: np.array([[1.0, 1.0], [1.0, -1.0]]) / np.sqrt(2.0)}
 
 
@@ -101,10 +106,10 @@ class IsothermOffsets:
         turn = TURNS[moduli]
         shifts, offsets = errors[:, :-count], errors[:, -count:]
         mean = np.sqrt(np.diag(turn @ self.covariance @ turn.T))
-        scale = self.sizes.draw(random, len(errors)) / mean
+        scale = self.sizes.draw(random, len(errors)) / (mean + 1e-300)
         turned = turn @ offsets.reshape(len(errors), moduli, -1)
         change = (turn.T @ ((scale[:, :, None] - 1.0) * turned)).reshape(offsets.shape)
-        follow = self.with_shifts @ np.kron(np.linalg.inv(self.covariance), np.eye(count // moduli))
+        follow = self.with_shifts @ np.kron(np.linalg.pinv(self.covariance), np.eye(count // moduli))
         return np.concatenate([shifts + change @ follow[: shifts.shape[1]].T, offsets + change], axis=1)
 
 
@@ -136,24 +141,25 @@ def estimated(information: Array, score: Array, prior: Array, moduli: int = 2, *
     left = turn @ (information[free:, free:] - gain @ information[:free, free:]) @ turn.T
     wish = turn @ (score[free:] - gain @ score[:free])
     if moduli == 1:
-        tried, before = SIZES[:, None], np.ones(len(SIZES))
+        tried, before = SIZES[:, None], _equal(NONE)
         likelihood = _likelihood_of_sums(left, wish)
     else:
         tried = np.stack(np.meshgrid(SIZES, SIZES, indexing="ij"), axis=-1).reshape(-1, 2)
-        ratio = np.log2(tried[:, 0] / tried[:, 1])
-        before = np.exp(-0.5 * ratio**2) if not tied else np.where(ratio == 0.0, 1.0, 0.0)
+        before = (np.diag(_equal(NONE_BESIDE_VERTICAL)) if tied else np.outer(BEFORE, BEFORE)).ravel()
         likelihood = _likelihood(left, wish).ravel()
-    weight = before / before.sum() * np.exp(likelihood - max(float(likelihood.max()), 0.0))
-    none = (NONE_BESIDE_VERTICAL if tied else NONE) * np.exp(-max(float(likelihood.max()), 0.0))
-    weight /= weight.sum() + none
+    weight = before * np.exp(likelihood - likelihood.max())
+    weight /= weight.sum()
     variances = weight @ tried**2
     deviations = np.repeat(np.sqrt(variances), size)
     beside = np.eye(moduli * size) + deviations[:, None] * (turn @ information[free:, free:] @ turn.T) * deviations
     expected = deviations * np.linalg.solve(beside, deviations * (turn @ score[free:]))
-    probability = np.append(weight, max(1.0 - float(weight.sum()), 0.0))
-    sizes = OffsetSizes(np.append(tried, np.zeros((1, moduli)), axis=0), probability / probability.sum())
     small = TURNS[moduli]
-    return Offsets(small.T @ np.diag(variances) @ small, turn.T @ expected, sizes)
+    return Offsets(small.T @ np.diag(variances) @ small, turn.T @ expected, OffsetSizes(tried, weight))
+
+
+def _equal(none: float) -> Array:
+    """Return equal probabilities of all sizes, and `none` times their sum of none."""
+    return np.append(none, np.full(len(SIZES) - 1, 1.0 / (len(SIZES) - 1)))
 
 
 def _likelihood_of_sums(left: Array, wish: Array) -> Array:
