@@ -11,14 +11,15 @@ import numpy as np
 
 import viscofric as vf
 from viscofric.report.figures.rough import (
+    plot_contact_map,
     plot_friction_by_cut_off,
     plot_friction_by_wavelength,
     plot_power_spectra,
     plot_rough_friction,
-    rough_contact_figure,
+    plot_topography,
 )
 from viscofric.report.figures.saving import save_picture
-from viscofric.report.figures.style import new_figure
+from viscofric.report.figures.style import INK, new_figure
 
 FIGURES = Path(__file__).resolve().parent.parent / "docs" / "figures"
 POINTS, SPACING, SHORTEST = 256, 4e-6, 32e-6
@@ -56,7 +57,13 @@ def main() -> None:
     limited = [vf.persson_theory(rubber, wide.limited(shortest=length), **asked) for length in cut]
 
     def surface() -> object:
-        return rough_contact_figure(one, solved["0.1 m/s"])
+        solution, figure = solved["0.1 m/s"], new_figure(8.6, 3.9)
+        left, right = figure.subplots(1, 2)
+        for axes, (mesh, label) in ((left, plot_topography(left, one)), (right, plot_contact_map(right, solution))):
+            figure.colorbar(mesh, ax=axes, label=label)
+        touching = f"{100.0 * solution.contact_area_fraction:.3g} % in contact, μ = {solution.friction_coefficient:.3g}"
+        right.set_title(touching, fontsize=9, loc="left", color=INK)
+        return figure
 
     def scales() -> object:
         figure = new_figure(8.6, 3.7)

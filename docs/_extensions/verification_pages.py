@@ -9,9 +9,7 @@ from typing import TYPE_CHECKING
 import matplotlib
 import numpy as np
 from page_parts import digest, is_made_of, made_of, table, write
-
-from viscofric.report.figures.style import STYLE, new_figure
-from viscofric.report.figures.verification import (
+from verification_figures import (
     plot_deviations,
     plot_errors,
     plot_hunter,
@@ -19,6 +17,8 @@ from viscofric.report.figures.verification import (
     plot_sliding_ball,
     plot_windows,
 )
+
+from viscofric.report.figures.style import STYLE, new_figure
 from viscofric.verification import CHECKS, Check, Comparison, Outcome, run_checks
 from viscofric.verification.line import ACCURACY, MEMORY_LENGTHS, MODULUS_RATIOS, hunter
 from viscofric.verification.model_problems import SLOPE
@@ -184,7 +184,7 @@ def windows_figure(found: Windows) -> Figure:
 
 
 #: What all of it depends on, of the package.
-DEPENDS_ON = ("contact", "rheology", "verification", "report/figures/verification.py", "report/figures/style.py")
+DEPENDS_ON = ("contact", "rheology", "verification", "report/figures/style.py")
 PUBLISHED_DEPENDS_ON = (*DEPENDS_ON, "roughness")
 
 

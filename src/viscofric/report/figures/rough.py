@@ -10,7 +10,7 @@ import matplotlib
 import numpy as np
 
 from viscofric.report.figures.contact import draw_arrow, highest_shown, pressure_mesh
-from viscofric.report.figures.style import INK, Look, Unit, decade_ticks, looks, new_figure, speed_ticks, unit_for
+from viscofric.report.figures.style import INK, Look, Unit, decade_ticks, looks, speed_ticks, unit_for
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
-    from matplotlib.figure import Figure
 
     from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
@@ -255,32 +254,3 @@ def _speed_axes(axes: Axes, quantity: str) -> None:
     axes.set_xlabel("speed (m/s)")
     axes.set_ylabel(quantity)
     axes.legend()
-
-
-def rough_contact_figure(topography: Topography, solution: PeriodicSolution) -> Figure:
-    """Draw a surface and where it touches, side by side."""
-    figure = new_figure(8.6, 3.9)
-    left, right = figure.subplots(1, 2)
-    for axes, (mesh, label) in ((left, plot_topography(left, topography)), (right, plot_contact_map(right, solution))):
-        figure.colorbar(mesh, ax=axes, label=label)
-    touching = f"{100.0 * solution.contact_area_fraction:.3g} % in contact, μ = {solution.friction_coefficient:.3g}"
-    right.set_title(touching, fontsize=9, loc="left", color=INK)
-    return figure
-
-
-def surface_view(topography: Topography, *, stretch: float = 0.15) -> Figure:
-    """Draw a surface in three dimensions, its heights exaggerated."""
-    every = math.ceil(max(topography.shape) / 200)
-    z = topography.complete()[::every, ::every]
-    unit, depth = unit_for(max(topography.size)), unit_for(float(np.ptp(z)))
-    x, y = np.meshgrid(topography.x[::every] / unit.size, topography.y[::every] / unit.size, indexing="ij")
-    figure = new_figure(6.2, 4.3)
-    axes = figure.add_subplot(projection="3d")
-    axes.plot_surface(
-        x, y, (z - z.mean()) / depth.size, cmap=matplotlib.colormaps["cividis"], rcount=200, ccount=200, linewidth=0.0
-    )
-    axes.set_box_aspect((topography.size[0], topography.size[1], stretch * max(topography.size)))
-    axes.set_xlabel(f"$x$ ({unit.name})")
-    axes.set_ylabel(f"$y$ ({unit.name})")
-    axes.set_zlabel(f"height ({depth.name})")
-    return figure
