@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -15,15 +16,17 @@ from viscofric.cli.contact_options import (
     inputs_of,
 )
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import CSV, DASH, refuse_to_overwrite, write_curves
+from viscofric.cli.files import CSV, DASH, refuse_to_overwrite
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
-from viscofric.cli.output import json_option, out_option, picture_option, print_json
+from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, write_files
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.cli.run import NOT_ACCURATE
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from matplotlib.figure import Figure
 
     from viscofric.cli.rubber_options import NamedRubber
     from viscofric.friction.curves import FrictionCurves
@@ -74,6 +77,7 @@ def command(
     refuse_to_overwrite(inputs_of(parameters), out, picture)
     with reported_errors():
         from viscofric.cli.progress import contact_bar
+        from viscofric.friction.curve_files import write_friction_curves
         from viscofric.friction.prediction import predict_friction
 
         velocities = chosen_speeds(parameters)
@@ -100,8 +104,11 @@ def command(
         elif out != DASH:
             _print(name, rubber, curves)
         print_notes(curves.notes)
-        for written in write_curves(curves, out, picture, predicted=True, synthetic=rubber.synthetic):
-            click.echo(written, err=as_json or out == DASH)
+        write_files(
+            ("curves", out, partial(write_friction_curves, curves)),
+            ("picture", picture, drawing(partial(_drawn, curves), "friction", synthetic=rubber.synthetic)),
+            quiet=as_json or out == DASH,
+        )
     beyond = _beyond_accuracy(curves, parameters["accuracy"])
     if beyond:
         said = f"{beyond} of {len(curves)} points have an estimated error beyond --accuracy {parameters['accuracy']:g}."
@@ -178,6 +185,14 @@ def _of_heat(curves: FrictionCurves, rows: slice) -> list[list[str]]:
         ["isothermal", *(significant(value, 4) for value in curves.isothermal_friction[rows].tolist())],
         ["rise (K)", *(significant(value, 3) for value in curves.temperature_rise[rows].tolist())],
     ]
+
+
+def _drawn(curves: FrictionCurves) -> Figure:
+    from viscofric.friction.heating import HeatedFrictionCurves
+    from viscofric.report.figures.friction import predicted_figure
+    from viscofric.report.figures.heating import heated_curves_figure
+
+    return heated_curves_figure(curves) if isinstance(curves, HeatedFrictionCurves) else predicted_figure(curves)
 
 
 def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import sys
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.contact.solution import ContactSolution
-    from viscofric.friction.curves import FrictionCurves
 
 PICTURES, CSV, JSON, DATA = (".png", ".svg", ".pdf"), (".csv",), (".json",), (".nc", ".csv")
 #: What the command line calls standard input and standard output.
@@ -98,48 +96,18 @@ def to_be_written(path: Path) -> Iterator[Path]:
         click.echo(target.read_bytes(), nl=False)
 
 
-def write_curves(
-    curves: FrictionCurves, out: Path | None, picture: Path | None, *, predicted: bool, synthetic: bool
-) -> list[str]:
-    """Write the table and the picture of friction curves, if requested, and return the messages about them."""
-    said = []
-    if out is not None:
-        from viscofric.friction.curve_files import write_friction_curves
-
-        with to_be_written(out) as path:
-            write_friction_curves(curves, path)
-        said += [] if out == DASH else [f"curves   {out}"]
-    if picture is not None:
-        from viscofric.friction.heating import HeatedFrictionCurves
-        from viscofric.report.figures.friction import friction_figure, predicted_figure
-        from viscofric.report.figures.heating import heated_curves_figure
-        from viscofric.report.figures.saving import save_picture
-
-        draw = partial(predicted_figure, curves) if predicted else partial(friction_figure, curves, synthetic=synthetic)
-        if isinstance(curves, HeatedFrictionCurves):
-            draw = partial(heated_curves_figure, curves)
-        save_picture(picture, draw, name="friction", synthetic=synthetic)
-        said.append(f"picture  {picture}")
-    return said
-
-
 def write_fields(path: Path, solution: ContactSolution) -> None:
-    """Write the fields of a contact.
-
-    `path`: ends in ``.nc`` (netCDF) or ``.csv`` (a line for each cell: x, y, pressure, displacement; `-` prints
-    it). Replaced if it exists.
-    """
+    """Write the fields of a contact: netCDF, or a table (CSV) of x, y, pressure and displacement of each cell."""
     from viscofric.files import write_atomically
 
     if path.suffix.lower() == ".nc":
-        write_atomically(path, _netcdf(path, solution.to_dataset()))
-        return
-    with to_be_written(path) as target:
-        write_atomically(target, _table(solution))
+        write_dataset(path, solution.to_dataset())
+    else:
+        write_atomically(path, _table(solution))
 
 
 def write_dataset(path: Path, data: xarray.Dataset) -> None:
-    """Write a data set: netCDF, or a table (CSV, a row for each point; `-` prints it), by the ending of the name."""
+    """Write a data set: netCDF, or a table (CSV, a row for each point), by the ending of the name."""
     from viscofric.files import write_atomically
 
     if path.suffix.lower() == ".nc":
@@ -149,8 +117,7 @@ def write_dataset(path: Path, data: xarray.Dataset) -> None:
 
     text = io.StringIO()
     write_columns(text, data)
-    with to_be_written(path) as target:
-        write_atomically(target, text.getvalue().encode())
+    write_atomically(path, text.getvalue().encode())
 
 
 def _table(solution: ContactSolution) -> bytes:

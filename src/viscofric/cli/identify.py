@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -10,17 +9,27 @@ import click
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors, typed_as
 from viscofric.cli.files import FILE, JSON, Source, plainly, refuse_to_overwrite
-from viscofric.cli.output import json_option, out_option, picture_option, print_json, together
-from viscofric.cli.rubber_options import shift_factor_options
-from viscofric.cli.separation_options import separation_options, settings_of
+from viscofric.cli.friction_sources import friction_curves, separation_options, settings_of, shifts
+from viscofric.cli.output import (
+    drawing,
+    json_option,
+    out_option,
+    picture_option,
+    print_json,
+    synthetic_option,
+    together,
+    write_files,
+)
+from viscofric.cli.rubber_options import find_rubber, shift_factor_options
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from matplotlib.figure import Figure
+
     from viscofric.friction.identification.anchors import Anchor
     from viscofric.friction.identification.result import IdentifiedMaterial
-    from viscofric.rheology.material import Material
 
 
 _SIZES = ("indentation", "area", "half_width")
@@ -162,7 +171,7 @@ _shared_options = together(
 @out_option("Write the material (JSON), for `solve`, run files and `material`.", FILE, endings=JSON)
 @picture_option("Draw the modulus with its limits")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
-@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
+@synthetic_option
 @json_option("Print everything as JSON, in SI units.")
 def command(
     sources: tuple[Path, ...],
@@ -183,11 +192,10 @@ def command(
         raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
     settings, anchor = settings_of(parameters), check_anchor(parameters)
     with reported_errors():
-        from viscofric.cli.friction_sources import friction_curves, shifts
         from viscofric.cli.progress import contact_bar
-        from viscofric.cli.rubber_options import find_rubber
         from viscofric.friction.identification.identify import identify_material
         from viscofric.report.texts.inverse import identification_record
+        from viscofric.rheology.cards import write_card
 
         shape = chosen_indenter(parameters)
         known = None if beside is None else find_rubber(beside, "beside")
@@ -214,8 +222,17 @@ def command(
         else:
             _print(found)
         print_notes(curves.notes)
-        for written in _write(found, known, out, picture, synthetic):
-            click.echo(written, err=as_json)
+
+        def draw() -> Figure:
+            from viscofric.report.figures.identified import identified_figure
+
+            return identified_figure(found, known)
+
+        write_files(
+            ("rubber", out, lambda path: write_card(found.material, path, format="json")),
+            ("picture", picture, drawing(draw, "identified modulus", synthetic=synthetic)),
+            quiet=as_json,
+        )
 
 
 def chosen(parameters: dict[str, Any]) -> dict[str, Any]:
@@ -230,7 +247,6 @@ def _prior(parameters: dict[str, Any]) -> dict[str, Any]:
         if parameters["prior_band"] is not None:
             raise click.UsageError("--prior-band is the band of a --prior, which is not given.")
         return {}
-    from viscofric.cli.rubber_options import find_rubber
     from viscofric.units import angular_frequency
 
     known = find_rubber(parameters["prior"], "prior")
@@ -253,23 +269,3 @@ def _print(found: IdentifiedMaterial) -> None:
             click.echo()
     for sentence in found.sentences:
         click.echo(sentence)
-
-
-def _write(
-    found: IdentifiedMaterial, known: Material | None, out: Path | None, picture: Path | None, synthetic: bool
-) -> list[str]:
-    """Write the requested files, and return the messages about them."""
-    said = []
-    if out is not None:
-        from viscofric.rheology.cards import write_card
-
-        write_card(found.material, out, format="json")
-        said.append(f"rubber   {out}")
-    if picture is not None:
-        from viscofric.report.figures.identified import identified_figure
-        from viscofric.report.figures.saving import save_picture
-
-        draw = partial(identified_figure, found, known)
-        save_picture(picture, draw, name="identified modulus", synthetic=synthetic)
-        said.append(f"picture  {picture}")
-    return said

@@ -18,12 +18,14 @@ from viscofric.cli.contact_options import (
 )
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_dataset
-from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
+from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
 from viscofric.cli.rubber_options import chosen_rubber, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from matplotlib.figure import Figure
 
     from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
 
@@ -91,14 +93,11 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
         elif out != DASH:
             click.echo(f"{name}{rubber.mark}, {parameters['mass']}\n")
             _print(result, seconds)
-        if out is not None:
-            write_dataset(out, result.to_dataset())
-        said = [] if out in (None, DASH) else [f"data     {out}"]
-        if picture is not None:
-            _draw(picture, name, result, rubber.synthetic)
-            said.append(f"picture  {picture}")
-        for written in said:
-            click.echo(written, err=as_json or out == DASH)
+        write_files(
+            ("data", out, lambda path: write_dataset(path, result.to_dataset())),
+            ("picture", picture, drawing(partial(_drawn, name, result), "impact", synthetic=rubber.synthetic)),
+            quiet=as_json or out == DASH,
+        )
         print_notes(result.warnings, word="Warning")
 
 
@@ -132,13 +131,10 @@ def _print(result: ImpactSolution | RestitutionCurve, seconds: float) -> None:
     print_pairs(impact_lines(result, seconds))
 
 
-def _draw(path: Path, name: str, result: ImpactSolution | RestitutionCurve, synthetic: bool) -> None:
+def _drawn(name: str, result: ImpactSolution | RestitutionCurve) -> Figure:
     from viscofric.motion.impact_solution import RestitutionCurve
     from viscofric.report.figures.pressures import restitution_figure, transient_figure
-    from viscofric.report.figures.saving import save_picture
 
     if isinstance(result, RestitutionCurve):
-        draw = partial(restitution_figure, result, name)
-    else:
-        draw = partial(transient_figure, result.run, name)
-    save_picture(path, draw, name="impact", synthetic=synthetic)
+        return restitution_figure(result, name)
+    return transient_figure(result.run, name)

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import CSV, DASH, Source, plainly, refusal, refuse_to_overwrite, to_be_written
-from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
+from viscofric.cli.files import CSV, DASH, Source, plainly, refusal, refuse_to_overwrite
+from viscofric.cli.friction_sources import friction_curves, separation_options, settings_of, shifts
+from viscofric.cli.output import (
+    drawing,
+    json_option,
+    out_option,
+    picture_option,
+    print_json,
+    print_pairs,
+    synthetic_option,
+    write_files,
+)
 from viscofric.cli.rubber_options import shift_factor_options
-from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from matplotlib.figure import Figure
 
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
@@ -60,7 +70,7 @@ Example:
 @separation_options
 @out_option("Write the shift factors with their errors (CSV); `-` prints them instead of the table.", endings=CSV)
 @picture_option("Draw master curve and shift factors")
-@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
+@synthetic_option
 @json_option("Print everything as JSON, in SI units.")
 def command(
     sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **parameters: Any
@@ -74,7 +84,6 @@ def command(
     refuse_to_overwrite(sources, out, picture)
     settings = settings_of(parameters)
     with reported_errors():
-        from viscofric.cli.friction_sources import friction_curves, shifts
         from viscofric.friction.shifting.shift import chosen_law
         from viscofric.report.texts.inverse import shift_record
 
@@ -105,8 +114,17 @@ def command(
         elif out != DASH:
             _print(master, known, law, why, agreement)
         print_notes((*curves.notes, *master.notes))
-        for written in _write(master, known, out, picture, synthetic):
-            click.echo(written, err=as_json or out == DASH)
+
+        def draw() -> Figure:
+            from viscofric.report.figures.friction import shifted_figure
+
+            return shifted_figure(master, known, synthetic=synthetic)
+
+        write_files(
+            ("factors", out, lambda path: master.shift_factors.save(path)),  # noqa: PLW0108 - not of all of them
+            ("picture", picture, drawing(draw, "friction master curve", synthetic=synthetic)),
+            quiet=as_json or out == DASH,
+        )
 
 
 def _shifted(
@@ -165,22 +183,3 @@ def _print(
         click.echo(line)
     click.echo()
     print_pairs(shift_words(master, law, agreement, why))
-
-
-def _write(
-    master: FrictionMasterCurve, known: ShiftLaw | None, out: Path | None, picture: Path | None, synthetic: bool
-) -> list[str]:
-    """Write the requested files, and return the messages about them."""
-    said = []
-    if out is not None:
-        with to_be_written(out) as path:
-            master.shift_factors.save(path)
-        said += [] if out == DASH else [f"factors  {out}"]
-    if picture is not None:
-        from viscofric.report.figures.friction import shifted_figure
-        from viscofric.report.figures.saving import save_picture
-
-        draw = partial(shifted_figure, master, known, synthetic=synthetic)
-        save_picture(picture, draw, name="friction master curve", synthetic=synthetic)
-        said.append(f"picture  {picture}")
-    return said

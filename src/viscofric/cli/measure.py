@@ -7,19 +7,23 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import (
-    CSV,
-    DASH,
-    Source,
-    plainly,
-    refuse_to_overwrite,
-    write_curves,
+from viscofric.cli.files import CSV, DASH, Source, plainly, refuse_to_overwrite
+from viscofric.cli.friction_sources import separated, separation_options, settings_of
+from viscofric.cli.output import (
+    drawing,
+    json_option,
+    out_option,
+    picture_option,
+    print_json,
+    print_pairs,
+    synthetic_option,
+    write_files,
 )
-from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
-from viscofric.cli.separation_options import separation_options, settings_of
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from matplotlib.figure import Figure
 
     from viscofric.friction.curves import FrictionCurves
 
@@ -34,7 +38,7 @@ Example:
 @separation_options
 @out_option("Write the friction curves (CSV); `-` prints them instead of the table.", endings=CSV)
 @picture_option("Draw viscoelastic and Coulomb friction against speed")
-@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
+@synthetic_option
 @json_option("Print the friction curves as JSON, in SI units.")
 def command(
     runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **parameters: Any
@@ -48,7 +52,7 @@ def command(
     refuse_to_overwrite(runs, out, picture)
     settings = settings_of(parameters)
     with reported_errors():
-        from viscofric.cli.friction_sources import separated
+        from viscofric.friction.curve_files import write_friction_curves
         from viscofric.report.texts.friction import friction_record
 
         curves = separated(runs, settings)
@@ -59,8 +63,17 @@ def command(
         elif out != DASH:
             _print(curves)
         print_notes(curves.notes)
-        for written in write_curves(curves, out, picture, predicted=False, synthetic=synthetic):
-            click.echo(written, err=as_json or out == DASH)
+
+        def draw() -> Figure:
+            from viscofric.report.figures.friction import friction_figure
+
+            return friction_figure(curves, synthetic=synthetic)
+
+        write_files(
+            ("curves", out, lambda path: write_friction_curves(curves, path)),
+            ("picture", picture, drawing(draw, "friction", synthetic=synthetic)),
+            quiet=as_json or out == DASH,
+        )
 
 
 def _print(curves: FrictionCurves) -> None:

@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.files import DASH, FILE, OUT, PICTURES, check_ending
+from viscofric.cli.files import DASH, FILE, OUT, PICTURES, check_ending, to_be_written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
+
+    from matplotlib.figure import Figure
 
     Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
@@ -89,6 +91,12 @@ def picture_option(words: str) -> Decorator:
     return click.option("--picture", type=FILE, callback=checked, help=f"{words} (PNG, SVG or PDF).")
 
 
+#: Where data may be synthetic that do not say so themselves.
+synthetic_option = click.option(
+    "--synthetic", is_flag=True, help="The data are synthetic: label figures and report accordingly."
+)
+
+
 def pdf_option(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add `--pdf`."""
     words = "Also write report.pdf (A4); needs Chromium, Chrome or Edge on the path."
@@ -115,12 +123,35 @@ def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
         click.echo(f"{name:<{width}}  {value}")
 
 
+def write_files(*files: tuple[str, Path | None, Callable[[Path], object]], quiet: bool) -> None:
+    """Write the requested ones of some files, each a word, its path and what writes it, and name them.
+
+    `-` prints a file instead; `quiet`: whether standard output is for results alone.
+    """
+    for word, path, write in files:
+        if path is not None:
+            with to_be_written(path) as target:
+                write(target)
+            if path != DASH:
+                click.echo(f"{word:<8} {path}", err=quiet)
+
+
+def drawing(draw: Callable[[], Figure], name: str, *, synthetic: bool) -> Callable[[Path], None]:
+    """Return what writes a figure into a file; see `save_picture`."""
+
+    def write(path: Path) -> None:
+        from viscofric.report.figures.saving import save_picture
+
+        save_picture(path, draw, name=name, synthetic=synthetic)
+
+    return write
+
+
 def write_rows(path: Path, rows: Sequence[dict[str, Any]]) -> None:
     """Write a table (CSV) with a line for each row, which all have the same names; `-` prints it."""
     import csv
     import io
 
-    from viscofric.cli.files import to_be_written
     from viscofric.files import write_atomically
 
     text = io.StringIO()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -20,11 +19,13 @@ from viscofric.cli.contact_options import (
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
-from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
+from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from matplotlib.figure import Figure
 
     from viscofric.cli.contact_options import NamedIndenter
     from viscofric.cli.rubber_options import NamedRubber
@@ -105,8 +106,17 @@ def command(as_json: bool, picture: Path | None, out: Path | None, **parameters:
             print_json(record)
         elif out != DASH:
             _print(name, rubber, solution, seconds)
-        for written in _write(name, rubber, shape, solution, picture, out):
-            click.echo(written, err=as_json or out == DASH)
+
+        def draw() -> Figure:
+            from viscofric.report.figures.contact import contact_figure
+
+            return contact_figure(solution, shape.indenter, name)
+
+        write_files(
+            ("picture", picture, drawing(draw, "contact", synthetic=rubber.synthetic)),
+            ("fields", out, lambda path: write_fields(path, solution)),
+            quiet=as_json or out == DASH,
+        )
 
 
 def _speed(text: str) -> float | str:
@@ -163,26 +173,3 @@ def _print(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: f
         for line in derivative_lines(solution, rubber.material.modes_at(solution.temperature)):
             click.echo(line)
     print_notes(solution.warnings, word="Warning")
-
-
-def _write(
-    name: str,
-    rubber: NamedRubber,
-    shape: NamedIndenter,
-    solution: ContactSolution,
-    picture: Path | None,
-    out: Path | None,
-) -> list[str]:
-    """Write the requested files, and return the messages about them."""
-    said = []
-    if picture is not None:
-        from viscofric.report.figures.contact import contact_figure
-        from viscofric.report.figures.saving import save_picture
-
-        draw = partial(contact_figure, solution, shape.indenter, name)
-        save_picture(picture, draw, name="contact", synthetic=rubber.synthetic)
-        said.append(f"picture  {picture}")
-    if out is not None:
-        write_fields(out, solution)
-        said += [] if out == DASH else [f"fields   {out}"]
-    return said

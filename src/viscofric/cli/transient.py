@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -32,11 +31,13 @@ from viscofric.cli.files import (
 )
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.history_options import chosen_history, chosen_times, history_inputs, history_options
-from viscofric.cli.output import json_option, out_option, picture_option, print_json, print_pairs
+from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from matplotlib.figure import Figure
 
     from viscofric.cli.contact_options import NamedIndenter
     from viscofric.cli.rubber_options import NamedRubber
@@ -122,14 +123,9 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
             print_json(_record(parameters, rubber, shape, history, result, seconds), indent=None)
         elif out != DASH:
             _print(name, rubber, history, result, seconds)
-        if out is not None:
-            write_dataset(out, result.to_dataset())
-        said = [] if out in (None, DASH) else [f"data     {out}"]
-        said += _draw(name, rubber, run, parameters["times"] is not None, **drawings)
+        _write(name, rubber.synthetic, result, parameters["times"] is not None, out, drawings, quiet=as_json)
         if parameters["state"] is not None:
-            said.append(f"state    {parameters['state']}")
-        for written in said:
-            click.echo(written, err=as_json or out == DASH)
+            click.echo(f"state    {parameters['state']}", err=as_json or out == DASH)
         print_notes(run.warnings, word="Warning")
     if run.interrupted:
         word, status = ("Terminated", TERMINATED) if Terminated.received else ("Interrupted", INTERRUPTED)
@@ -234,33 +230,38 @@ def _print(
         click.echo(f"Note: {note}")
 
 
-def _draw(
+def _write(
     name: str,
-    rubber: NamedRubber,
-    run: TransientSolution,
+    synthetic: bool,
+    result: TransientSolution | CycleSolution,
     at_times: bool,
+    out: Path | None,
+    drawings: dict[str, Path | None],
     *,
-    picture: Path | None,
-    pressures: Path | None,
-    animation: Path | None,
-) -> list[str]:
-    """Write the requested drawings, and return the messages about them."""
-    said = []
-    if picture is not None or pressures is not None:
-        from viscofric.report.figures.pressures import pressure_strip, transient_figure
-        from viscofric.report.figures.saving import save_picture
+    quiet: bool,
+) -> None:
+    """Write the requested files; pressures `at_times` are those at all times of the solution."""
+    run: Any = getattr(result, "run", result)
 
-        shown = run.time if at_times else None
-        for path, draw in (
-            (picture, partial(transient_figure, run, name)),
-            (pressures, partial(pressure_strip, run, shown, name)),
-        ):
-            if path is not None:
-                save_picture(path, draw, name="contact over time", synthetic=rubber.synthetic)
-                said.append(f"picture  {path}")
-    if animation is not None:
+    def whole() -> Figure:
+        from viscofric.report.figures.pressures import transient_figure
+
+        return transient_figure(run, name)
+
+    def strip() -> Figure:
+        from viscofric.report.figures.pressures import pressure_strip
+
+        return pressure_strip(run, run.time if at_times else None, name)
+
+    def animate(path: Path) -> None:
         from viscofric.report.figures.animation import save_animation
 
-        save_animation(animation, run, name, synthetic=rubber.synthetic)
-        said.append(f"animation {animation}")
-    return said
+        save_animation(path, run, name, synthetic=synthetic)
+
+    write_files(
+        ("data", out, lambda path: write_dataset(path, result.to_dataset())),
+        ("picture", drawings["picture"], drawing(whole, "contact over time", synthetic=synthetic)),
+        ("picture", drawings["pressures"], drawing(strip, "contact over time", synthetic=synthetic)),
+        ("animation", drawings["animation"], animate),
+        quiet=quiet or out == DASH,
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sys
-from contextlib import contextmanager
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +16,6 @@ from viscofric.cli.output import json_option, out_option, print_json, write_rows
 from viscofric.cli.verify_test import compare_test
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from viscofric.verification import Check, Comparison, Outcome
 
 #: Columns that the table needs; a narrower terminal gets lines, as a file does.
@@ -66,6 +64,7 @@ def command(
     if listed and (as_json or out is not None):
         raise click.UsageError("--list only prints; give it without --json and --out.")
     with reported_errors():
+        from viscofric.cli.progress import contact_bar
         from viscofric.verification import CHECKS, run_checks, select
         from viscofric.verification.published import PUBLISHED
 
@@ -76,9 +75,9 @@ def command(
             return
         quiet = as_json or out == DASH
         as_table = not quiet and sys.stdout.isatty() and shutil.get_terminal_size().columns >= _TABLE_WIDTH
-        outcomes = []
-        with _progress(len(checks), quiet=quiet) as begin:
-            for outcome in run_checks(checks, begin, backend):
+        outcomes: list[Outcome] = []
+        with contact_bar("", quiet=quiet) as bar:
+            for outcome in run_checks(checks, lambda one: bar(len(outcomes), len(checks), one.title), backend):
                 outcomes.append(outcome)
                 if not quiet and not as_table:
                     click.echo(_line(outcome))
@@ -111,26 +110,6 @@ def _list(checks: tuple[Check, ...]) -> None:
         click.echo(f"  {'':<18} against {check.source}")
         for about, text in _origin(check).items():
             click.echo(f"  {'':<18} {about}: {text}")
-
-
-@contextmanager
-def _progress(total: int, quiet: bool) -> Iterator[Callable[[Check], None]]:
-    """Show on a terminal which check runs; say nothing elsewhere."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    console = Console(stderr=True)
-    columns = (TextColumn("{task.description}"), BarColumn(bar_width=24), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal) as bars:
-        task = bars.add_task("", total=total)
-        done = 0
-
-        def begin(check: Check) -> None:
-            nonlocal done
-            bars.update(task, description=check.title, completed=done)
-            done += 1
-
-        yield begin
 
 
 def _numbers(one: Comparison) -> tuple[str, str, str, str]:
@@ -240,17 +219,7 @@ def _record(outcomes: list[Outcome]) -> dict[str, Any]:
                 "trouble": outcome.trouble,
                 "seconds": outcome.seconds,
                 "comparisons": [
-                    {
-                        "case": one.case,
-                        "quantity": one.quantity,
-                        "computed": one.computed,
-                        "expected": one.expected,
-                        "measure": one.measure,
-                        "error": one.error,
-                        "bound": one.bound,
-                        "passed": one.passed,
-                    }
-                    for one in outcome.comparisons
+                    asdict(one) | {"error": one.error, "passed": one.passed} for one in outcome.comparisons
                 ],
             }
             for outcome in outcomes

@@ -9,7 +9,15 @@ import click
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors, typed_as
 from viscofric.cli.files import FILE, Source, refuse_to_overwrite
-from viscofric.cli.output import json_option, out_option, picture_option, print_json
+from viscofric.cli.output import (
+    drawing,
+    json_option,
+    out_option,
+    picture_option,
+    print_json,
+    synthetic_option,
+    write_files,
+)
 from viscofric.cli.rubber_options import reading_options
 
 if TYPE_CHECKING:
@@ -46,42 +54,25 @@ _PERCENT = click.FloatRange(0.0, 1000.0)
 )
 @click.option("--speed", metavar="V", help="Its speed, e.g. '20 mm/s'.")
 @click.option("--contact-temperature", metavar="T", help="Its temperature, e.g. '60 degC'.")
-@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
+@synthetic_option
 @picture_option("Draw the sweep")
 @json_option("Print everything as JSON, in SI units.")
 @out_option("Write the scaled material (JSON), for run files and the other commands.", FILE)
-def command(
-    files: tuple[Path, ...],
-    deformation: Any,
-    temperature: tuple[str, ...],
-    modulus_unit: str | None,
-    columns: dict[str, str],
-    sheet: str | None,
-    as_json: bool,
-    picture: Path | None,
-    out: Path | None,
-    **chosen: Any,
-) -> None:
+def command(files: tuple[Path, ...], as_json: bool, picture: Path | None, out: Path | None, **chosen: Any) -> None:
     """Print the linear range and Kraus's law of an amplitude sweep in FILES.
 
     With --material and --strain, or a contact (--ball, --load, --speed), the material is scaled to that strain: an
     approximation.
     """
-    from viscofric.readers.dma.amplitudes import read_amplitude_sweep
+    from viscofric.cli.material.readings import read_kind
     from viscofric.rheology.payne.kraus_fit import fit_kraus
 
     refuse_to_overwrite(files, picture, out)
     if out is not None and chosen["material"] is None:
         raise click.UsageError("--out needs --material, and --strain or a contact.")
     with reported_errors():
-        sweep = read_amplitude_sweep(
-            *files,
-            deformation=deformation,
-            temperature=temperature[0] if temperature else None,
-            modulus_unit=modulus_unit,
-            columns=columns,
-            sheet=sheet,
-        )
+        reading = {name: chosen[name] for name in ("deformation", "modulus_unit", "columns", "sheet")}
+        sweep = read_kind("amplitude", files, reading | {"temperature": next(iter(chosen["temperature"]), None)})
         fit = fit_kraus(sweep)
         record, lines = _fitted(fit)
         notes = list(fit.notes)
@@ -100,8 +91,17 @@ def command(
             for line in lines:
                 click.echo(line)
             print_notes(notes)
-        if picture is not None:
-            click.echo(f"picture  {_draw(fit, picture, chosen['synthetic'])}", err=as_json)
+
+        def draw() -> Figure:
+            from viscofric.report.figures.ramps import plot_amplitude_sweep
+            from viscofric.report.figures.style import new_figure
+
+            figure = new_figure()
+            plot_amplitude_sweep(figure.subplots(), fit)
+            return figure
+
+        write = drawing(draw, "amplitude_sweep", synthetic=chosen["synthetic"])
+        write_files(("picture", picture, write), quiet=as_json)
 
 
 def _fitted(fit: PayneFit) -> tuple[dict[str, Any], list[str]]:
@@ -161,17 +161,3 @@ def _compared(found: ContactAtStrain, words: str) -> tuple[dict[str, Any], list[
         for name, one in both.items()
     ]
     return record, lines
-
-
-def _draw(fit: PayneFit, path: Path, synthetic: bool) -> Path:
-    from viscofric.report import plot_amplitude_sweep
-    from viscofric.report.figures.saving import save_picture
-    from viscofric.report.figures.style import new_figure
-
-    def draw() -> Figure:
-        figure = new_figure()
-        plot_amplitude_sweep(figure.subplots(), fit)
-        return figure
-
-    save_picture(path, draw, name="amplitude_sweep", synthetic=synthetic)
-    return path

@@ -12,7 +12,7 @@ import click
 from viscofric.cli.errors import print_doubtful_checks, print_notes, reported_errors
 from viscofric.cli.files import FILE
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
-from viscofric.cli.output import FOLDER, json_option, out_option, print_json
+from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option
 from viscofric.cli.rubber_options import reading_options, shift_factor_options
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
     help="Relaxation tests of the same material, besides the sweeps in FILES; repeatable.",
 )
 @click.option("--master-curve", is_flag=True, help="FILES is one finished master curve at the reference temperature.")
-@click.option("--synthetic", is_flag=True, help="The data are synthetic: label figures and report accordingly.")
+@synthetic_option
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
 @click.option(
     "--vertical-shift",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -10,11 +9,21 @@ import click
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, indenter_options
 from viscofric.cli.errors import reported_errors, typed_as
 from viscofric.cli.files import CSV, FILE, JSON, Source, check_ending, refuse_to_overwrite
-from viscofric.cli.output import json_option, out_option, picture_option, print_json
-from viscofric.cli.rubber_options import column_options
+from viscofric.cli.output import (
+    drawing,
+    json_option,
+    out_option,
+    picture_option,
+    print_json,
+    synthetic_option,
+    write_files,
+)
+from viscofric.cli.rubber_options import column_options, find_rubber
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from matplotlib.figure import Figure
 
 _EXAMPLE = """\b
 Example:
@@ -75,7 +84,7 @@ Example:
 @click.option("--csv", "table", type=FILE, help="Write the moduli with their 95 % limits (CSV).")
 @picture_option("Draw the moduli with their limits, and every fit")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
-@click.option("--synthetic", is_flag=True, help="The data are synthetic: label the picture accordingly.")
+@synthetic_option
 @json_option("Print the moduli and the notes as JSON, in SI units.")
 def command(
     files: tuple[Path, ...],
@@ -102,7 +111,6 @@ def command(
     if beside is not None and picture is None:
         raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
     with reported_errors():
-        from viscofric.cli.rubber_options import find_rubber
         from viscofric.datasets import record
         from viscofric.friction.identification.indentation.identify import identify_from_indentation
         from viscofric.notes import listed
@@ -119,19 +127,18 @@ def command(
             print_json(said)
         else:
             click.echo(str(found))
-        if out is not None:
-            write_card(found.material, out, format="json")
-            click.echo(f"material {out}", err=as_json)
-        if table is not None:
-            data.to_dataframe().to_csv(table)
-            click.echo(f"table    {table}", err=as_json)
-        if picture is not None:
-            from viscofric.report.figures.identified import indentation_figure
-            from viscofric.report.figures.saving import save_picture
 
-            draw = partial(indentation_figure, found, known)
-            save_picture(picture, draw, name="identified modulus", synthetic=synthetic)
-            click.echo(f"picture  {picture}", err=as_json)
+        def draw() -> Figure:
+            from viscofric.report.figures.identified import indentation_figure
+
+            return indentation_figure(found, known)
+
+        write_files(
+            ("material", out, lambda path: write_card(found.material, path, format="json")),
+            ("table", table, data.to_dataframe().to_csv),
+            ("picture", picture, drawing(draw, "identified modulus", synthetic=synthetic)),
+            quiet=as_json,
+        )
 
 
 def _records(path: Path, temperature: str | None, parameters: dict[str, Any]) -> list[Any]:

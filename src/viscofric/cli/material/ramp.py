@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import shlex
 import sys
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
-import numpy as np
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import Source
-from viscofric.cli.output import FOLDER, json_option, out_option, print_json
+from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option
 from viscofric.cli.rubber_options import column_options, deformation_option, modulus_unit_option
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from viscofric.data import Deformation
-    from viscofric.ramps import TemperatureRamps
 
 
 @click.command(name="ramp")
@@ -46,40 +42,22 @@ if TYPE_CHECKING:
 )
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
 @click.option("--name", default="", help="Name of the material, for reports and cards.")
-@click.option("--synthetic", is_flag=True, help="The data are synthetic: label figures and report accordingly.")
+@synthetic_option
 @json_option("Print ramps and peaks as JSON, in SI units.")
 @out_option("With --reference: folder for the results [default: FILE.material beside the first file].", FOLDER)
-def command(
-    files: tuple[Path, ...],
-    modulus_unit: str | None,
-    deformation: Deformation | None,
-    direction: Literal["heating", "cooling"] | None,
-    heating_rate: str | None,
-    as_json: bool,
-    out: Path | None,
-    columns: dict[str, str],
-    sheet: str | None,
-    **chosen: Any,
-) -> None:
+def command(files: tuple[Path, ...], as_json: bool, out: Path | None, **chosen: Any) -> None:
     """Print the frequencies and the glass transition of temperature ramps in FILES.
 
     With --reference, the ramps are superposed, and the folder has rubber.json, tables, figures and report.html.
     """
-    from viscofric.readers.dma.ramps import read_ramps
+    from viscofric.cli.material.readings import described, read_kind
     from viscofric.rheology.ramps.glass_transition import glass_transition
 
     if chosen["reference"] is None and (out is not None or chosen["assumed_shift"] is not None):
         raise click.UsageError("--out and --assumed-shift need --reference.")
     with reported_errors():
-        ramps = read_ramps(
-            *files,
-            deformation=deformation,
-            direction=direction,
-            heating_rate=heating_rate,
-            modulus_unit=modulus_unit,
-            columns=columns,
-            sheet=sheet,
-        )
+        reading = {name: chosen[name] for name in ("deformation", "modulus_unit", "columns", "sheet")}
+        ramps = read_kind("ramps", files, reading | {name: chosen[name] for name in ("direction", "heating_rate")})
         peaks = [
             one
             for ramp in ramps.ramps
@@ -97,28 +75,12 @@ def command(
             }
             print_json(record)
         else:
-            for line in [*_lines(ramps), *map(str, peaks)]:
+            for line in [*described("ramps", ramps, map(str, files))[1], *map(str, peaks)]:
                 click.echo(line)
             if chosen["reference"] is None:
                 print_notes(ramps.notes)
         if chosen["reference"] is not None:
-            reading = {"deformation": deformation, "modulus_unit": modulus_unit, "columns": columns, "sheet": sheet}
             _material(files, reading, out, chosen, as_json)
-
-
-def _lines(ramps: TemperatureRamps) -> list[str]:
-    letter = "G" if ramps.deformation == "shear" else "E"
-    lines = [f"{ramps.format}; moduli in {ramps.deformation}; frequencies: {len(ramps)}"]
-    lines.append(f"{'f (Hz)':>8}  {'points':>6}  {'T (°C)':>16}  {letter + chr(39) + ' (MPa)':>19}  {'tan δ':>15}")
-    for one in ramps.ramps:
-        kelvin, storage, tangent = one.temperature - 273.15, one.storage_modulus / 1e6, one.loss_tangent
-        spans = [
-            f"{low:.4g} to {high:.4g}"
-            for low, high in ((kelvin[0], kelvin[-1]), (storage.min(), storage.max()), (tangent.min(), tangent.max()))
-        ]
-        frequency = one.angular_frequency / (2.0 * np.pi)
-        lines.append(f"{frequency:8.3g}  {len(one):6d}  {spans[0]:>16}  {spans[1]:>19}  {spans[2]:>15}")
-    return lines
 
 
 def _material(

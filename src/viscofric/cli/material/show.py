@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from viscofric.cli.errors import reported_errors
-from viscofric.cli.files import DASH, DATA, write_dataset
+from viscofric.cli.files import DASH, DATA, to_be_written, write_dataset
 from viscofric.cli.output import json_option, out_option, print_json
 
 if TYPE_CHECKING:
@@ -41,7 +41,8 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], ou
         material = find_rubber(rubber, "rubber")
         moduli = _moduli(material, temperature, frequency)
         if out is not None:
-            write_dataset(out, moduli)
+            with to_be_written(out) as path:
+                write_dataset(path, moduli)
         if as_json:
             about = {name: getattr(material, name) for name in ("name", "citation", "poisson_ratio", "reference")}
             spectrum = material.to_dataset(temperature)
