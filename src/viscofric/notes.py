@@ -160,9 +160,9 @@ def note_of(record: Mapping[str, Any] | str) -> Note:
 
 
 def counted(
-    each: Sequence[Iterable[str]], of: str = "contacts", rank: Sequence[float] | None = None
+    each: Sequence[Iterable[str]], rank: Sequence[float] | None = None, *, of: str = "contacts"
 ) -> tuple[Note, ...]:
-    """Return the notes of many contacts, one of each code, with the number of contacts that have it.
+    """Return the notes of many contacts (in words, `of`), one of each code, with the number of those that have it.
 
     Where they differ, the note is that of the contact with the highest `rank`, or the first.
     """
@@ -173,7 +173,7 @@ def counted(
     found = []
     for with_it in by_code.values():
         shown = max(with_it, key=lambda number: 0.0 if rank is None else rank[number])
-        where = f"In {len(with_it)} of {len(each)} contacts"
+        where = f"In {len(with_it)} of {len(each)} {of}"
         found.append(with_it[shown].at(where).valued(contacts=len(with_it), of=len(each)))
     return tuple(found)
 

@@ -16,13 +16,14 @@ from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
 from viscofric.friction.cases.record import Failure
 from viscofric.friction.cases.solving import _sources, key_of
+from viscofric.notes import Note
 from viscofric.study.running.store import CaseStore, Damaged
 
 # Friction is no short decimal: it must come back to the last bit.
 RECORD = replace(
     sweeps.RECORD,
     numbers={**sweeps.RECORD.numbers, "friction_coefficient": 0.1 + 0.2},
-    warnings=("a sentence",),
+    warnings=(Note("large-strain", "A sentence.", values={"slope": 0.1 + 0.2}),),
 )
 
 
@@ -31,6 +32,8 @@ def test_a_stored_case_comes_back_to_the_last_bit(tmp_path: Path) -> None:
     assert store.get("a") is None
     store.put("a", RECORD)
     assert store.get("a") == RECORD
+    (warning,) = store.get("a").warnings
+    assert (warning.code, warning.values) == ("large-strain", {"slope": 0.1 + 0.2})
 
 
 @pytest.mark.parametrize("kept", [0, 1, 20, 200])

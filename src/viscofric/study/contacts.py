@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.friction.cases.case import moved
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.planning.plan import plan_cases
-from viscofric.notes import Note
+from viscofric.notes import counted
 from viscofric.study.cases.sweep import place, place_in
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from viscofric.friction.cases.case import Case
     from viscofric.friction.planning.plan import Plan
+    from viscofric.notes import Note
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.measurement import Measurement
     from viscofric.study.run_file.study import Study
@@ -149,13 +150,9 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
         for number, outcome in enumerate(part.outcomes)
         if isinstance(outcome, Record)
     ]
-    notes = []
-    wide = [one for one in found if one[2].warnings]
-    if wide:
-        part, number, record = max(wide, key=lambda one: one[0].cases[one[1]].reach(one[2]))
-        said = " ".join(record.warnings)
-        text = f"In {len(wide)} of {len(found)} contacts (worst at {part.place(number)}): {said}"
-        notes.append(Note("doubtful-contacts", text))
+    each = [[note.at(f"worst at {part.place(number)}") for note in one.warnings] for part, number, one in found]
+    reach = [part.cases[number].reach(one) if one.warnings else 0.0 for part, number, one in found]
+    notes = [*counted(each, reach)]
     for index, rubber in enumerate(rubbers):
         own = [(part, number, one) for part, number, one in found if part.cases[number].material == index]
         beyond = [one for one in own if rubber.is_within(one[0].cases[one[1]], one[2]) is False]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +11,7 @@ from viscofric.arguments import flag, insist_on, insist_on_function
 from viscofric.errors import StudyError
 from viscofric.files import file_path
 from viscofric.friction.cases.record import Failure
-from viscofric.notes import Note, note_of, records
+from viscofric.notes import Note, dumped, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.heating import NO_LAW, Heatings
@@ -300,4 +299,4 @@ def _named(one: StudyRubber, sentences: Iterable[str], rubbers: Sequence[StudyRu
 
 
 def _listed(sentences: Iterable[str]) -> str:
-    return json.dumps(records(sentences), ensure_ascii=False)
+    return dumped(records(sentences))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.files import write_atomically
-from viscofric.notes import records
+from viscofric.notes import dumped, records
 from viscofric.rheology.cards import CardFormat, CardLaw, write_card
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.study.make_rubber import make_rubber
@@ -93,7 +92,7 @@ def run_material(
         "title": title,
         "data_origin": "synthetic" if synthetic else "measured",
         "command": command,
-        "notes": json.dumps(records([*rubber.notes, *(draws.notes if draws is not None else ())]), ensure_ascii=False),
+        "notes": dumped(records([*rubber.notes, *(draws.notes if draws is not None else ())])),
         "warnings": "[]",
         "failures": "[]",
         **rubber.attributes,

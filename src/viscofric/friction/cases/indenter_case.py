@@ -25,6 +25,7 @@ from viscofric.friction.cases.interpolation import FRICTION, Between, Node, weig
 from viscofric.friction.cases.record import Failure, Record, indenter_record
 from viscofric.friction.cases.solving import Task, solve_indenter
 from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
+from viscofric.notes import note_of
 from viscofric.rheology.material import Material
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
     from viscofric.friction.cases.case import Rubbers, Settings
     from viscofric.friction.cases.interpolation import Interpolated
+    from viscofric.notes import Note
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 # Interpolated number, that of its error (the centre of pressure has none of its own), and whether it is interpolated by
@@ -264,13 +266,13 @@ def _extent(numbers: dict[str, float]) -> Extent:
     return Extent(numbers["rear"], numbers["front"], 0.0 if math.isinf(side) else side)
 
 
-def _doubts(case: IndenterCase, contact: Extent, indentation: float) -> tuple[str, ...]:
+def _doubts(case: IndenterCase, contact: Extent, indentation: float) -> tuple[Note, ...]:
     """Return the warnings that `solve_steady` would give; raise `InputError` if it is wider than the indenter."""
     case.indenter.check(contact, f"under {case.load:g} {case.indenter.geometry.load_unit}")
     doubts = [case.indenter.strain_warning(contact, indentation)]
     if case.layer is not None:
         doubts.append(case.layer.strain_warning(indentation))
-    return tuple(doubt for doubt in doubts if doubt)
+    return tuple(note_of(doubt) for doubt in doubts if doubt)
 
 
 @dataclass(frozen=True, eq=False)

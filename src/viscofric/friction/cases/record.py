@@ -13,9 +13,10 @@ from viscofric.contact.periodic.solution import NUMBERS as SURFACE
 from viscofric.contact.solution import LINE_NUMBERS as LINE
 from viscofric.contact.solution import NUMBERS as INDENTER
 from viscofric.contact.solution import ContactSolution
+from viscofric.datasets import plain
 from viscofric.errors import InputError
 from viscofric.friction.sensitivity import ComplianceSensitivity
-from viscofric.notes import Note, counted, note_of
+from viscofric.notes import Note, counted, note_of, records
 from viscofric.rheology.spectra.quality import BEYOND
 from viscofric.roughness.patches import contact_statistics
 from viscofric.units import shown_number
@@ -113,7 +114,7 @@ class Record:
     """
 
     numbers: dict[str, float]  # see `MEANING`
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Note, ...] = ()
     interpolated: bool = False  # between solved contacts
     sensitivity: ComplianceSensitivity | None = None  # if bands are requested
     fields: ContactFields | None = field(default=None, repr=False, compare=False)  # if requested; in a file of its own
@@ -122,7 +123,7 @@ class Record:
     def of(
         cls,
         *,
-        warnings: tuple[str, ...] = (),
+        warnings: tuple[Note, ...] = (),
         interpolated: bool = False,
         sensitivity: ComplianceSensitivity | None = None,
         fields: ContactFields | None = None,
@@ -151,13 +152,13 @@ class Record:
         """Return a record from `values`, without fields; raise ValueError, TypeError or KeyError if it is invalid."""
         if "history" in values:
             return HistoryRecord.stored(values)  # type: ignore[return-value]
-        given = {**values, "warnings": tuple(values["warnings"])}
+        given = {**values, "warnings": _stored_notes(values["warnings"])}
         if "contact_area_fraction" not in values and (stored := values["sensitivity"]) is not None:
             columns = {name: np.array(stored[name], dtype=float) for name in _COLUMNS}
             given["sensitivity"] = ComplianceSensitivity(**{**stored, **columns})
         record = cls.of(**given)
-        if not all(isinstance(text, str) for text in record.warnings) or not isinstance(record.interpolated, bool):
-            raise TypeError("warnings are not texts.")
+        if not isinstance(record.interpolated, bool):
+            raise TypeError("interpolated is neither true nor false.")
         sound = (is_number(value) or (name in _ENDLESS and value == math.inf) for name, value in record.numbers.items())
         if not all(sound) or not _is_sound(record.sensitivity):
             raise ValueError("a number is invalid.")
@@ -165,7 +166,8 @@ class Record:
 
     def values(self) -> dict[str, Any]:
         """Return everything but the fields, in types that JSON stores exactly."""
-        values: dict[str, Any] = {**self.numbers, "warnings": self.warnings, "interpolated": self.interpolated}
+        values: dict[str, Any] = {**self.numbers, "interpolated": self.interpolated}
+        values["warnings"] = plain(records(self.warnings), None)
         if "contact_area_fraction" in self.numbers:
             return values
         values["sensitivity"] = None
@@ -191,7 +193,8 @@ class HistoryRecord(Record):
 
     def values(self) -> dict[str, Any]:
         """Return everything in types that JSON stores exactly."""
-        return {"history": {name: list(one) for name, one in self.columns.items()}, "warnings": self.warnings}
+        columns = {name: list(one) for name, one in self.columns.items()}
+        return {"history": columns, "warnings": plain(records(self.warnings), None)}
 
     @classmethod
     def stored(cls, values: dict[str, Any]) -> Self:
@@ -199,14 +202,16 @@ class HistoryRecord(Record):
         columns = {name: Column(*one) for name, one in values["history"].items()}
         lengths = {len(one.values) for one in columns.values()} - {1}
         sound = all(is_number(value) or value == math.inf for one in columns.values() for value in one.values)
-        if (
-            len(lengths) > 1
-            or not columns
-            or not sound
-            or not all(isinstance(text, str) for text in values["warnings"])
-        ):
+        if len(lengths) > 1 or not columns or not sound:
             raise ValueError("a history is invalid.")
-        return cls({}, tuple(values["warnings"]), columns=columns)
+        return cls({}, _stored_notes(values["warnings"]), columns=columns)
+
+
+def _stored_notes(stored: list[dict[str, Any]]) -> tuple[Note, ...]:
+    """Return stored notes; raise TypeError if they are none."""
+    if not all(isinstance(one, dict) for one in stored):
+        raise TypeError("warnings are not notes.")
+    return tuple(map(note_of, stored))
 
 
 def indenter_record(
@@ -257,7 +262,7 @@ def _common(solution: ContactSolution | PeriodicSolution, temperature: float, ce
         "cells": cells,
         "products": diagnostics.products,
         # That of a curve or a study is counted over all of its contacts.
-        "warnings": tuple(one for one in solution.warnings if note_of(one).code != BEYOND),
+        "warnings": tuple(note for note in map(note_of, solution.warnings) if note.code != BEYOND),
     }
 
 

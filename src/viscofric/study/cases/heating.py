@@ -48,8 +48,8 @@ def solve_heated(
 ) -> HistoryRecord:
     """Solve contacts of one temperature and load at all speeds, each at the temperature to which it heats itself.
 
-    Speeds at which there is no solution are left out, with a warning each; if there is none at any, the error of the
-    first is raised.  `fields` is not used; `settings` are further arguments of `predict_friction`, SI, or with a
+    Speeds at which there is no solution are left out, with a warning; if there is none at any, the error of the first
+    is raised.  `fields` is not used; `settings` are further arguments of `predict_friction`, SI, or with a
     `surface`, the description of one, and its `direction` (rad), those of `predict_rough_friction`.
     """
 
@@ -62,24 +62,24 @@ def solve_heated(
         assert isinstance(found, HeatedRoughFriction)
         return _RoughCurve(found)
 
-    said: list[str] = []
+    wrong: dict[float, ViscofricError] = {}
     try:
         curves: list[Any] = [solve(list(speeds))]
     except ViscofricError:
-        curves, wrong = [], []
+        curves = []
         for speed in speeds:
             try:
                 curves.append(solve([speed]))
             except ViscofricError as error:
-                wrong.append(error)
-                said.append(f"{error} (at {speed:g} m/s)")
+                wrong[speed] = error
         if not curves:
-            raise wrong[0] from None
+            raise wrong[speeds[0]] from None
+    said = [wrong[min(wrong)].note.at(" and ".join(f"{speed:g} m/s" for speed in wrong))] if wrong else []
     notes = [note_of(note) for one in curves for note in one.notes]
     # Of indenters a check, with an interface a note of the isothermal contacts has it.
     has_shear = "surface" in settings and settings.get("interface") is None
     kept = (*_KEPT, "tangential-coupling") if has_shear else _KEPT
-    said += [str(note) for note in notes if note.code in kept]
+    said += [note for note in notes if note.code in kept]
     return HistoryRecord({}, tuple(dict.fromkeys(said)), columns=_columns(curves))
 
 

@@ -38,11 +38,6 @@ _OF_IMPACT = {
     "peak_force": ("N", "largest force"),
     "largest_indentation": ("m", "largest indentation"),
 }
-#: Without the numbers of one contact, so that a study counts it over all.
-_THIN_SKIN = (
-    "While the contact passes, heat warms only a thin skin of the rubber: the loss is released in colder rubber below, "
-    "the temperature of which the friction should be asked for."
-)
 
 
 def solve_history(
@@ -78,12 +73,11 @@ def solve_history(
         body = contact.pop("indenter")
         found = solve_cycle(material, body, history, times=times, **contact)
         data = found.to_dataset()
-        return HistoryRecord({}, tuple(map(str, found.warnings)), columns=_columns(data) | _of_cycle(data))
+        return HistoryRecord({}, tuple(map(note_of, found.warnings)), columns=_columns(data) | _of_cycle(data))
     run = solve_transient(material, history=history, times=times, **contact)
     if run.interrupted:  # a part of a history is no result
         raise KeyboardInterrupt
-    said = [_THIN_SKIN if note.code == "thin-skin" else note for note in map(note_of, run.warnings)]
-    return HistoryRecord({}, tuple(map(str, said)), columns=_columns(run.to_dataset()))
+    return HistoryRecord({}, tuple(map(note_of, run.warnings)), columns=_columns(run.to_dataset()))
 
 
 def solve_hit(
@@ -92,7 +86,7 @@ def solve_hit(
     """Solve an impact by `solve_impact`, whose further arguments are `impact`, SI; see `solve_history`."""
     hit = solve_impact(Material(modes, poisson_ratio=poisson_ratio), **impact)
     columns = {name: Column([float(getattr(hit, name))], *about) for name, about in _OF_IMPACT.items()}
-    return HistoryRecord({}, tuple(map(str, hit.warnings)), columns=columns)
+    return HistoryRecord({}, tuple(map(note_of, hit.warnings)), columns=columns)
 
 
 def _columns(data: xarray.Dataset) -> dict[str, Column]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.friction.cases.record import Failure, HistoryRecord
 from viscofric.friction.cases.solving import Task
-from viscofric.notes import Note
+from viscofric.notes import counted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.friction.cases.record import Record
+    from viscofric.notes import Note
 
 
 class Singles:
@@ -68,15 +69,7 @@ class Singles:
     @property
     def warnings(self) -> list[Note]:
         """Notes on assumptions, each with the number of contacts."""
-        records = [one for one in self.outcomes if isinstance(one, HistoryRecord)]
-        said = dict.fromkeys(text for one in records for text in one.warnings)
-        return [
-            Note(
-                "doubtful-histories",
-                f"In {sum(text in one.warnings for one in records)} of {len(records)} {self.NOUN}: {text}",
-            )
-            for text in said
-        ]
+        return [*counted([one.warnings for one in self.outcomes if isinstance(one, HistoryRecord)], of=self.NOUN)]
 
     def dataset(self) -> xarray.Dataset | None:
         """Return all results along their axes; None if all failed."""
