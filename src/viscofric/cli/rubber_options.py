@@ -154,7 +154,8 @@ def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
 
 def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
     from viscofric.study.make_rubber import make_rubber
-    from viscofric.study.run_file.study import material_of
+    from viscofric.study.run_file.material import MaterialTable
+    from viscofric.study.run_file.study import validated
 
     if parameters["reference"] is None:
         raise click.UsageError("--dma needs --reference, the temperature of its master curve, such as '30 degC'.")
@@ -162,7 +163,7 @@ def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
     wanted |= {name: parameters[name] for name in _OF_FILES if parameters[name]}
     if parameters["poisson_ratio"] is not None:
         wanted["poisson_ratio"] = parameters["poisson_ratio"]
-    made = make_rubber(material_of(wanted))
+    made = make_rubber(validated(MaterialTable, wanted))
     print_notes(made.notes)
     first, *more = parameters["dma"]
     name = f"the rubber of {plainly(str(first.name))}" + (f" and {len(more)} more" if more else "")

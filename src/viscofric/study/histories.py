@@ -23,8 +23,6 @@ from viscofric.study.run_file.study import isothermal
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    import xarray
-
     from viscofric.friction.cases.case import Rubbers
     from viscofric.motion.history import History
     from viscofric.notes import Note
@@ -40,12 +38,6 @@ class Histories(Singles):
     """
 
     STAGE, GROUP, NOUN = "histories", "/history", "contacts over time"
-
-    def __init__(
-        self, tasks: list[Task | Failure], table: HistoryTable, sweep: Sweep, coulomb: tuple[float, ...]
-    ) -> None:
-        super().__init__(tasks)
-        self._table, self._sweep, self._coulomb = table, sweep, coulomb
 
     @classmethod
     def of(cls, study: Study, sweep: Sweep, rubbers: Rubbers) -> Histories | None:
@@ -66,31 +58,16 @@ class Histories(Singles):
                     tasks.append(_task(case, rubbers, for_case(case, dwell), study, label, friction))
                 except InputError as error:
                     tasks.append(Failure.of(error, label))
-        return cls(tasks, table, sweep, coulomb)
-
-    def dataset(self) -> xarray.Dataset | None:
-        """Return all cases over time; None if all failed.
-
-        Along the axes of the sweep, the dwell, the Coulomb friction of heated contacts, and ``instant``.
-        """
-        import xarray
-
-        dwells, axes = self._table.dwell, self._sweep.axes
-        dimensions = {axis.name: len(axis) for axis in axes if len(axis) > 1}
-        dimensions |= {"dwell": len(dwells)} if len(dwells) > 1 else {}
-        dimensions |= {"coulomb": len(self._coulomb)} if len(self._coulomb) > 1 else {}
-        columns = self.columns(dimensions, "instant")
-        if not columns:
-            return None
-        coordinates = coordinates_of(axes, self._sweep.geometry)
-        if self._table.file is None:
+        coordinates = coordinates_of(sweep.axes, sweep.geometry)
+        if table.file is None:
             about = {"units": "s", "long_name": "time at rest under the load before the sliding"}
-            coordinates["dwell"] = coordinate("dwell", dwells, about)
-        if self._coulomb:
-            coordinates["coulomb"] = coordinate("coulomb", self._coulomb, COULOMB)
-        named = {f"{name}_over_time" if name in ("load", "temperature") else name: one for name, one in columns.items()}
-        before = "repeated" if self._table.cycle else self._table.before
-        return xarray.Dataset(named, coordinates, {"geometry": self._sweep.geometry, "before": before})
+            coordinates["dwell"] = coordinate("dwell", table.dwell, about)
+        if coulomb:
+            coordinates["coulomb"] = coordinate("coulomb", coulomb, COULOMB)
+        sizes = {axis.name: len(axis) for axis in sweep.axes} | {"dwell": len(table.dwell), "coulomb": len(coulomb)}
+        dimensions = {name: size for name, size in sizes.items() if size > 1}
+        attributes = {"geometry": sweep.geometry, "before": "repeated" if table.cycle else table.before}
+        return cls(tasks, dimensions, coordinates, attributes, "instant")
 
 
 def is_heated(study: Study, materials: Iterable[Material]) -> bool:

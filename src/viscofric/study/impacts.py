@@ -15,12 +15,9 @@ from viscofric.study.cases.sweep import shown
 from viscofric.study.results.tree import coordinates_of
 
 if TYPE_CHECKING:
-    import xarray
-
     from viscofric.arrays import Indices
     from viscofric.friction.cases.case import Rubbers
     from viscofric.study.cases.sweep import Sweep
-    from viscofric.study.run_file.history import ImpactTable
     from viscofric.study.run_file.study import Study
 
 #: Conditions of steady cases that an impact does not have.
@@ -33,11 +30,6 @@ class Impacts(Singles):
     """Every indenter of a study that falls on every material, at every temperature; the speed runs fastest."""
 
     STAGE, GROUP, NOUN = "impacts", "/impact", "impacts"
-
-    def __init__(self, tasks: list[Task | Failure], table: ImpactTable, sweep: Sweep) -> None:
-        super().__init__(tasks)
-        self._table = table
-        self._axes = [axis for axis in sweep.axes if not set(axis.columns) <= _OTHERS]
 
     @classmethod
     def of(cls, study: Study, sweep: Sweep, rubbers: Rubbers) -> Impacts | None:
@@ -66,21 +58,11 @@ class Impacts(Singles):
                     tasks.append(Task(solve_hit, rubber | arguments, label))
                 except InputError as error:
                     tasks.append(Failure.of(error, label))
-        return cls(tasks, table, sweep)
-
-    def dataset(self) -> xarray.Dataset | None:
-        """Return all impacts along the axes of the sweep, without loads and sliding speeds, and ``impact_speed``."""
-        import xarray
-
-        speeds = self._table.speed
-        dimensions = {axis.name: len(axis) for axis in self._axes if len(axis) > 1} | {"impact_speed": len(speeds)}
-        columns = self.columns(dimensions)
-        if not columns:
-            return None
-        coordinates = coordinates_of(self._axes, "point")
+        axes = [axis for axis in sweep.axes if not set(axis.columns) <= _OTHERS]
+        dimensions = {axis.name: len(axis) for axis in axes if len(axis) > 1} | {"impact_speed": len(table.speed)}
         about = {"units": "m/s", "long_name": "speed of the impact"}
-        coordinates["impact_speed"] = ("impact_speed", list(speeds), about)
-        return xarray.Dataset(columns, coordinates, {"mass": self._table.mass, "gravity": self._table.gravity or 0.0})
+        coordinates = coordinates_of(axes, "point") | {"impact_speed": ("impact_speed", list(table.speed), about)}
+        return cls(tasks, dimensions, coordinates, {"mass": table.mass, "gravity": table.gravity or 0.0})
 
 
 def impacts_of(sweep: Sweep) -> Indices:

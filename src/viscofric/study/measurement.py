@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
     from viscofric.study.run_file.measurement import MeasurementTable
     from viscofric.study.study_rubber import FrictionBands
+    from viscofric.traction import TractionRuns
 
     Groups = dict[str, xarray.Dataset]
 
@@ -36,7 +37,11 @@ def read_measurement(table: MeasurementTable) -> FrictionCurves:
     """Return the friction curves of [measurement]: those of a table, or separated from tribometer runs."""
     if table.curves is not None:
         return read_friction_curves(table.curves, columns=table.columns, sheet=table.sheet)
-    runs = read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet)
+    return separated(read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet), table)
+
+
+def separated(runs: TractionRuns, table: MeasurementTable) -> FrictionCurves:
+    """Return the friction curves of tribometer runs, separated as [measurement] says."""
     if table.except_steps:
         runs = runs.select(except_steps=table.except_steps)
     return separate(runs, **table.settings)

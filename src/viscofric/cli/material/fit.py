@@ -187,7 +187,8 @@ def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw
 
 def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable:
     """Check the parameters as a run file's [material] is checked."""
-    from viscofric.study.run_file.study import material_of
+    from viscofric.study.run_file.material import MaterialTable
+    from viscofric.study.run_file.study import validated
 
     values: dict[str, Any] = {"reference_temperature": parameters["reference"]}
     if parameters["master_curve"]:
@@ -207,7 +208,7 @@ def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable
     for name, value in parameters.items():
         if name not in ("reference", "fix", *_KINDS, *_BESIDE) and value not in (None, (), {}, defaults.get(name)):
             values[name] = list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
-    return material_of(values)
+    return validated(MaterialTable, values)
 
 
 def _fixed(text: str) -> tuple[str, float]:

@@ -93,7 +93,8 @@ def _material(
     """Superpose the ramps as a run file would, and say what was written."""
     from viscofric.report import write_figures_and_report
     from viscofric.study.rubber_results import run_material
-    from viscofric.study.run_file.study import material_of
+    from viscofric.study.run_file.material import MaterialTable
+    from viscofric.study.run_file.study import validated
 
     values: dict[str, Any] = {
         "ramps": [str(path) for path in files],
@@ -105,7 +106,7 @@ def _material(
     more = {**reading, **law}
     folder = files[0].with_suffix(".material") if out is None else out
     results, rubber, written = run_material(
-        material_of(values | {name: value for name, value in more.items() if value}),
+        validated(MaterialTable, values | {name: value for name, value in more.items() if value}),
         folder,
         title=chosen["name"] or f"Material from the temperature ramps in {files[0].name}",
         command=shlex.join(["viscofric", *sys.argv[1:]]),

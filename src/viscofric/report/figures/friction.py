@@ -89,7 +89,7 @@ def plot_friction_curves(
         named: Any = {"marker": marker, "linestyle": line, "label": degrees(float(nominal[index]))}
         handles.append(Line2D([], [], color=look.colour, **named))
     if points is not None:
-        _plot_measured(axes, points, nominal)
+        plot_measured(axes, points, nominal)
     axes.set_xlabel(r"speed $v$ (mm/s)")
     title = [] if points is None else [f"points: {origin(synthetic)} ± scatter"]
     if lines is not None:
@@ -137,7 +137,7 @@ def plot_friction_master_curve(
         points = measured(measurement, speed="reduced_speed")
         nominal = nominal_temperatures(points.temperature)
         handles += temperature_handles(nominal)[::-1]
-        _plot_measured(axes, points, nominal)
+        plot_measured(axes, points, nominal)
     at = reference_temperature
     if at is None and measurement is not None:
         at = number(as_dataset(measurement).attrs, "reference_temperature")
@@ -187,7 +187,7 @@ def plot_coulomb_friction(axes: Axes, measurement: Friction, *, synthetic: bool 
             "the friction curves contain no Coulomb friction: measure with slip, in both directions.", code="no-coulomb"
         )
     nominal = nominal_temperatures(points.temperature)
-    _plot_measured(axes, points, nominal)
+    plot_measured(axes, points, nominal)
     axes.set_xlabel(r"speed $v$ (mm/s)")
     _finish(
         axes,
@@ -245,7 +245,8 @@ def _plot_predicted(axes: Axes, lines: Predicted, **look: Any) -> None:
     axes.plot(speed, np.where(lines.extrapolated, np.nan, lines.friction), **look)
 
 
-def _plot_measured(axes: Axes, points: Measured, nominal: Array) -> None:
+def plot_measured(axes: Axes, points: Measured, nominal: Array) -> None:
+    """Draw points with their bars over the speed, with the look of each nominal temperature."""
     which = nearest(nominal, points.temperature)
     speed = _MILLIMETRES * points.speed
     for index, look in enumerate(looks(nominal.size)):

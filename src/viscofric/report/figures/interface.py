@@ -8,7 +8,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from viscofric.errors import InputError
-from viscofric.report.data import as_dataset
+from viscofric.report.data import Measured, as_dataset
+from viscofric.report.figures.friction import plot_measured
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -16,15 +17,14 @@ from viscofric.report.figures.style import (
     ORANGE,
     at_temperature,
     legend_beside,
-    looks,
     new_figure,
     origin,
     plain_numbers,
     speed_ticks,
+    temperature_handles,
 )
 from viscofric.report.results import group, is_synthetic, nearest, nominal_temperatures, number, values
 from viscofric.report.sweeps import SAMPLE, labelled, solved_cases, sweep_axes, thinned
-from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.roughness.rough_friction import RoughFriction
 
@@ -79,22 +79,10 @@ def plot_shear_stress(
     known = np.isfinite(reduced)
     if not np.any(known):
         raise InputError("the shear stress has no shift factors; give a law fitted to it.", code="nothing-to-draw")
-    nominal = nominal_temperatures(temperature)
-    handles = []
-    for index, look in reversed(list(enumerate(looks(nominal.size)))):
-        rows = known & (nearest(nominal, temperature) == index)
-        if not np.any(rows):
-            continue
-        axes.errorbar(
-            _MILLIMETRES * reduced[rows],
-            _MEGA * values(points, "shear_stress")[rows],
-            yerr=_MEGA * values(points, "shear_stress_error")[rows],
-            fmt=look.marker,
-            color=look.colour,
-            elinewidth=1.0,
-        )
-        named: Any = {"marker": look.marker, "linestyle": "none", "label": degrees(float(nominal[index]))}
-        handles.append(Line2D([], [], color=look.colour, **named))
+    nominal = nominal_temperatures(temperature[known])
+    megapascals = (_MEGA * values(points, name) for name in ("shear_stress", "shear_stress_error"))
+    plot_measured(axes, Measured(reduced, temperature, *megapascals), nominal)
+    handles = temperature_handles(nominal)[::-1]
     decades = np.log10(reduced[known])
     speeds = np.logspace(decades.min() - _BEYOND, decades.max() + _BEYOND, 101)
     reference = number(points.attrs, "reference_temperature")

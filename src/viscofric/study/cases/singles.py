@@ -12,12 +12,16 @@ from viscofric.friction.cases.solving import Task
 from viscofric.notes import counted
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     import xarray
 
     from viscofric.friction.cases.record import Record
     from viscofric.notes import Note
+
+
+#: Numbers over time with the names of coordinates.
+_OVER_TIME = ("load", "temperature")
 
 
 class Singles:
@@ -26,7 +30,7 @@ class Singles:
     Attributes
     ----------
     tasks : sequence of Task or Failure
-        Of each contact.
+        Of each contact; the last of the dimensions runs fastest.
     """
 
     #: Its stage in events, its group in the results, and its contacts in a sentence.
@@ -34,8 +38,17 @@ class Singles:
     GROUP: ClassVar[str]
     NOUN: ClassVar[str]
 
-    def __init__(self, tasks: Sequence[Task | Failure]) -> None:
-        self.tasks = tasks
+    def __init__(
+        self,
+        tasks: Sequence[Task | Failure],
+        dimensions: Mapping[str, int] | None = None,
+        coordinates: Mapping[str, Any] | None = None,
+        attributes: Mapping[str, Any] | None = None,
+        along: str = "",
+    ) -> None:
+        """`along`: dimension of results that have several values for each contact."""
+        self.tasks, self._dimensions, self._along = tasks, dict(dimensions or {}), along
+        self._coordinates, self._attributes = coordinates, attributes
         self._known: dict[str, Record | Failure] = {}
 
     @property
@@ -73,26 +86,26 @@ class Singles:
 
     def dataset(self) -> xarray.Dataset | None:
         """Return all results along their axes; None if all failed."""
-        raise NotImplementedError
+        import xarray
+
+        columns = self.columns()
+        return xarray.Dataset(columns, self._coordinates, self._attributes) if columns else None
 
     def groups(self) -> dict[str, xarray.Dataset]:
         """Return all results by their groups; none if all failed."""
         found = self.dataset()
         return {} if found is None else {self.GROUP: found}
 
-    def columns(self, dimensions: dict[str, int], along: str = "") -> dict[str, Any]:
-        """Return the results as variables along dimensions, those of several values each also along `along`.
-
-        Contacts without a result are NaN; empty if all failed.
-        """
+    def columns(self) -> dict[str, Any]:
+        """Return the results as variables; contacts without a result are NaN; empty if all failed."""
         outcomes = self.outcomes
         records = [one for one in outcomes if isinstance(one, HistoryRecord)]
         found: dict[str, Any] = {}
         for name, (values, unit, words) in records[0].columns.items() if records else ():
             missing = [math.nan] * len(values)
             rows = [one.columns[name].values if isinstance(one, HistoryRecord) else missing for one in outcomes]
-            inner = {along: len(values)} if len(values) > 1 else {}
-            shape = [*dimensions.values(), *inner.values()]
+            dimensions = self._dimensions | ({self._along: len(values)} if len(values) > 1 else {})
             about = {"units": unit, "long_name": words}
-            found[name] = ([*dimensions, *inner], np.reshape(np.array(rows, dtype=float), shape), about)
+            shaped = np.reshape(np.array(rows, dtype=float), list(dimensions.values()))
+            found[f"{name}_over_time" if name in _OVER_TIME else name] = (list(dimensions), shaped, about)
         return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 from typing import TYPE_CHECKING, Any
 
-from viscofric.errors import StudyError, brief
+from viscofric.errors import brief
 from viscofric.notes import Note
 from viscofric.study.run_file.tables import VALUE, as_written
 
@@ -32,12 +32,6 @@ def problems(error: ValidationError, values: object, tables: Mapping[str, type[B
     meant = {(*loc[:-1], near) for loc in unknown for near in _near(str(loc[-1]), keys(_table(loc[:-1], tables)))}
     kept = [problem for problem in kept if problem["type"] != "missing" or problem["loc"] not in meant]
     return list(dict.fromkeys(_problem(problem, values, tables) for problem in kept))
-
-
-def wrong_tables(error: ValidationError, values: object, tables: Mapping[str, type[BaseModel]]) -> StudyError:
-    """Return the error with all that is wrong in a part of a run file; see `problems`."""
-    found = problems(error, values, tables)
-    return StudyError(found[0]) if len(found) == 1 else StudyError(f"{len(found)} things are wrong:", found)
 
 
 def place(parts: Iterable[str | int], values: object) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
@@ -19,7 +19,7 @@ from viscofric.study.run_file.contact import (
     IndenterTable,
     LayerTable,
 )
-from viscofric.study.run_file.errors import place, problems, wrong, wrong_tables
+from viscofric.study.run_file.errors import place, problems, wrong
 from viscofric.study.run_file.heating import HeatingTable
 from viscofric.study.run_file.history import HistoryTable, ImpactTable
 from viscofric.study.run_file.interface import InterfaceTable
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from viscofric.showing import Rows
     from viscofric.study.run_file.contact import AnyIndenterTable
     from viscofric.study.run_file.tables import Problem
+
+Part = TypeVar("Part", bound=BaseModel)
 
 #: Far above the length of any run file.
 LONGEST_RUN_FILE = 1_000_000  # characters
@@ -291,12 +293,14 @@ def parse_study(text: str, path: Path) -> Study:
     return _resolve_paths(study, path)
 
 
-def material_of(values: dict[str, Any]) -> MaterialTable:
-    """Validate the values of [material] alone, with paths unchanged; raise `StudyError` with every error."""
+def validated(table: type[Part], values: dict[str, Any]) -> Part:
+    """Validate the values of a part of a run file, with paths unchanged; raise `StudyError` with every error."""
     try:
-        return MaterialTable.model_validate(values)
+        return table.model_validate(values)
     except ValidationError as error:
-        raise wrong_tables(error, values, {**TABLES, "": MaterialTable}) from None
+        found = problems(error, values, {**TABLES, "": table})
+        whole = StudyError(found[0]) if len(found) == 1 else StudyError(f"{len(found)} things are wrong:", found)
+        raise whole from None
 
 
 def _toml(text: str, path: Path) -> dict[str, Any]:

@@ -5,16 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from pydantic import ValidationError
-
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_text
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.notes import Note, note_of
 from viscofric.study.run_file.contact import IndenterTable
-from viscofric.study.run_file.errors import wrong_tables
 from viscofric.study.run_file.measurement import MeasurementTable
-from viscofric.study.run_file.study import TABLES
+from viscofric.study.run_file.study import validated
 from viscofric.study.run_file.tables import Table
 from viscofric.web.jobs.rubbers import insist_on_uploads, kept, named_without_folder, without_folder
 
@@ -24,8 +21,6 @@ if TYPE_CHECKING:
 
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.run_file.measurement import MeasurementTable
-    from viscofric.traction import TractionRuns
     from viscofric.web.jobs.rubbers import Folders
 
 
@@ -74,9 +69,9 @@ def _measured(table: MeasurementTable, folders: Folders) -> Measured:
 
 
 def _of_curves(table: MeasurementTable, path: Path, folders: Folders) -> Measured:
-    from viscofric.friction.curve_files import read_friction_curves
+    from viscofric.study.measurement import read_measurement
 
-    curves = _named(read_friction_curves(path, columns=table.columns, sheet=table.sheet), folders)
+    curves = _named(read_measurement(table), folders)
     lines = [("file", path.name), ("recognised as", "a table of friction curves, separated already")]
     return Measured(False, lines, [], _is_made_up(path), curves, _NOTHING, tuple(map(note_of, curves.notes)))
 
@@ -84,6 +79,7 @@ def _of_curves(table: MeasurementTable, path: Path, folders: Folders) -> Measure
 def _of_runs(table: MeasurementTable, folders: Folders) -> Measured:
     from viscofric.readers.mtm.read import read_mtm
     from viscofric.report.texts.friction import runs_lines
+    from viscofric.study.measurement import separated
 
     runs = read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet)
     lines = [("files" if len(table.mtm) > 1 else "file", ", ".join(path.name for path in table.mtm))]
@@ -91,19 +87,11 @@ def _of_runs(table: MeasurementTable, folders: Folders) -> Measured:
     steps = [(step.number, without_folder(str(step), folders)) for step in runs.steps]
     made_up = any(_is_made_up(path) for path in table.mtm)
     try:
-        curves = _named(_separated(runs, table), folders)
+        curves = _named(separated(runs, table), folders)
     except InputError as error:
         refusal = named_without_folder(error, folders).note
         return Measured(True, lines, steps, made_up, None, refusal, _named_notes(runs.notes, folders))
     return Measured(True, lines, steps, made_up, curves, _NOTHING, tuple(map(note_of, curves.notes)))
-
-
-def _separated(runs: TractionRuns, table: MeasurementTable) -> FrictionCurves:
-    from viscofric.friction.measurement.tribometry import separate
-
-    if table.except_steps:
-        runs = runs.select(except_steps=table.except_steps)
-    return separate(runs, **table.settings)
 
 
 def _kinds(paths: Sequence[Path]) -> str:
@@ -181,10 +169,7 @@ def measurement_table(study: Mapping[str, Any], folders: Folders) -> Measurement
     if not study.get("measurement"):
         raise StudyError(Note("no-measurement", f"there is none; {_ABOUT}.", "measurement"))
     values = {"measurement": study["measurement"]}
-    try:
-        table = _MeasurementTables.model_validate(values).measurement
-    except ValidationError as error:
-        raise wrong_tables(error, values, {**TABLES, "": _MeasurementTables}) from None
+    table = validated(_MeasurementTables, values).measurement
     insist_on_uploads("measurement.mtm", table.mtm, folders.files)
     insist_on_uploads("measurement.curves", table.curves, folders.files)
     return table.relative_to(folders.files)
@@ -198,10 +183,7 @@ def indenter_of(study: Mapping[str, Any]) -> Indenter | None:
     if not study.get("indenter"):
         return None
     values = {"indenter": study["indenter"]}
-    try:
-        table = _IndenterTables.model_validate(values).indenter
-    except ValidationError as error:
-        raise wrong_tables(error, values, {**TABLES, "": _IndenterTables}) from None
+    table = validated(_IndenterTables, values).indenter
     for name, sizes in table.axes.items():
         if len(sizes) > 1:
             said = f"has {len(sizes)} values; friction was measured with one."

@@ -9,16 +9,15 @@ import pickle
 from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
-from pydantic import Field, ValidationError
+from pydantic import Field
 
 from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_bytes, write_atomically
 from viscofric.notes import Note, note_of
 from viscofric.study.make_rubber import make_rubber
-from viscofric.study.run_file.errors import wrong_tables
 from viscofric.study.run_file.material import MaterialTable, files_of
 from viscofric.study.run_file.settings import UncertaintyTable
-from viscofric.study.run_file.study import TABLES
+from viscofric.study.run_file.study import validated
 from viscofric.study.run_file.tables import Table
 from viscofric.web.study_files import FILE_KEYS
 
@@ -66,10 +65,7 @@ def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[Material
         material = material[0]
     values = {"material": {} if material is None else material}
     values |= {name: study[name] for name in ("uncertainty",) if name in study}
-    try:
-        tables = _RubberTables.model_validate(values)
-    except ValidationError as error:
-        raise wrong_tables(error, values, {**TABLES, "": _RubberTables}) from None
+    tables = validated(_RubberTables, values)
     for key in FILE_KEYS["material"]:
         insist_on_uploads(f"material.{key}", getattr(tables.material, key), folders.files)
     return tables.material.relative_to(folders.files), tables.uncertainty
