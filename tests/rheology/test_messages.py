@@ -327,14 +327,15 @@ SAID = [
         lambda: shifts("T_C,E\n1,2\n3,4\n"),
         "missing-columns",
         (
-            "a.csv: a table of shift factors has one column of temperatures, such as 'T_C', and one of 'log10 aT' or "
-            "'aT'; this one has 'T_C', 'E'; name them, e.g. columns={'log10_shift_factor': 'heading'}."
+            "a.csv: no row names columns for log10 shift factor; a table of shift factors has 'temperature (degC)' or "
+            "'T_C', and 'log10 aT' or 'aT', this file has 'T_C', 'E'; name them, e.g. "
+            "columns={'log10_shift_factor': 'heading'}."
         ),
     ),
     (
         lambda: shifts("T,log_aT\n1,2\n3,0\n"),
         "no-unit",
-        "a.csv: the temperatures have no unit; write 'T_C' or 'T (K)' above them, or C below T.",
+        "a.csv: column 'T' has no unit; write it as 'T (degC)'.",
     ),
     (
         lambda: shifts("T_C,aT\n1,2\n3,-1\n"),

@@ -12,7 +12,8 @@ from refusals import refused
 from viscofric.notes import codes
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber_datasets import rubber_groups
-from viscofric.study.run_file.study import material_of
+from viscofric.study.run_file.material import MaterialTable
+from viscofric.study.run_file.study import validated
 from viscofric.study.study_rubber import FrictionBands
 
 if TYPE_CHECKING:
@@ -37,7 +38,9 @@ CATALOGUE = {"catalogue": "synthetic fluoroelastomer"}
 
 
 def test_a_run_file_scales_its_material_to_a_strain(sweep: str) -> None:
-    made = make_rubber(material_of(CATALOGUE | {"amplitude_sweep": sweep, "strain": 0.05, "measured_at": 0.001}))
+    made = make_rubber(
+        validated(MaterialTable, CATALOGUE | {"amplitude_sweep": sweep, "strain": 0.05, "measured_at": 0.001})
+    )
     expected = vf.rheology.material_at_strain(vf.synthetic_fluoroelastomer(), LAW, 0.05, measured_at=0.001)
     omega = np.array([1.0, 62.8, 1e4])
     # constants fitted to data of 16 digits
@@ -54,7 +57,7 @@ def test_a_run_file_scales_its_material_to_a_strain(sweep: str) -> None:
 
 
 def test_without_a_strain_the_material_is_as_it_was(sweep: str) -> None:
-    made = make_rubber(material_of(CATALOGUE | {"amplitude_sweep": sweep}))
+    made = make_rubber(validated(MaterialTable, CATALOGUE | {"amplitude_sweep": sweep}))
     assert made.linear is None
     assert made.payne is not None
     assert made.payne.law.constants == pytest.approx(LAW.constants, rel=1e-4)
@@ -63,4 +66,4 @@ def test_without_a_strain_the_material_is_as_it_was(sweep: str) -> None:
 
 def test_a_strain_needs_an_amplitude_sweep() -> None:
     with refused("contradiction", vf.StudyError):
-        material_of(CATALOGUE | {"strain": 0.05})
+        validated(MaterialTable, CATALOGUE | {"strain": 0.05})

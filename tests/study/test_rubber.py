@@ -16,7 +16,8 @@ from viscofric.notes import codes
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.rubber_results import run_material
-from viscofric.study.run_file.study import material_of
+from viscofric.study.run_file.material import MaterialTable
+from viscofric.study.run_file.study import validated
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -41,7 +42,7 @@ def sweeps(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def rubber(**asked: Any) -> Any:
-    return make_rubber(material_of(asked))
+    return make_rubber(validated(MaterialTable, asked))
 
 
 def test_given_factors_are_used_as_they_are(sweeps: Path, tmp_path: Path) -> None:
@@ -191,7 +192,7 @@ def test_a_rubber_identified_from_friction_says_so_after_its_file(tmp_path: Path
 
 def test_two_names_of_one_temperature_are_reported() -> None:
     with pytest.raises(InputError) as caught:
-        material_of({"dma": "a.csv", "fixed_shift_factors": {"0 degC": 1.0, "273.15 K": 2.0}, **REFERENCE})
+        validated(MaterialTable, {"dma": "a.csv", "fixed_shift_factors": {"0 degC": 1.0, "273.15 K": 2.0}, **REFERENCE})
     assert (caught.value.field, caught.value.code) == ("fixed_shift_factors", "value")
 
 
@@ -226,7 +227,7 @@ def melt(tmp_path: Path) -> Path:
 @pytest.mark.slow
 def test_shift_factors_and_master_curve_of_a_liquid_are_kept(melt: Path, tmp_path: Path) -> None:
     """It has no spectrum that a contact could use, but all that sweeps say before one."""
-    wanted = material_of({"dma": str(melt), "deformation": "tension", **REFERENCE})
+    wanted = validated(MaterialTable, {"dma": str(melt), "deformation": "tension", **REFERENCE})
     with pytest.raises(LiquidError):
         make_rubber(wanted)
     results, made, written = run_material(wanted, tmp_path / "out", samples=20, synthetic=True)

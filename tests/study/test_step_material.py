@@ -13,7 +13,8 @@ from refusals import refused
 from viscofric.cli import main
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber_datasets import rubber_groups
-from viscofric.study.run_file.study import material_of
+from viscofric.study.run_file.material import MaterialTable
+from viscofric.study.run_file.study import validated
 
 
 def written(folder, kind="creep", celsius=(0.0, 10.0, 20.0)):
@@ -109,7 +110,7 @@ def test_a_material_is_fitted_to_step_tests(tmp_path, monkeypatch, kind):
 )
 def test_what_belongs_to_sweeps_is_refused(more):
     with refused("contradiction", vf.StudyError):
-        material_of({"creep": "creep.csv", "reference_temperature": "10 degC"} | more)
+        validated(MaterialTable, {"creep": "creep.csv", "reference_temperature": "10 degC"} | more)
 
 
 def test_kinds_on_the_command_line_exclude_each_other(tmp_path):
@@ -132,7 +133,7 @@ def test_sweeps_and_creep_make_one_material(tmp_path):
     sweeps = tmp_path / "sweeps.csv"
     sweeps.write_text("\n".join(rows) + "\n")
     chosen = {"dma": str(sweeps), "creep": str(written(tmp_path)), "reference_temperature": "10 degC"}
-    made = make_rubber(material_of(chosen | {"deformation": "tension"}))
+    made = make_rubber(validated(MaterialTable, chosen | {"deformation": "tension"}))
     groups = rubber_groups(made)
     assert {"/isotherms", "/master_curve", "/step_tests", "/step_master_curve"} <= set(groups)
     assert groups["/shift_factors"].attrs["isotherms_used"] == groups["/shift_factors"].attrs["isotherms_given"] == 5

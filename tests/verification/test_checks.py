@@ -155,7 +155,7 @@ def threads_in_the_way(patch: pytest.MonkeyPatch) -> None:
     original = ScipyTransforms.inverse_cropped
 
     def inverse_cropped(self: Any, *arguments: Any) -> Any:
-        return original(self, *arguments) * (1.0 + 1e-4 * (self._threads - 1))
+        return original(self, *arguments) * (1.0 + 1e-4 * (self._threads(2**20) - 1))
 
     patch.setattr(ScipyTransforms, "inverse_cropped", inverse_cropped)
 

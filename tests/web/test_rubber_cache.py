@@ -9,7 +9,8 @@ import pytest
 
 from refusals import refused
 from viscofric.errors import DataFileError, StudyError
-from viscofric.study.run_file.study import material_of
+from viscofric.study.run_file.material import MaterialTable
+from viscofric.study.run_file.study import validated
 from viscofric.web.jobs import rubbers
 from web.rubber_workspace import EXAMPLE, SWEEPS, workspace_with
 
@@ -43,7 +44,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[object]:
 
 def test_rubber_is_that_of_the_run_file(workspace: Context) -> None:
     made = rubbers.made_rubber({"material": {**SWEEPS, "shift": "wlf+arrhenius"}}, workspace)
-    table = material_of({**SWEEPS, "shift": "wlf+arrhenius"}).relative_to(EXAMPLE.parent)
+    table = validated(MaterialTable, {**SWEEPS, "shift": "wlf+arrhenius"}).relative_to(EXAMPLE.parent)
     whole = rubbers.make_rubber(table)
     assert made.shift_used == "wlf+arrhenius"
     np.testing.assert_array_equal(made.material.modes_at().C, whole.material.modes_at().C)

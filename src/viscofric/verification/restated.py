@@ -34,6 +34,7 @@ from viscofric.verification.model_problems import (
 )
 
 _SAME = 1e-7  # what is left of the contact conditions in friction and size
+_LARGE = (1024, 512)  # points whose FFTs have several threads
 _COARSE = 1e-2  # both sides are solved on the same grid
 _SLOW = 0.01  # vτ/a0
 _PER_DECADE = 10
@@ -101,8 +102,9 @@ def _backends() -> Iterator[Comparison]:
         yield Comparison(case, "friction coefficient, the one over the other", ratio, 1.0, _SAME)
         apart = float(np.abs(here.pressure - there.pressure).max()) / there.max_pressure
         yield Comparison(case, "difference of the pressures/p_max", apart, 0.0, _SAME, "absolute")
-    wave = np.cos(2.0 * np.pi * np.arange(64) / 64)
-    rough = PeriodicSurface(1e-6 * (wave[:, None] + wave), HERTZ_RADIUS / 64)
+    nx, ny = _LARGE
+    wave_x, wave_y = (np.cos(2.0 * np.pi * np.arange(points) / points) for points in _LARGE)
+    rough = PeriodicSurface(1e-6 * (wave_x[:, None] + wave_y), (HERTZ_RADIUS / nx, HERTZ_RADIUS / ny))
     here_rough, there_rough = (
         periodic.solve_periodic(material, rough, speed=SPEED, pressure=2e3, backend=one) for one in (other, plain)
     )
