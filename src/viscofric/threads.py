@@ -19,7 +19,8 @@ THREADS_VARIABLE = "VISCOFRIC_FFT_THREADS"
 #: What a number of threads has to be.
 THREADS = "a whole number from 1, such as 2"
 
-_LARGE = 2**19  # elements from which on several threads are faster
+#: Elements from which on several threads are faster, and elements for each thread.
+_LARGE, _EACH = 2**19, 2**17
 
 _Parameters = ParamSpec("_Parameters")
 _Result = TypeVar("_Result")
@@ -60,4 +61,4 @@ def usable_threads() -> int:
 
 def threads_for(elements: int, threads: int | None = None) -> int:
     """Return how many threads the FFT of so many real numbers is to have, of those given or usable."""
-    return 1 if elements < _LARGE else threads or usable_threads()
+    return 1 if elements < _LARGE else min(threads or usable_threads(), elements // _EACH)

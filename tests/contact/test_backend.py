@@ -261,6 +261,7 @@ def test_large_ffts_have_a_thread_for_each_processor_unless_set_otherwise(monkey
     large, small = 2048 * 2048, 256 * 256
     assert threads_for(large) == 4
     assert threads_for(large, 3) == 3
+    assert threads_for(2**19, 64) == 4
     assert threads_for(small, 3) == 1
     monkeypatch.setenv("OMP_NUM_THREADS", "1")  # as in the workers of a cluster
     assert threads_for(large) == 1

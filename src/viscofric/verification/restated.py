@@ -89,7 +89,7 @@ def _table() -> Iterator[Comparison]:
 
 def _backends() -> Iterator[Comparison]:
     plain = Backend("scipy", threads=1)
-    other = Backend("scipy", threads=2) if backend() == plain else backend()
+    other = Backend("scipy", threads=2) if backend().name == plain.name else backend()
     material, layer = equal_modes(1e4), Layer(HERTZ_RADIUS)
     free: dict[str, Any] = {"speed": SPEED, "accuracy": _COARSE}
     for case, shape, settings in (
