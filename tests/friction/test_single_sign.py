@@ -55,7 +55,11 @@ def test_a_coulomb_coefficient_from_elsewhere_is_taken_off(
     assert curves.assumption in curves.notes
     assert curves.assumption.code == "coulomb-assumed"
     values = curves.assumption.values
-    assert (values["coulomb"], values["error"], values["senses"]) == (coulomb, error, 1)
+    assert (values["coulomb"], values["error"], values["senses"]) == (
+        coulomb,
+        error,
+        [float(configuration[0] * configuration[1])],
+    )
 
 
 @pytest.mark.parametrize("configuration", FOUR)

@@ -21,6 +21,7 @@ from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.contact.settings import ContactSettings
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -146,7 +147,7 @@ def _inputs(
         "indentation": solution.indentation if parameters["indentation"] is not None else None,
         "temperature": solution.temperature,
         "accuracy": parameters["accuracy"],
-        "tolerance": parameters["tolerance"],
+        "tolerance": ContactSettings(accuracy=parameters["accuracy"], tolerance=parameters["tolerance"]).residual,
         "finest": parameters["finest"],
         "grid": parameters["grid"],
         "window": parameters["window"] and [to_si(length.strip(), "m") for length in parameters["window"].split(",")],

@@ -280,7 +280,7 @@ def test_the_error_of_an_assumed_coulomb_friction_is_one_that_points_share(tmp_p
     exact = closed_form_curves(*WARM)
     coulomb, error = 0.05, 0.06 * exact.viscoelastic.mean()
     scatter = 0.005 * exact.viscoelastic * np.random.default_rng(3).standard_normal(len(exact))
-    assumed = {"coulomb": coulomb, "error": error, "senses": 1}
+    assumed = {"coulomb": coulomb, "error": error, "senses": [1.0]}
     note = Note(COULOMB_ASSUMED, "Coulomb friction is assumed.", values=assumed)
     same = {"coulomb": np.full(len(exact), coulomb), "coulomb_error": np.full(len(exact), error)}
     curves = replace(

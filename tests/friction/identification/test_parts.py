@@ -16,7 +16,8 @@ from viscofric.friction.identification.moduli import compliance, known_part, log
 from viscofric.friction.identification.points import moderated_variances, usable_points
 from viscofric.friction.identification.posterior import descend, draws, log_evidence
 from viscofric.friction.identification.problem import Shifts, Smoothness
-from viscofric.notes import codes
+from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
+from viscofric.notes import Note, codes
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 SPECTRUM = RUBBER.modes_at()
@@ -239,6 +240,48 @@ def test_errors_that_nobody_gave_are_those_of_the_scatter() -> None:
     assert points.notes[0].values == {"relative_error": pytest.approx(points.error[0], rel=1e-3)}
     with refused("no-errors"):
         usable_points(bare.select(np.arange(0, 90, 5)), BALL, None, 1e-4)
+
+
+def assuming(curves: vf.FrictionCurves, error: float, *senses: list[float]) -> vf.FrictionCurves:
+    """Curves whose Coulomb friction of 0.05 was assumed, with its error, in parts with the disc faster or slower."""
+    values = {"coulomb": 0.05, "error": error}
+    notes = [Note(COULOMB_ASSUMED, f"Assumed, {some}.", values=values | {"senses": some}) for some in senses]
+    columns = {"coulomb": 0.05, "coulomb_error": error, "coulomb_scatter": 0.0}
+    return replace(curves, notes=tuple(notes), **{name: np.full(len(curves), one) for name, one in columns.items()})
+
+
+def test_an_assumed_error_is_shared_and_leaves_the_scatter_of_the_replicates() -> None:
+    """Three degrees of freedom of half of the variance are 3/(1/2)² of all of it by Welch's formula."""
+    speed, own, error = np.geomspace(0.02, 0.2, 8), np.linspace(0.8e-4, 1.2e-4, 8), 1e-4
+    alone = replace(curves_of(speed, np.full(8, 300.0), np.full(8, 0.01), own), viscoelastic_freedom=np.full(8, 3.0))
+    together = replace(
+        alone,
+        viscoelastic_error=np.hypot(own, error),
+        viscoelastic_freedom=3.0 * (1.0 + (error / own) ** 2) ** 2,
+    )
+    expected = usable_points(alone, BALL, None, 1e-6)
+    points = usable_points(assuming(together, error, [1.0]), BALL, None, 1e-6)
+    np.testing.assert_allclose(points.error, expected.error, rtol=1e-9)
+    np.testing.assert_allclose(points.shared, np.full((8, 1), error / 0.01), rtol=1e-9)
+    # Points that it did not reach have smaller errors than it.
+    np.testing.assert_array_equal(usable_points(assuming(alone, 5e-4, [1.0]), BALL, None, 1e-6).shared, 0.0)
+
+
+def test_an_assumed_error_is_not_in_errors_that_the_scatter_gives() -> None:
+    speed, kelvin = np.tile(np.geomspace(0.02, 0.2, 10), 9), np.repeat(np.linspace(300.0, 360.0, 9), 10)
+    friction = 0.01 * speed**-0.2 * np.exp(0.02 * np.random.default_rng(5).standard_normal(90))
+    bare = curves_of(speed, kelvin, friction, np.inf)
+    points = usable_points(assuming(bare, 1e-3, [1.0]), BALL, None, 1e-6)
+    np.testing.assert_allclose(points.error, usable_points(bare, BALL, None, 1e-6).error)
+    np.testing.assert_allclose(points.shared[:, 0], 1e-3 / friction)
+
+
+@pytest.mark.parametrize("senses", [([-1.0, 1.0],), ([1.0], [-1.0]), ()])
+def test_an_assumed_error_of_either_sign_is_not_shared(senses: tuple[list[float], ...]) -> None:
+    curves = curves_of(np.geomspace(0.02, 0.2, 8), np.full(8, 300.0), np.full(8, 0.01), 2e-4)
+    points = usable_points(assuming(curves, 1e-4, *senses), BALL, None, 1e-6)
+    assert points.shared.shape == (8, 0)
+    np.testing.assert_allclose(points.error, 0.02, rtol=1e-3)
 
 
 def test_found_shifts_are_expected_where_the_curves_overlap() -> None:

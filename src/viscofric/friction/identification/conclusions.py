@@ -141,7 +141,8 @@ def _coupling(outcome: Outcome, material: Material) -> tuple[str, ...]:
 def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit: float) -> Iterator[Note]:
     """Yield notes on doubts about the residuals and the friction."""
     points, away = outcome.start.points, _residuals(best)
-    implausible_friction = implausible(points.at_one_load(outcome.curves))
+    with_shared = replace(points, error=np.hypot(points.error, np.linalg.norm(points.shared, axis=1)))
+    implausible_friction = implausible(with_shared.at_one_load(outcome.curves))
     yield from implausible_friction
     if error_scale == 1.0:
         if not implausible_friction and "errors-from-scatter" not in codes(points.notes):

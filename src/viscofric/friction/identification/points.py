@@ -85,6 +85,7 @@ def usable_points(
             code="load-unit",
         )
     notes: list[str] = []
+    shared = _errors_assumed(curves) if assumed else np.zeros((len(curves), 0))
     if len(curves) and not np.any(np.isfinite(curves.viscoelastic_error)):
         error = scatter_about_parabolas(curves)
         if error is None:
@@ -102,6 +103,8 @@ def usable_points(
             values={"relative_error": error},
         )
         notes.append(found)
+    else:
+        curves = _without(curves, shared)
     notes.extend(error_freedom(curves)[1])
     rows = np.flatnonzero(np.isfinite(curves.viscoelastic_error))
     if len(rows) < len(curves):
@@ -119,9 +122,6 @@ def usable_points(
             "more, better ten per decade of reduced speed.",
             code="too-few-points",
         )
-    shared = _errors_assumed(curves) if assumed else np.zeros((len(curves), 0))
-    own = np.sqrt(np.maximum(curves.viscoelastic_error**2 - np.sum(shared**2, axis=1), 0.0))
-    curves = replace(curves, viscoelastic_error=own)
     friction = curves.viscoelastic[rows]
     if not np.all(friction > 0.0):
         worst = rows[int(np.argmin(friction))]
@@ -172,14 +172,27 @@ def _errors_assumed(curves: FrictionCurves) -> Array:
     """Return errors of viscoelastic friction by assumed Coulomb friction, (n, k), one column for each assumption."""
     if curves.coulomb is None or curves.coulomb_error is None:
         return np.zeros((len(curves), 0))
+    senses: dict[tuple[float, float], set[float]] = {}
+    for note in map(note_of, curves.notes):
+        if note.code == COULOMB_ASSUMED and note.values.get("error") and "senses" in note.values:
+            senses.setdefault((note.values["coulomb"], note.values["error"]), set()).update(note.values["senses"])
     found: list[Array] = []
-    assumptions = [note.values for note in map(note_of, curves.notes) if note.code == COULOMB_ASSUMED]
-    for value, error in sorted(
-        {(one["coulomb"], one["error"]) for one in assumptions if one["error"] and one["senses"] == 1}
-    ):
-        there = np.isclose(curves.coulomb, value, rtol=1e-6) & np.isclose(curves.coulomb_error, error, rtol=1e-6)
-        found.append(np.where(there, error, 0.0))
+    for (value, error), some in sorted(senses.items()):
+        if len(some) == 1:  # otherwise points have the error with either sign
+            there = np.isclose(curves.coulomb, value, rtol=1e-6) & np.isclose(curves.coulomb_error, error, rtol=1e-6)
+            found.append(np.where(there & (curves.viscoelastic_error > (1.0 - 1e-6) * error), error, 0.0))
     return np.array(found).reshape(-1, len(curves)).T
+
+
+def _without(curves: FrictionCurves, shared: Array) -> FrictionCurves:
+    """Return the curves without errors (n, k) that points share, and with the degrees of freedom of what is left."""
+    total = curves.viscoelastic_error
+    own = np.sqrt(np.maximum(total**2 - np.sum(shared**2, axis=1), 0.0))
+    if curves.viscoelastic_freedom is None:
+        return replace(curves, viscoelastic_error=own)
+    # Welch and Satterthwaite's formula backwards, where the shared part has infinite degrees of freedom.
+    part = np.divide(own, total, out=np.ones(len(own)), where=np.isfinite(total) & (total > 0.0))
+    return replace(curves, viscoelastic_error=own, viscoelastic_freedom=curves.viscoelastic_freedom * part**4)
 
 
 class SharedErrors(NamedTuple):

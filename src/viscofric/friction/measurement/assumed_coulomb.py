@@ -132,8 +132,8 @@ class Assumed:
                 **counted,
                 "coulomb": self.value,
                 "error": self.error,
-                # Conditions share an error with the same sign if the disc is faster in all of them or in none.
-                "senses": len({_sense(one) for one in some}),
+                # 1 where the disc is faster, -1 where it is slower: with the sign of an error in viscoelastic friction.
+                "senses": sorted({float(sense) for one in some for sense in one.disc_sign * one.slip_sign}),
             },
         )
 

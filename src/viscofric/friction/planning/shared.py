@@ -69,6 +69,8 @@ class SharedContacts:
         accuracy = first["accuracy"]
         given = {name: value for name, value in first.items() if name not in _OF_CONTACT}
         settings, usual = ContactSettings(accuracy=accuracy, **given), ContactSettings(accuracy=accuracy)
+        if settings.residual == usual.residual:
+            usual = replace(usual, tolerance=settings.tolerance)
         special = any(not _same(getattr(settings, name), getattr(usual, name)) for name in given.keys() - _OF_CURVES)
         if special or material.shift is None or not isinstance(material.spectrum, RetardationSpectrum):
             return None

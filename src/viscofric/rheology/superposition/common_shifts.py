@@ -161,7 +161,7 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
     problem, offsets, seen, onto = search.problem, own, np.eye(len(own.covariance)), quantities.onto_moduli
     if quantities.alone:
         both = _of_both(sweeps, problem.gauge)
-        if np.max(np.diag(both.covariance)) <= LARGEST**2:
+        if both.sizes.probability @ (np.mean(both.sizes.deviations**2, axis=1) > LARGEST**2) <= 0.5:
             offsets, seen, onto = both, quantities.seen, np.eye(2)
     covariance, freedom, inverse = _covariance(search, own.expected)
     size, moduli = problem.size, problem.moduli

@@ -17,8 +17,8 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.rheology.superposition.gauge import Gauge, continued
 
-#: Where one modulus is shifted, offsets larger than this in both are no offsets: the other modulus is wrong.  Sweeps of
-#: one sample repeat to 0.02 decades (`consistency.REPRODUCIBILITY`); the sizes found scatter by a third.
+#: Where one modulus is shifted, offsets that are probably larger than this in both are no offsets: the other modulus is
+#: wrong.  Sweeps of one sample repeat to 0.02 decades (`consistency.REPRODUCIBILITY`); sizes found scatter by a third.
 LARGEST = 0.027  # decades
 #: Standard deviations tried, decades: none, and 0.1 to 25 %.
 SIZES = np.append(0.0, np.logspace(-3.4, -1.0, 13))
@@ -105,7 +105,7 @@ class IsothermOffsets:
         moduli, count = len(self.covariance), self.with_shifts.shape[1]
         turn = TURNS[moduli]
         shifts, offsets = errors[:, :-count], errors[:, -count:]
-        mean = np.sqrt(np.diag(turn @ self.covariance @ turn.T))
+        mean = np.sqrt(self.sizes.probability @ self.sizes.deviations**2)  # that of the covariance, never below zero
         scale = self.sizes.draw(random, len(errors)) / (mean + 1e-300)
         turned = turn @ offsets.reshape(len(errors), moduli, -1)
         change = (turn.T @ ((scale[:, :, None] - 1.0) * turned)).reshape(offsets.shape)

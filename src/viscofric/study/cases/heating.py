@@ -74,7 +74,9 @@ def solve_heated(
                 wrong[speed] = error
         if not curves:
             raise wrong[speeds[0]] from None
-    said = [wrong[min(wrong)].note.at(" and ".join(f"{speed:g} m/s" for speed in wrong))] if wrong else []
+    reasons = dict.fromkeys(error.code for error in wrong.values())
+    alike = [{speed: error for speed, error in wrong.items() if error.code == code} for code in reasons]
+    said = [some[min(some)].note.at(" and ".join(f"{speed:g} m/s" for speed in some)) for some in alike]
     notes = [note_of(note) for one in curves for note in one.notes]
     # Of indenters a check, with an interface a note of the isothermal contacts has it.
     has_shear = "surface" in settings and settings.get("interface") is None

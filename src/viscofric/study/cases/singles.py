@@ -81,8 +81,13 @@ class Singles:
 
     @property
     def warnings(self) -> list[Note]:
-        """Notes on assumptions, each with the number of contacts."""
-        return [*counted([one.warnings for one in self.outcomes if isinstance(one, HistoryRecord)], of=self.NOUN)]
+        """Notes on assumptions, each with the number of contacts, and the first of them."""
+        each = [
+            [note.at(f"such as at {task.label}") if task.label else note for note in one.warnings]
+            for task, one in zip(self.tasks, self.outcomes, strict=True)
+            if isinstance(task, Task) and isinstance(one, HistoryRecord)
+        ]
+        return [*counted(each, of=self.NOUN)]
 
     def dataset(self) -> xarray.Dataset | None:
         """Return all results along their axes; None if all failed."""
