@@ -11,7 +11,7 @@ import click
 from viscofric.cli.files import plainly
 from viscofric.cli.output import together
 from viscofric.cli.rubber_options import column_options, find_rubber
-from viscofric.notes import note_of
+from viscofric.notes import dumped, note_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -195,7 +195,8 @@ def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:
     return FrictionCurves(
         **columns,
         source=", ".join(dict.fromkeys(part.source for part in parts if part.source)),
-        notes=tuple(dict.fromkeys(note for part in parts for note in part.notes)),
+        # Notes of the same words may have other values.
+        notes=tuple({dumped(note_of(note).record()): note for part in parts for note in part.notes}.values()),
         load_unit=parts[0].load_unit,
         assumption=" ".join(dict.fromkeys(part.assumption for part in parts if part.assumption)),
     )

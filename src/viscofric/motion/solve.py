@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
 TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
 _ROUNDING = 1e-12  # of times, relative to an end of the history
+_LITTLE = 0.01  # part of the largest load, below which a rate of loading is of no consequence
 _AGAIN = Note(
     "solved-again",
     "The run that is continued was a normal motion, and its continuation slides: its past is solved again, on cells.",
@@ -427,8 +428,11 @@ def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note
     if not np.any(velocities):
         since = np.array([schedule.since_jump(one.instant) for one in moments])
         changes = [schedule.quickest_change(start, end) for start, end in pairwise([schedule.start, *times])]
+        load = np.abs([one.seen.load for one in moments])
         with np.errstate(divide="ignore"):
-            return fit.beyond(np.maximum(changes, 1.0 / since), "rate of loading or 1/t after a jump")
+            rates = np.maximum(changes, 1.0 / since)
+        # The first touch is always too quick, and of no consequence.
+        return fit.beyond(rates[load >= _LITTLE * load.max()], "rate of loading or 1/t after a jump")
     if isinstance(problem.indenter, PeriodicSurface):
         return _beyond_on_waves(problem, problem.indenter, moments, velocities)
     extents = [one.seen.extents for one in moments]

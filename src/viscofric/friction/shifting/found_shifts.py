@@ -214,7 +214,7 @@ def _marginal(chosen: Sequence[FrictionIsotherm], factors: Array) -> Iterator[No
         yield Note(
             "marginal-overlap",
             f"The friction curves at {places} overlap little for their errors. Such overlaps are found by chance, with "
-            " shifts that err to one side; their standard errors are therefore enlarged, up to "
+            "shifts that err to one side; their standard errors are therefore enlarged, up to "
             f"{math.sqrt(float(factors.max())):.2g} times.",
         )
 
