@@ -199,6 +199,12 @@ def test_columns_of_a_master_curve(tmp_path):
         ("F_n", "F n", ""),
         ("x in y", "x in y", ""),
         ("tan δ", "tan δ", ""),
+        ("tan(δ)", "tan(δ)", ""),
+        ("log10(f)", "log10(f)", ""),
+        ("log(f) (Hz)", "log(f)", "Hz"),
+        ("a (T)", "a (T)", ""),
+        ("a (m/s)", "a", "m/s"),
+        ("temperatura (T)", "temperatura", "T"),
         ("ω / rad/s", "ω", "rad/s"),
     ],
 )
@@ -224,6 +230,13 @@ def test_units_without_regard_to_case_and_older_ones(tmp_path, header, factor):
     rows = [f"0,{row}" if header.startswith("StorageTemp") else row for row in ROWS]
     sweeps = read(write(tmp_path, header, *rows))
     assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6 * factor, 6e6 * factor], rel=1e-9)
+
+
+@pytest.mark.parametrize("tangent", ["tan(δ)", "tan (delta) (-)", "tan_delta", "Loss-Factor [1]"])
+def test_loss_tangent_is_read_in_many_spellings(tmp_path, tangent):
+    rows = ["20,1,5,0.1", "20,10,6,0.1"]
+    sweeps = read(write(tmp_path, f"T_C,f_Hz,E' (MPa),{tangent}", *rows))
+    assert sweeps.isotherms[0].loss_modulus == pytest.approx([5e5, 6e5], rel=1e-12)
 
 
 def test_case_counts_where_both_spellings_are_units():

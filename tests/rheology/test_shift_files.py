@@ -77,6 +77,19 @@ def test_saved_file_is_readable_text(tmp_path):
         ("T_C,aT", 10.0**LOG10),
         ("T_C,alpha (-)", 10.0**LOG10),
         ("# Tref 99 C\nT_C,log_a_T", LOG10),
+        ("T_C,a_T", 10.0**LOG10),
+        ("T_C,a(T)", 10.0**LOG10),
+        ("T_C,alpha_T (-)", 10.0**LOG10),
+        ("T_C,α(T)", 10.0**LOG10),
+        ("T_C,shift.factor", 10.0**LOG10),
+        ("T_C,lgaT", LOG10),
+        ("T_C,lnaT", LOG10 * np.log(10.0)),
+        ("T_C,ln(a_T)", LOG10 * np.log(10.0)),
+        ("T_C,log10(a(T))", LOG10),
+        ("T_C,log_10[aT] (-)", LOG10),
+        ("T,log10(aT)\n°C,-", LOG10),
+        ("T,log10(a(T)) (-)\n°C,-", LOG10),
+        ("T,a(T)\nC,", 10.0**LOG10),
     ],
 )
 @pytest.mark.parametrize("mark", [",", "\t"])
@@ -87,6 +100,29 @@ def test_tables_of_other_programs_are_read(tmp_path, header, scale, mark):
     assert np.allclose(found.log10_values, LOG10, rtol=0.0, atol=1e-12)  # of a logarithm of a power
     assert found.reference == pytest.approx(293.15, abs=1e-9)
     assert not found.covariance.any()
+
+
+@pytest.mark.parametrize("other", ["log10(bT)", "log(f)", "log10(E')", "ln(x) (-)", "bT"])
+def test_logarithms_of_other_quantities_are_ignored(tmp_path, other):
+    for heads in (f"log10(aT),{other}", f"{other},log10(aT)"):
+        values = np.stack([LOG10, LOG10**2][:: 1 if heads.startswith("log10(aT)") else -1], axis=1)
+        rows = [f"{T},{one},{two}" for T, (one, two) in zip(CELSIUS, values, strict=True)]
+        found = read_shift_factors(written(tmp_path, "\n".join([f"T_C,{heads}", *rows])))
+        assert found.log10_values.tolist() == LOG10.tolist()
+
+
+@pytest.mark.parametrize(
+    ("comment", "celsius"),
+    [
+        ("# The reference (degC): 40", 40.0),
+        ("# of the fit, reference (C): 0.0 ", 0.0),
+        ("#reference (K): 313.15", 40.0),
+        ("# preference (degC): 40", 20.0),
+    ],
+)
+def test_reference_in_a_comment_is_read(tmp_path, comment, celsius):
+    found = read_shift_factors(written(tmp_path, table(f"{comment}\nT_C,log10_aT")))
+    assert found.reference == pytest.approx(celsius + 273.15, abs=1e-9)
 
 
 @pytest.mark.parametrize(("unit", "printed"), [("K", CELSIUS + 273.15), ("F", CELSIUS * 1.8 + 32.0)])
@@ -177,6 +213,8 @@ def test_rising_table_is_refused_unless_it_is_said_to_be_inverse(tmp_path):
         ("T_C,log_aT\n1,1e200\n2,0\n", ("out-of-range", "line 2", "300")),
         ("T_C,log_aT,cov 1\n1,1,0\n2,0,0\n", ("missing-columns",)),
         ("# reference (degC): 80\nT_C,log_aT\n1,1\n2,0\n", ("no-reference",)),
+        ("# reference (degC): -\nT_C,log_aT\n1,1\n2,0\n", ("no-reference", "line 1")),
+        ("# by hand\n# reference (furlong): 1\nT_C,log_aT\n1,1\n2,0\n", ("no-reference", "line 2")),
     ],
 )
 def test_damaged_tables_are_reported(tmp_path, text, refusal):

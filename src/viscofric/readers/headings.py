@@ -27,14 +27,20 @@ _SEPARATED = re.compile(
     r"|(?:\s+in\s+|_in_|\s*,\s*|_)(?P<letter>[CKFNsm]))$"
 )
 _LETTER = re.compile(r"^(?P<name>.*temp[^\s_]*|T)[\s_]+(?P<unit>[ckf])$", re.IGNORECASE)
+#: "log10(aT)", "tan(δ)", "a(T)": brackets that hold an argument, not a unit.
+_FUNCTION = re.compile(
+    r"((log[\s_]*10|log|lg|ln|tan)[\s_]*[(\[][^()\[\]]*"
+    r"|((log[\s_]*10|log|lg|ln)?[\s_]*(a|α|alpha)\s*[(\[]\s*T\s*))[)\]]",
+    re.IGNORECASE,
+)
 _CELSIUS = re.compile(r"°?[CF]|deg[CF]|℃", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
 #: "#3": the third column of a table, whatever its heading.
 _PLACE = re.compile(r"#\s*(?P<number>\d{1,4})")
 #: A longer heading is not parsed.
 _LONGEST_HEADING = 200
-#: Names of fewer letters are compared with their blanks.
-_SHORT = 5
+#: Names are the same with and without these: "a_T", "a(T)", "aT".
+_MARKS = re.compile(r"[\s_().·\[\]-]")
 
 
 @dataclass(frozen=True)
@@ -73,14 +79,16 @@ class Vocabulary:
         for what, names in self.quantities.items():
             for name in names:
                 found.setdefault(name, what)
-                if len(name) > _SHORT:
-                    found.setdefault(name.replace(" ", ""), what)
+        for name, what in list(found.items()):
+            found.setdefault(_MARKS.sub("", name), what)
         return found
 
     def quantity(self, name: str) -> str:
         """Return the quantity that a heading without its unit names, or ""."""
         plain = unicodedata.normalize("NFC", name)
-        return self._meaning.get(plain) or (self._meaning.get(plain.lower(), "") if len(plain) > 1 else "")
+        lower = plain.lower()
+        spellings = (plain, *(one for one in (lower, _MARKS.sub("", lower)) if len(one) > 1))
+        return next((what for one in spellings if (what := self._meaning.get(one))), "")
 
     def missing(self, found: Iterable[str]) -> list[str]:
         """Return what a header of these quantities lacks, one word for each of `needed`."""
@@ -189,7 +197,7 @@ def heading(text: str) -> Column:
         return Column(text, text, "")
     plain = re.sub(r"[’′‘`´]", "'", text).replace("″", "''").replace("”", "''").replace('"', "''")
     name, unit = plain, ""
-    for pattern in (_BRACKETED, _SEPARATED, _SLASHED, _LETTER):
+    for pattern in () if _FUNCTION.fullmatch(plain) else (_BRACKETED, _SEPARATED, _SLASHED, _LETTER):
         match = pattern.match(plain)
         if match:
             name, unit = match["name"], match["unit"] or match.groupdict().get("letter") or ""

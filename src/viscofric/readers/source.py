@@ -74,6 +74,9 @@ _LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 #: Relative agreement of Hz and rad/s in one row, both printed with about two digits.
 PRINTED_FREQUENCY = 0.05
 
+#: Units of temperature as instruments print them, which pint would read as coulomb, farad or nothing.
+_TEMPERATURE_UNITS = dict.fromkeys(("c", "degc", "celsius", "øc", ">c", "\ufffdc"), "degC")  # the last ones damaged
+_TEMPERATURE_UNITS |= {"f": "degF", "degf": "degF", "k": "K"}
 #: Units as people and instruments print them, in lower case -> as pint knows them.
 _SPELLINGS = {
     one.casefold(): one
@@ -120,6 +123,8 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, ``mPa`` is not.
     """
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
+    if unit == "K":
+        text = _TEMPERATURE_UNITS.get(re.sub(r"[°\s]", "", text.replace("℃", "C")).lower(), text)
     plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())
     folded = plain.replace(" ", "").casefold()
     try:

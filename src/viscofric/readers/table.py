@@ -29,9 +29,6 @@ MISSING = frozenset({"", "-", "--", "---", "----", "–", "—", "nan", "na", "n
 
 _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 _IS_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
-# Units of temperature as printed by instruments, which pint would read as coulomb, farad or nothing.
-_TEMPERATURE_UNITS = dict.fromkeys(("c", "degc", "celsius", "øc", ">c", "\ufffdc"), "degC")  # the last ones damaged
-_TEMPERATURE_UNITS |= {"f": "degF", "degf": "degF", "k": "K"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,11 +107,8 @@ class Table:
             right = f"{column.name} ({example})"
             problem = f"column {column.heading!r} has no unit; write it as {right!r}"
             raise self.refused("no-unit", problem, (hint or Remedy("")) + ".")
-        text = column.unit
-        if unit == "K":
-            text = _TEMPERATURE_UNITS.get(re.sub(r"[°\s]|℃", "", text.replace("℃", "C")).lower(), text)
         try:
-            return unit_conversion(text, unit, column.heading)
+            return unit_conversion(column.unit, unit, column.heading)
         except InputError:
             problem = f"column {column.heading!r} has the unit {column.unit!r}; it must be one like {example!r}."
             raise self.refused("wrong-unit", problem) from None

@@ -199,7 +199,7 @@ def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str], *, repeate
     `repeated`: the units are known already, from the same row under the same headings.
     """
     known = [place for place, column in enumerate(columns[: len(cells)]) if column.quantity]
-    if not repeated and any(columns[place].unit and not columns[place].given for place in known):
+    if not repeated and any(_unit(columns[place].unit) and not columns[place].given for place in known):
         return False
     numbers = (cell for cell in cells if cell.strip() != "1")  # the unit of a ratio
     if any(map(is_number, numbers)) or len(cells) > len(columns) + 1:

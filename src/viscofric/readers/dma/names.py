@@ -74,7 +74,7 @@ COMPLEX_MODULUS = frozenset(
     | {"módulo complejo", "modulo complesso", "módulo complexo"}
 )
 LOSS_TANGENT = frozenset(
-    {"tan δ", "tanδ", "tan(δ)", "tan delta", "tan d", "tandelta", "tan(delta)", "tan-delta", "loss factor"}
+    {"tan δ", "tan delta", "tan d", "loss factor"}
     | {"loss tangent", "damping factor", "verlustfaktor", "facteur de perte", "facteur d'amortissement"}
     | {"factor de pérdida", "fattore di perdita", "fator de perda", "verliesfactor", "förlustfaktor"}
 )

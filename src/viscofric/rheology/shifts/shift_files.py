@@ -20,32 +20,32 @@ from viscofric.files import read_bytes
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.eplexor_master import SHIFT_LIST, ShiftList, shift_list
 from viscofric.readers.dma.names import TEMPERATURE
-from viscofric.readers.headings import Column, Vocabulary
+from viscofric.readers.headings import Vocabulary
 from viscofric.readers.one_table import insist_on_columns, only_table
-from viscofric.readers.source import Source, checked_sheet, insist_on_content
+from viscofric.readers.source import Source, checked_sheet, insist_on_content, unit_conversion
 from viscofric.readers.table import Table
 from viscofric.readers.tables import name_columns
 from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.units import Quantity, conversion, positive, shown_celsius
+from viscofric.units import Quantity, positive, shown_celsius
 
-_NAMES = ("at", "a t", "a", "alpha", "alphat", "alpha t", "shift factor", "shift", "horizontal shift")
-_LOGARITHMS = ("log10", "log", "lg")
+_NAMES = frozenset({"at", "α", "αt", "alpha", "alphat", "shift factor", "horizontal shift factor"})
+_IN_LOGARITHMS = _NAMES | {"a", "shift", "horizontal shift"}
 #: Quantity -> log10 α for one of its units; None for α itself.
 _SCALES: dict[str, float | None] = {
     "log10 shift factor": 1.0,
     "ln shift factor": 1.0 / math.log(10.0),
     "shift factor": None,
 }
-#: The words of tables of shift factors; a logarithm alone has its argument in brackets, as a unit has.
+#: The words of tables of shift factors.
 SHIFT_FACTORS = Vocabulary(
     "a table of shift factors",
     {
         "temperature": TEMPERATURE,
-        "log10 shift factor": frozenset(f"{log} {name}" for log in _LOGARITHMS for name in _NAMES) | {*_LOGARITHMS},
-        "ln shift factor": frozenset({"ln", *(f"ln {name}" for name in _NAMES)}),
-        "shift factor": frozenset({"aT", "α", "at", "alpha", "alphat", "shift factor", "horizontal shift factor"}),
+        "log10 shift factor": frozenset(f"{log} {name}" for log in ("log10", "log", "lg") for name in _IN_LOGARITHMS),
+        "ln shift factor": frozenset(f"ln {name}" for name in _IN_LOGARITHMS),
+        "shift factor": _NAMES,
         "standard error": frozenset({"standard error", "std error", "uncertainty"}),
     },
     needed=(("temperature",), ("log10 shift factor", "ln shift factor", "shift factor")),
@@ -56,7 +56,7 @@ SHIFT_FACTORS = Vocabulary(
 #: Beyond this, α or 1/α over- or underflows.
 _LARGEST_LOGARITHM = 300.0
 #: Comments of a saved file.
-_REFERENCE = re.compile(r"\s*#\s*reference\s*\((?P<unit>[^)]*)\)\s*:\s*(?P<number>[-+0-9.eE]+)\s*")
+_REFERENCE = re.compile(r"\s*#(?:.*\W)?reference\s*\((?P<unit>[^()]*)\)\s*:\s*(?P<number>[-+0-9.eE]+)\s*")
 _NOTE = re.compile(r"\s*#\s*note:\s*(?P<text>.*?)\s*")
 _COVARIANCE = re.compile(r"cov\s*(\d+)")
 
@@ -218,18 +218,9 @@ def _from_table(source: Source) -> _Factors:
     at = table.place("temperature")
     name, of = next((name, place) for name in _SCALES if (place := table.place(name)) is not None)
     assert at is not None  # nothing needed is missing
-    _insist_on_argument(table, table.columns[of])
     log10 = _logarithms(table, table.numbers(of), _SCALES[name])
     reference, notes = _stated(source)
     return _Factors(table.values(at, "K"), log10, reference, _covariance(table), notes)
-
-
-def _insist_on_argument(table: Table, column: Column) -> None:
-    """Refuse the logarithm of something else, such as ``log10(f)``."""
-    argument = column.unit.lower().replace("_", " ")
-    if not column.given and column.name.lower() in (*_LOGARITHMS, "ln") and argument not in _NAMES:
-        problem = f"column {column.heading!r} is no logarithm of shift factors; {SHIFT_FACTORS.example}"
-        raise table.refused("missing-columns", problem, name_columns(SHIFT_FACTORS.key, ("log10 shift factor",)))
 
 
 def _logarithms(table: Table, values: Array, scale: float | None) -> Array:
@@ -260,12 +251,16 @@ def _covariance(table: Table) -> Array | None:
 def _stated(source: Source) -> tuple[float | None, tuple[str, ...]]:
     """Return reference (K) and notes of a saved file's comments; those of other programs are ignored."""
     reference, notes = None, []
-    for line in (source.text or "").splitlines():
+    for number, line in enumerate((source.text or "").splitlines(), start=1):
         if note := _NOTE.fullmatch(line):
             notes.append(note["text"])
         elif stated := _REFERENCE.fullmatch(line):
-            factor, offset = conversion(stated["unit"], "K", "reference")
-            reference = factor * float(stated["number"]) + offset
+            try:
+                factor, offset = unit_conversion(stated["unit"], "K", "reference")
+                reference = factor * float(stated["number"]) + offset
+            except ValueError:
+                problem = "the comment states a reference that is no temperature; write it as '# reference (degC): 20'."
+                raise DataFileError(source.path, problem, number, code="no-reference") from None
     return reference, tuple(notes)
 
 

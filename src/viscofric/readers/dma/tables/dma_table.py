@@ -48,7 +48,7 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
         found["temperature"] = table.place("isotherm" if master_curve else "set temperature")
     places = {what: place for what, place in found.items() if place is not None}
     tangent = places.get("tan delta")
-    if tangent is not None and table.columns[tangent].unit not in ("", "1"):  # a tangent has no unit
+    if tangent is not None and table.columns[tangent].unit not in ("", "1", "-", "–"):  # a tangent has no unit
         del places["tan delta"]
     missing = [] if "frequency" in places else ["frequency"]
     if "tan delta" not in places or not any(modulus in places for modulus in _MODULI):
