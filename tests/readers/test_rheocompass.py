@@ -108,6 +108,27 @@ def test_measuring_system_or_torque_says_shear():
     assert readings.deformation == "shear"
 
 
+AXIAL = ("Temperature", "Angular Frequency", "Storage Modulus", "Loss Modulus", "Force")
+NEWTON = ("[°C]", "[rad/s]", "[Pa]", "[Pa]", "[N]")
+
+
+@pytest.mark.parametrize(
+    ("head", "column", "unit", "second", "deformation"),
+    [
+        ([], "Torque", "[mN·m]", ROWS, None),
+        (["Measuring system:\tPP25"], "Torque", "[mN·m]", AXIAL, None),
+        ([], "Shear Strain", "[%]", AXIAL, None),
+        ([], "Shear Strain", "[%]", ROWS, "shear"),
+    ],
+)
+def test_deformation_is_decided_from_all_intervals(head, column, unit, second, deformation):
+    columns = ("Temperature", "Angular Frequency", "Storage Modulus", "Loss Modulus", column)
+    rows = [[*row, "0.5"] for row in ROWS]
+    first = sweep(rows, columns, ("[°C]", "[rad/s]", "[Pa]", "[Pa]", unit))
+    axial = sweep(rows, AXIAL, NEWTON) if second is AXIAL else sweep(ROWS)
+    assert rheocompass.read(written([*head, *first, *axial])).deformation == deformation
+
+
 def test_tensile_names_are_known():
     columns = ("Temperature", "Angular Frequency", "Tensile Storage Modulus", "Tensile Loss Modulus")
     assert rheocompass.read(written(sweep(ROWS, columns))).deformation == "tension"

@@ -147,6 +147,38 @@ def test_force_beside_a_torque_leaves_the_deformation_open(tmp_path):
     assert read(path).deformation is None
 
 
+def without(path, column, step):
+    """Take a column out of one of the steps of an export for LIMS, counted from 0, the creep test."""
+    before, *steps = path.read_text(encoding="utf-8-sig").split("[Step]")
+    lines = [line.split("\t") for line in steps[step].splitlines()]
+    place = next(line.index(column) for line in lines if column in line)
+    steps[step] = "\n".join("\t".join(line[:place] + line[place + 1 :]) for line in lines) + "\n"
+    path.write_text("[Step]".join([before, *steps]), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("also", [(), ("Oscillation force",)])
+@pytest.mark.parametrize("geometry", ["25.0mm parallel plate", "own"])
+def test_steps_in_torsion_do_not_state_the_deformation_of_axial_ones(tmp_path, monkeypatch, geometry, also):
+    force = ("N", lambda T, f, a, b: 2.0)
+    monkeypatch.setitem(trios.COLUMNS, "Oscillation force", force)
+    names = tuple(name for name in trios.COLUMNS if name not in {"Oscillation force"} - {*also})
+    path = without(trios.write_lims(tmp_path, geometry=geometry, names=names), "Oscillation torque", 3)
+    for step in (1, 2) if also else ():
+        without(path, "Oscillation force", step)
+    readings = read(path)
+    assert_planted(readings)
+    assert readings.deformation == ("shear" if "plate" in geometry and not also else None)
+
+
+def test_step_whose_moduli_are_tensile_contradicts_one_in_torsion(tmp_path):
+    path = without(trios.write_lims(tmp_path, geometry="own"), "Oscillation torque", 3)
+    before, last = path.read_text(encoding="utf-8").rsplit("[Step]", 1)
+    path.write_text(f"{before}[Step]{last.replace('Storage modulus', 'Tensile storage modulus')}", encoding="utf-8")
+    with refused("deformation-contradicts"):
+        read(path)
+
+
 def test_several_frequencies_of_an_amplitude_sweep_are_no_frequency_sweep(tmp_path):
     path = trios.write_lims(tmp_path)
     text = path.read_text(encoding="utf-8-sig").replace("Frequency sweep (10.0", "Amplitude sweep (10.0")

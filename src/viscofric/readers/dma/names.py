@@ -262,27 +262,32 @@ def tools_in(rows: Iterable[Sequence[str]]) -> list[tuple[str, str]]:
     return found
 
 
-def said_by_columns(moduli: Iterable[str], columns: Iterable[str], tools: Iterable[tuple[str, str]] = ()) -> Said:
-    """Decide between E and G by headings and sample holder.
+def said_by_columns(
+    moduli: Iterable[str], tables: Iterable[Iterable[str]], tools: Iterable[tuple[str, str]] = ()
+) -> Said:
+    """Decide between E and G by headings and sample holder, once for all tables of a file.
 
     The headings of the moduli come first (with E, the holder separates compression and bending from tension), then the
     sample holder (see `tools_in`), then a column of shear strain, stress or rate, then a torque without a force.
-    `columns` are the headings of all columns that hold numbers.
+    `tables` are the headings of all columns that hold numbers, of each table; a torque counts if each table has one,
+    and so does a column of shear beside a force, which may be of another table.
     """
     for printed in moduli:
         kind = deformation_of(heading(printed).name)
         if kind is not None:
             holder = tool_says(tools, axial=True) if kind == "tension" else (None, "")
             return holder if holder[0] in ("compression", "bending") else (kind, f"the heading {printed[:80]!r}")
-    plain = {" ".join(column.lower().split()): column for column in columns}
-    torques = [column for name, column in plain.items() if _TORQUE.fullmatch(name)]
-    forces = [column for name, column in plain.items() if _FORCE.fullmatch(name)]
-    tool = tool_says(tools, axial=bool(forces))
+    plain = [{" ".join(column.lower().split()): column for column in columns} for columns in tables]
+    sheared, torques, forces = (
+        [[column for name, column in columns.items() if matches(name)] for columns in plain]
+        for matches in (_SHEARED.search, _TORQUE.fullmatch, _FORCE.fullmatch)
+    )
+    axial = any(forces)
+    tool = tool_says(tools, axial=axial)
     if tool[0] is not None:
         return tool
-    for name, column in plain.items():
-        if _SHEARED.search(name):
-            return "shear", f"the heading {column[:80]!r}"
-    if torques and not forces:
-        return "shear", f"the column {torques[0]!r}, as only a rotational rheometer writes it"
+    if all(sheared) or (any(sheared) and not axial):
+        return "shear", f"the heading {next(filter(None, sheared))[0][:80]!r}"
+    if all(torques) and not axial:
+        return "shear", f"the column {torques[0][0]!r}, as only a rotational rheometer writes it"
     return None, ""

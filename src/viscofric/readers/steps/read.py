@@ -216,7 +216,7 @@ def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: 
     time = time_of(table, notes)
     known = kind or kind_of(table, name)
     response, heading, lacks_unit = response_of(table, source, known, notes)
-    deformation, _ = said_by_columns([heading.replace("(t)", "")], table.filled, tools_in(table.above))
+    deformation, _ = said_by_columns([heading.replace("(t)", "")], [table.filled], tools_in(table.above))
     kelvin = temperature_of(table, source, name, len(time), notes)
     return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit)
 

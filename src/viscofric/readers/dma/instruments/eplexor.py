@@ -22,7 +22,7 @@ from viscofric.readers.dma.instruments.eplexor_master import (
     shift_list,
 )
 from viscofric.readers.dma.names import DMA, quantity
-from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.dma.tables.dma_table import read_export
 from viscofric.readers.table import instrument_table
 from viscofric.readers.tables import numbered_rows
 from viscofric.readers.workbook import sheet_names, sheets
@@ -65,7 +65,7 @@ def read(source: Source) -> Readings:
     """Return the points; rows of a master curve are moved back to their measured temperatures and frequencies."""
     tables = sheets(source)
     table = _table(source.path, tables[DATA])
-    whole = read_points(table, source, NAME, "", f"sheet {DATA!r}, row", strict=True)
+    whole = read_export([table], source, NAME, "", f"sheet {DATA!r}, row")
     notes = [*_passed_over(table, whole.complete), *whole.notes]
     if not whole.complete.any():
         problem = f"sheet {DATA!r} has no row with all of temperature, frequency and both moduli."

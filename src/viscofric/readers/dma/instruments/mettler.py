@@ -14,8 +14,8 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
 from viscofric.readers.dma.names import DMA, quantity
-from viscofric.readers.dma.readings import Readings, of_one_file
-from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.dma.readings import Readings
+from viscofric.readers.dma.tables.dma_table import read_export
 from viscofric.readers.source import Source
 from viscofric.readers.table import Table, instrument_table
 
@@ -61,8 +61,7 @@ def _primes(text: str) -> str:
 def read(source: Source) -> Readings:
     """Return the points, or raise `DataFileError` for a missing column, a wrong unit or a damaged row."""
     blocks = _blocks(source)
-    parts = [read_points(_table(source.path, block), source, NAME, "", strict=True) for block in blocks]
-    whole = of_one_file(parts, "some blocks")
+    whole = read_export([_table(source.path, block) for block in blocks], source, NAME, "some blocks")
     notes = whole.notes
     if "x" in blocks[0].names:
         said = "The amplitude x is a displacement and the sample's length is missing, so the strain is unknown."

@@ -22,12 +22,12 @@ from viscofric.readers.dma.instruments.rheocompass_intervals import (
     intervals,
 )
 from viscofric.readers.dma.names import DMA, tools_in
-from viscofric.readers.dma.readings import Readings, of_one_file
-from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.dma.tables.dma_table import read_export
 from viscofric.readers.source import STRAIN_FACTORS
 from viscofric.readers.table import Table, instrument_table
 
 if TYPE_CHECKING:
+    from viscofric.readers.dma.readings import Readings
     from viscofric.readers.source import Source
 
     #: Line and cells of points.
@@ -49,9 +49,8 @@ def read(source: Source) -> Readings:
     found = intervals(source)
     oscillating = [interval for interval in found if interval.oscillates]
     decimals = Decimals.of(source.path, oscillating)
-    tools = tools_in(head(source))
     notes: list[Note] = []
-    parts: list[Readings] = []
+    tables: list[Table] = []
     for interval in oscillating:
         rows = _complete(interval)
         if not rows:
@@ -62,9 +61,9 @@ def read(source: Source) -> Readings:
         held = frequency.size < 2 or np.ptp(frequency) <= _SAME_FREQUENCY * np.max(np.abs(frequency))
         if held and source.test == "frequency":
             continue
-        parts.append(read_points(table, source, NAME, "", strict=True, tools=tools))
+        tables.append(table)
         notes += _doubts(interval)
-    if not parts:
+    if not tables:
         headings = ", ".join(repr(column) for column in found[0].columns[1:] if column)
         raise DataFileError(
             source.path,
@@ -72,13 +71,13 @@ def read(source: Source) -> Readings:
             f"has the columns {headings}.",
             code="no-frequency-sweep",
         )
-    others = len(found) - len(parts)
+    others = len(found) - len(tables)
     if others:
         what = "1 interval that is no frequency sweep was"
         what = what if others == 1 else f"{others} intervals that are no frequency sweeps were"
         notes.insert(0, Note("no-frequency-sweep", f"{what} skipped."))
-    whole = of_one_file(parts, "the intervals")
-    step = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    whole = read_export(tables, source, NAME, "the intervals", tools=tools_in(head(source)))
+    step = np.repeat(np.arange(len(tables)), [len(table.rows) for table in tables])
     return replace(whole, step=step, notes=tuple(dict.fromkeys((*notes, *whole.notes))))
 
 

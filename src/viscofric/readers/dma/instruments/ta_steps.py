@@ -13,8 +13,8 @@ from viscofric.arrays import Array, Mask
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
 from viscofric.readers.dma.names import DMA
-from viscofric.readers.dma.readings import Readings, of_one_file
-from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.dma.readings import Readings
+from viscofric.readers.dma.tables.dma_table import read_export
 from viscofric.readers.headings import Column
 from viscofric.readers.source import COMMA_NUMBER, Source, Test, decimal_comma
 from viscofric.readers.table import Table
@@ -224,21 +224,12 @@ def readings_of(
     if not used:
         problem = "no point of its frequency sweeps has all of temperature, frequency and moduli."
         raise DataFileError(source.path, problem, code="no-points")
-    torque = all(step.table.has("oscillation torque") for _, step in sweeps)
+    tables = [step.table for _, step in used]
     with np.errstate(all="ignore"):  # of products that overflow
-        parts = [_points(source, kind, step, tools, torque=torque) for _, step in used]
-    whole = of_one_file(parts, "the steps")
-    step = np.repeat([number for number, _ in used], [len(part) for part in parts]).astype(np.int64)
-    return replace(whole, step=step, notes=tuple(dict.fromkeys((*notes, *whole.notes))))
-
-
-def _points(source: Source, kind: str, step: Step, tools: Sequence[tuple[str, str]], *, torque: bool) -> Readings:
-    table = step.table
-    if not torque:  # of some of the steps only, it says nothing of the others
-        columns = (replace(one, name="") if one.quantity == "oscillation torque" else one for one in table.columns)
-        table = replace(table, columns=tuple(columns))
-    found = read_points(table, source, kind, "", step.where, tools=tools)
-    return found.taken(np.flatnonzero(found.complete))
+        whole = read_export(tables, source, kind, "the steps", used[0][1].where, tools)
+    step = np.repeat([number for number, _ in used], [len(table.rows) for table in tables]).astype(np.int64)
+    whole = replace(whole, step=step, notes=tuple(dict.fromkeys((*notes, *whole.notes))))
+    return whole.taken(np.flatnonzero(whole.complete))
 
 
 def _contents(steps: Sequence[Step]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,7 @@ from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import doubts, insist_on_agreement
 from viscofric.readers.dma.names import deformation_of, quantity, said_by_columns, temperature_in_name
-from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
+from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
 from viscofric.readers.tables import name_columns
@@ -173,17 +174,17 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
     return values
 
 
-def deformation(table: Table, places: dict[str, int], tools: Tools | None = None) -> Said:
+def deformation(tables: Sequence[Table], tools: Tools | None = None) -> Said:
     """Return tension or shear and the words that state it; moduli of both kinds are a `DataFileError`.
 
-    `tools` are label and value of the sample holder, if it is not named above the table.
+    `tools` are label and value of the sample holder, if it is not named above the tables.
     """
-    moduli = [table.columns[places[modulus]] for modulus in _MODULI if modulus in places]
+    moduli = [column for what in _MODULI for table in tables for column in table.columns if column.quantity == what]
     if {"tension", "shear"} <= {deformation_of(column.name) for column in moduli}:
         problem = "one modulus is tensile (E) by its heading, the other shear (G)."
-        raise DataFileError(table.path, problem, code="deformation-contradicts")
-    tools = names.tools_in(table.above) if tools is None else tools
-    return said_by_columns([column.heading for column in moduli], table.filled, tools)
+        raise DataFileError(tables[0].path, problem, code="deformation-contradicts")
+    tools = [tool for table in tables for tool in names.tools_in(table.above)] if tools is None else tools
+    return said_by_columns([column.heading for column in moduli], [table.filled for table in tables], tools)
 
 
 #: Frequency range of the sweeps of any instrument; master curves exceed it.
@@ -221,7 +222,7 @@ def read_points(
     temperature = _temperature(table, places, source, name, frequency, notes)
     _insist_on_most(table, places, "frequency", frequency)
     _insist_on_most(table, places, "storage modulus", storage)
-    kind, said_by = deformation(table, places, tools)
+    kind, said_by = deformation([table], tools)
     amplitude = _strain_amplitude(table, notes)
     _note_numbered(table, notes)
     return Readings(
@@ -239,6 +240,23 @@ def read_points(
         lacks_unit=lacks_unit(table, places, source),
         notes=(*notes, *doubts(table, places, temperature, storage)),
     )
+
+
+def read_export(
+    tables: Sequence[Table],
+    source: Source,
+    format: str,  # noqa: A002
+    what: str,
+    where: str = "line",
+    tools: Tools | None = None,
+) -> Readings:
+    """Return the points of the tables, called `what` in an error, of one file of an instrument, without their steps.
+
+    All tables decide together between tension and shear: a torque in one of them states nothing of the others.
+    """
+    parts = [read_points(table, source, format, "", where, strict=True, tools=tools) for table in tables]
+    kind, said_by = deformation(tables, tools)
+    return replace(of_one_file(parts, what), deformation=kind, said_by=said_by)
 
 
 def _temperature(
