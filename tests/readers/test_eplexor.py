@@ -57,6 +57,14 @@ def test_row_without_modulus_is_left_out_and_reported(tmp_path):
     assert noted(readings.notes, "points-left-out", "row 5")
 
 
+def test_rows_without_modulus_may_be_most_of_the_sheet(tmp_path):
+    tables = raw_tables()
+    for row in tables["Exported Data"][4:]:
+        row[6] = "---"
+    readings = read(saved(tmp_path, tables))
+    assert readings.storage_modulus.tolist() == pytest.approx([point[2] for point in points()[:2]], rel=1e-12)
+
+
 def test_row_without_strain_keeps_its_moduli(tmp_path):
     tables = raw_tables()
     tables["Exported Data"][2][2] = "---"

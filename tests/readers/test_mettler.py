@@ -8,6 +8,7 @@ import pytest
 from readers.refusal import noted, refused
 from readers.samples.mettler import SAMPLES, block, line, text
 from readers.samples.rubber import points
+from viscofric import read_dma
 from viscofric.readers.dma.instruments import mettler
 from viscofric.readers.source import Source
 
@@ -101,6 +102,24 @@ def test_missing_number_leaves_its_point_incomplete():
     cells[8] = "nan"
     lines[3] = " " + " ".join(cells)
     assert mettler.read(written(lines)).complete.tolist() == [True, False, True, True, True]
+
+
+def changed(lines, place, *cells):
+    """Return a block with other cells in a column of its first points."""
+    rows = [one.split() for one in lines]
+    for row, cell in zip(rows[2:], cells, strict=False):
+        row[place] = cell
+    return [" " + " ".join(row) for row in rows]
+
+
+@pytest.mark.parametrize("cell", ["nan", "-1.5"])
+def test_block_with_few_usable_points_does_not_refuse_the_others(tmp_path, cell):
+    path = tmp_path / "sweeps.txt"
+    lines = [*block(-10.0), *changed(block(10.0), 8, *[cell] * 3), *block(30.0)]
+    path.write_text("\n".join(lines), encoding="iso-8859-1")
+    sweeps = read_dma(path)
+    assert sum(len(one.storage_modulus) for one in sweeps.isotherms) == 12
+    assert noted(sweeps.notes, "points-left-out", "3 points")
 
 
 def test_row_cut_short_is_reported():

@@ -129,6 +129,12 @@ def test_deformation_is_decided_from_all_intervals(head, column, unit, second, d
     assert rheocompass.read(written([*head, *first, *axial])).deformation == deformation
 
 
+def test_interval_with_few_usable_points_does_not_refuse_the_others():
+    bad = sweep([["30.0", "1", "-5", "100"], ["30.0", "5", "-7", "100"], ["30.0", "10", "2000", "200"]])
+    readings = rheocompass.read(written([*sweep([*ROWS, ["25.0", "100", "3000", "300"]]), *bad]))
+    assert readings.storage_modulus.tolist() == [1000.0, 2000.0, 3000.0, -5.0, -7.0, 2000.0]
+
+
 def test_tensile_names_are_known():
     columns = ("Temperature", "Angular Frequency", "Tensile Storage Modulus", "Tensile Loss Modulus")
     assert rheocompass.read(written(sweep(ROWS, columns))).deformation == "tension"

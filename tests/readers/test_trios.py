@@ -179,6 +179,20 @@ def test_step_whose_moduli_are_tensile_contradicts_one_in_torsion(tmp_path):
         read(path)
 
 
+@pytest.mark.parametrize("number", ["", "-1.5"])
+def test_step_with_few_usable_points_does_not_refuse_the_others(tmp_path, number):
+    path = trios.write_lims(tmp_path)
+    before, last = path.read_text(encoding="utf-8-sig").rsplit("[Step]", 1)
+    storage = 1 + list(trios.COLUMNS).index("Storage modulus")
+    lines = [line.split("\t") for line in last.splitlines()]
+    for line in [line for line in lines if line[0] == "Data point"][:3]:
+        line[storage] = number
+    path.write_text(f"{before}[Step]" + "\n".join(map("\t".join, lines)) + "\n", encoding="utf-8")
+    sweeps = read_dma(path)
+    assert sum(len(one.storage_modulus) for one in sweeps.isotherms) == 12
+    assert noted(sweeps.notes, "points-left-out", "3 points")
+
+
 def test_several_frequencies_of_an_amplitude_sweep_are_no_frequency_sweep(tmp_path):
     path = trios.write_lims(tmp_path)
     text = path.read_text(encoding="utf-8-sig").replace("Frequency sweep (10.0", "Amplitude sweep (10.0")

@@ -198,13 +198,14 @@ def read_points(
     name: str,
     where: str = "line",
     *,
-    strict: bool = False,
+    exported: bool = False,
     tools: Tools | None = None,
 ) -> Readings:
     """Return the points of one table.
 
     `name` is that of the file or sheet, which may contain the temperature; numbers of rows count lines, or what `where`
-    says.  `strict`: no frequency may be zero or less, as in exports of an instrument; `tools` as for `deformation`.
+    says.  `exported`: by an instrument, which writes no frequency of zero or less; a file may hold many such tables, so
+    that moduli are judged when all points are joined (`checks.usable`).  `tools` as for `deformation`.
     """
     places = find_columns(table)
     if is_reduced(table, places):
@@ -216,12 +217,13 @@ def read_points(
         notes.append(Note("empty-rows", f"{rows} neither frequency nor modulus; skipped."))
     frequency = angular_frequency(table, places, notes)
     insist_on_one_frequency(table, places, frequency)
-    if strict and np.any(frequency <= 0.0):
+    if exported and np.any(frequency <= 0.0):
         raise table.wrong_cell(int(np.argmax(frequency <= 0.0)), places["frequency"], "above zero")
     storage, loss = moduli(table, places, source, notes)
     temperature = _temperature(table, places, source, name, frequency, notes)
-    _insist_on_most(table, places, "frequency", frequency)
-    _insist_on_most(table, places, "storage modulus", storage)
+    if not exported:
+        _insist_on_most(table, places, "frequency", frequency)
+        _insist_on_most(table, places, "storage modulus", storage)
     kind, said_by = deformation([table], tools)
     amplitude = _strain_amplitude(table, notes)
     _note_numbered(table, notes)
@@ -254,7 +256,7 @@ def read_export(
 
     All tables decide together between tension and shear: a torque in one of them states nothing of the others.
     """
-    parts = [read_points(table, source, format, "", where, strict=True, tools=tools) for table in tables]
+    parts = [read_points(table, source, format, "", where, exported=True, tools=tools) for table in tables]
     kind, said_by = deformation(tables, tools)
     return replace(of_one_file(parts, what), deformation=kind, said_by=said_by)
 
