@@ -65,6 +65,14 @@ def test_rows_without_modulus_may_be_most_of_the_sheet(tmp_path):
     assert readings.storage_modulus.tolist() == pytest.approx([point[2] for point in points()[:2]], rel=1e-12)
 
 
+def test_strain_without_a_unit_is_not_read(tmp_path):
+    tables = raw_tables()
+    tables["Exported Data"][1][2] = ""
+    readings = read(saved(tmp_path, tables))
+    assert readings.strain_amplitude is None
+    assert noted(readings.notes, "strain-amplitude-not-read", "'Strain dyn'")
+
+
 def test_row_without_strain_keeps_its_moduli(tmp_path):
     tables = raw_tables()
     tables["Exported Data"][2][2] = "---"

@@ -135,6 +135,15 @@ def test_interval_with_few_usable_points_does_not_refuse_the_others():
     assert readings.storage_modulus.tolist() == [1000.0, 2000.0, 3000.0, -5.0, -7.0, 2000.0]
 
 
+@pytest.mark.parametrize("unit", ["[]", "[°]"])
+def test_strain_without_a_known_unit_is_not_read(unit):
+    columns = ("Temperature", "Angular Frequency", "Storage Modulus", "Loss Modulus", "Shear Strain")
+    rows = [[*row, "0.5"] for row in ROWS]
+    readings = rheocompass.read(written(sweep(rows, columns, ("[°C]", "[rad/s]", "[Pa]", "[Pa]", unit))))
+    assert readings.strain_amplitude is None
+    assert len(noted(readings.notes, "strain-amplitude-not-read", "'Shear Strain'")) == 1
+
+
 def test_tensile_names_are_known():
     columns = ("Temperature", "Angular Frequency", "Tensile Storage Modulus", "Tensile Loss Modulus")
     assert rheocompass.read(written(sweep(ROWS, columns))).deformation == "tension"

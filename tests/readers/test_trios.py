@@ -193,6 +193,14 @@ def test_step_with_few_usable_points_does_not_refuse_the_others(tmp_path, number
     assert noted(sweeps.notes, "points-left-out", "3 points")
 
 
+def test_strain_without_a_unit_is_not_read(tmp_path):
+    path = trios.write_lims(tmp_path)
+    path.write_text(path.read_text(encoding="utf-8-sig").replace("\t%\t", "\t\t"), encoding="utf-8")
+    readings = read(path)
+    assert readings.strain_amplitude is None
+    assert len(noted(readings.notes, "strain-amplitude-not-read", "'Oscillation strain'")) == 1
+
+
 def test_several_frequencies_of_an_amplitude_sweep_are_no_frequency_sweep(tmp_path):
     path = trios.write_lims(tmp_path)
     text = path.read_text(encoding="utf-8-sig").replace("Frequency sweep (10.0", "Amplitude sweep (10.0")

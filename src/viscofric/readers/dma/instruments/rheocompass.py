@@ -23,7 +23,6 @@ from viscofric.readers.dma.instruments.rheocompass_intervals import (
 )
 from viscofric.readers.dma.names import DMA, tools_in
 from viscofric.readers.dma.tables.dma_table import read_export
-from viscofric.readers.source import STRAIN_FACTORS
 from viscofric.readers.table import Table, instrument_table
 
 if TYPE_CHECKING:
@@ -93,11 +92,9 @@ def _complete(interval: Interval) -> Rows:
 
 
 def _table(path: str, interval: Interval, rows: Rows, decimals: Decimals) -> Table:
-    """Return complete points as a table; amplitudes of any sign, and those of an unknown unit are not read."""
+    """Return complete points as a table; amplitudes may have any sign."""
     quantities = {place: what for what, place in interval.places.items()}
-    strain = interval.places.get("strain amplitude", -1)
-    if interval.units[strain] not in STRAIN_FACTORS:
-        quantities.pop(strain, None)
+    strain = interval.places.get("strain amplitude")
     columns = [
         (name, unit, quantities.get(place, ""))
         for place, (name, unit) in enumerate(zip(interval.columns, interval.units, strict=True))
@@ -120,10 +117,6 @@ def _doubts(interval: Interval) -> list[Note]:
             what = "1 point was" if len(lines) == 1 else f"{len(lines)} points were"
             said = f"{what} left out, {why} (line{'s' if len(lines) > 1 else ''} {shown})."
             notes.append(Note("points-left-out", said))
-    strain = interval.places.get("strain amplitude")
-    if strain is not None and interval.units[strain] not in STRAIN_FACTORS:
-        said = f"The strain amplitudes were not read: column {interval.columns[strain]!r} has no unit such as '%'."
-        notes.append(Note("strain-amplitude-not-read", said))
     if interval.missing:
         notes.append(
             Note(

@@ -204,8 +204,9 @@ def read_points(
     """Return the points of one table.
 
     `name` is that of the file or sheet, which may contain the temperature; numbers of rows count lines, or what `where`
-    says.  `exported`: by an instrument, which writes no frequency of zero or less; a file may hold many such tables, so
-    that moduli are judged when all points are joined (`checks.usable`).  `tools` as for `deformation`.
+    says.  `exported`: by an instrument, which writes no frequency of zero or less; a strain without a unit may be in
+    per cent and is not read; a file may hold many such tables, so that moduli are judged when all points
+    are joined (`checks.usable`).  `tools` as for `deformation`.
     """
     places = find_columns(table)
     if is_reduced(table, places):
@@ -225,7 +226,7 @@ def read_points(
         _insist_on_most(table, places, "frequency", frequency)
         _insist_on_most(table, places, "storage modulus", storage)
     kind, said_by = deformation([table], tools)
-    amplitude = _strain_amplitude(table, notes)
+    amplitude = _strain_amplitude(table, notes, "" if exported else "1")
     _note_numbered(table, notes)
     return Readings(
         source=source.path,
@@ -332,8 +333,8 @@ def _note_numbered(table: Table, notes: list[str]) -> None:
         notes.append(Note("unused-columns", text))
 
 
-def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
-    """Return fractions, None without exactly one column of them with a known unit."""
+def _strain_amplitude(table: Table, notes: list[str], without_unit: str) -> Array | None:
+    """Return fractions, None without exactly one column of them with a known unit, or one that it has without any."""
     found = [p for p, column in enumerate(table.columns) if column.quantity == "strain amplitude"]
     named = [p for p in found if _OF_OSCILLATION.search(table.columns[p].name)]
     if len(found) > 1 and len(named) == 1:  # others are of a steady deformation
@@ -345,7 +346,7 @@ def _strain_amplitude(table: Table, notes: list[str]) -> Array | None:
     if len(found) != 1:
         return None
     column = table.columns[found[0]]
-    factor = STRAIN_FACTORS.get(column.unit.strip() or "1")
+    factor = STRAIN_FACTORS.get(column.unit.strip() or without_unit)
     if factor is None:
         said = f"The strain amplitudes were not read: column {column.heading!r} has no unit such as '%'."
         notes.append(Note("strain-amplitude-not-read", said))
