@@ -122,6 +122,22 @@ def test_block_with_few_usable_points_does_not_refuse_the_others(tmp_path, cell)
     assert noted(sweeps.notes, "points-left-out", "3 points")
 
 
+def test_decimal_comma_of_one_block_is_that_of_the_file():
+    numbers = ("1.500", "2.500", "3.500", "4.500", "5.500")
+    bare = [line(one.split()[:2] + one.split()[3:5] + one.split()[8:10]) for one in block(10.0)]
+    rows = [one.split() for one in bare]
+    for row, number in zip(rows[2:], numbers, strict=True):
+        row[1:] = [number, number, "1.000", number, "1.250"]
+    doubtful = [" ".join(row) for row in rows]
+    commas = [one.replace(".", ",") for one in doubtful]
+    with refused("ambiguous-decimals"):
+        mettler.read(written(commas))
+    clear = [one.replace(".", ",") for one in block(30.0)]
+    found = mettler.read(written(commas + clear)).storage_modulus
+    assert found[:5].tolist() == [1.5e6, 2.5e6, 3.5e6, 4.5e6, 5.5e6]
+    assert np.array_equal(found[5:], mettler.read(written(block(30.0))).storage_modulus)
+
+
 def test_row_cut_short_is_reported():
     lines = block(10.0)
     lines[-1] = lines[-1][:100]

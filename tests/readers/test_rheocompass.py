@@ -144,6 +144,14 @@ def test_strain_without_a_known_unit_is_not_read(unit):
     assert len(noted(readings.notes, "strain-amplitude-not-read", "'Shear Strain'")) == 1
 
 
+@pytest.mark.parametrize("times", [("1,234", "2,345"), ("1,5", "2,5"), ("1.5", "2,5")])
+def test_columns_that_are_not_needed_may_have_any_separators(times):
+    columns = ("Temperature", "Angular Frequency", "Storage Modulus", "Loss Modulus", "Time")
+    rows = [[*row, time] for row, time in zip(ROWS, times, strict=True)]
+    readings = rheocompass.read(written(sweep(rows, columns, ("[°C]", "[rad/s]", "[Pa]", "[Pa]", "[s]"))))
+    assert readings.storage_modulus.tolist() == [1000.0, 2000.0]
+
+
 def test_tensile_names_are_known():
     columns = ("Temperature", "Angular Frequency", "Tensile Storage Modulus", "Tensile Loss Modulus")
     assert rheocompass.read(written(sweep(ROWS, columns))).deformation == "tension"

@@ -185,7 +185,7 @@ def table_of_text(shown: str, text: str) -> Table:
         )
     columns = tuple(heading(cell) for cell in split_cells(shown, first, header, delimiter))
     rows = [(number, split_cells(shown, number, line, delimiter)) for number, line in lines[1:]]
-    return make_table(shown, columns, rows, comma_is_free=delimiter != ",")
+    return make_table(shown, columns, rows, comma=False if delimiter == "," else None)
 
 
 def text_lines(text: str) -> list[tuple[int, str]]:
@@ -199,10 +199,10 @@ def make_table(
     columns: tuple[Column, ...],
     numbered: Sequence[NumberedRow],
     *,
-    comma_is_free: bool = True,
+    comma: bool | None = None,
     vocabulary: Vocabulary = NO_WORDS,
 ) -> Table:
-    """Return a table of numbered rows under their headings; `comma_is_free`: a comma may be a decimal comma.
+    """Return a table of numbered rows under their headings; `comma`: whether decimals have one, None if numbers decide.
 
     Rows without any cell, or with none in the columns of the quantities that make a header, are left out.
     """
@@ -225,14 +225,15 @@ def make_table(
         lines.append(number)
     if not rows:
         raise DataFileError(path, "there is a header, but no row of numbers under it.", code="no-points")
-    # a remark may contain any comma; a pure number, such as a coefficient of friction, has no unit
-    measured = [
-        place
-        for place, column in enumerate(columns)
-        if column.unit or column.quantity or all(_IS_NUMBER.fullmatch(row[place].strip()) for row in rows)
-    ]
-    printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
-    comma = comma_is_free and decimal_comma(path, printed)
+    if comma is None:
+        # a remark may contain any comma; a pure number, such as a coefficient of friction, has no unit
+        measured = [
+            place
+            for place, column in enumerate(columns)
+            if column.unit or column.quantity or all(_IS_NUMBER.fullmatch(row[place].strip()) for row in rows)
+        ]
+        printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
+        comma = decimal_comma(path, printed)
     numbers = np.array(lines, dtype=np.int64)
     return Table(path, columns, tuple(rows), numbers, comma, empty_rows=empty, vocabulary=vocabulary)
 
@@ -242,10 +243,14 @@ def instrument_table(
     columns: Sequence[tuple[str, str, str]],
     rows: Sequence[NumberedRow],
     vocabulary: Vocabulary,
+    comma: bool | None = None,
 ) -> Table:
-    """Return a table of an instrument's export: its columns are name, unit and quantity, which the format knows."""
+    """Return a table of an instrument's export: its columns are name, unit and quantity, which the format knows.
+
+    `comma` as for `make_table`: a file of several tables has one decimal mark.
+    """
     headed = tuple(Column(name, name, unit, quantity) for name, unit, quantity in columns)
-    return replace(make_table(path, headed, rows), vocabulary=vocabulary)
+    return replace(make_table(path, headed, rows, comma=comma), vocabulary=vocabulary)
 
 
 def or_name_it(key: str, what: str, said: str) -> Remedy:

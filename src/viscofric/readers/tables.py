@@ -159,7 +159,7 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
         )
     blocks = _stacked(body, list(rows[header][1]), columns)
     kept = [row for block in blocks for row in block]
-    table = make_table(path, columns, kept, comma_is_free=found.comma_is_free, vocabulary=words)
+    table = make_table(path, columns, kept, comma=None if found.comma_is_free else False, vocabulary=words)
     first_lines = [block[0][0] for block in blocks if block]
     block = np.searchsorted(first_lines, table.lines, side="right") if len(first_lines) > 1 else None
     return replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block)

@@ -16,7 +16,7 @@ from viscofric.notes import Note
 from viscofric.readers.dma.names import DMA, quantity
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
-from viscofric.readers.source import Source
+from viscofric.readers.source import Source, decimal_comma
 from viscofric.readers.table import Table, instrument_table
 
 NAME = "Mettler-Toledo DMA text"
@@ -61,7 +61,10 @@ def _primes(text: str) -> str:
 def read(source: Source) -> Readings:
     """Return the points, or raise `DataFileError` for a missing column, a wrong unit or a damaged row."""
     blocks = _blocks(source)
-    whole = read_export([_table(source.path, block) for block in blocks], source, NAME, "some blocks")
+    numbered = [one for block in blocks for one in zip(block.rows, block.lines, strict=True)]
+    comma = decimal_comma(source.path, ((cell, line) for row, line in numbered for cell in row))
+    tables = [_table(source.path, block, comma) for block in blocks]
+    whole = read_export(tables, source, NAME, "some blocks")
     notes = whole.notes
     if "x" in blocks[0].names:
         said = "The amplitude x is a displacement and the sample's length is missing, so the strain is unknown."
@@ -70,13 +73,13 @@ def read(source: Source) -> Readings:
     return replace(whole, step=steps, notes=notes)
 
 
-def _table(path: str, block: _Block) -> Table:
+def _table(path: str, block: _Block, comma: bool) -> Table:
     known = {name: _QUANTITIES.get(name) or quantity(name) or "" for name in _KNOWN}
     columns = [
         (name, unit.strip("[] ") if name != "tan_delta" else "", known.get(name, ""))
         for name, unit in zip(block.names, block.units, strict=True)
     ]
-    return instrument_table(path, columns, list(zip(block.lines, block.rows, strict=True)), DMA)
+    return instrument_table(path, columns, list(zip(block.lines, block.rows, strict=True)), DMA, comma)
 
 
 def _blocks(source: Source) -> list[_Block]:

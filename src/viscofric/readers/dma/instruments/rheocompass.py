@@ -103,7 +103,7 @@ def _table(path: str, interval: Interval, rows: Rows, decimals: Decimals) -> Tab
         (line, [decimals.plain(cell.lstrip("-") if place == strain else cell) for place, cell in enumerate(row)])
         for line, row in rows
     ]
-    return instrument_table(f"{path}, interval in line {interval.line}", columns, body, DMA)
+    return instrument_table(f"{path}, interval in line {interval.line}", columns, body, DMA, comma=False)
 
 
 def _doubts(interval: Interval) -> list[Note]:
