@@ -304,6 +304,7 @@ def test_shear_and_tension_are_reported_in_the_users_language(tmp_path):
     [
         ("storage modulus (MPa),tan delta", "8,0.75", True),  # 8, 6, 10: a right triangle
         ("loss modulus (MPa),tan δ", "6,0.75", True),
+        ("loss modulus (MPa),tan δ (-)", "6,0.75", True),
         ("|E*| (MPa),loss factor", "10,0.75", True),
         ("storage modulus (MPa),loss modulus (MPa),tan delta", "8,6,0.75", False),
     ],

@@ -73,6 +73,16 @@ def test_strain_without_a_unit_is_not_read(tmp_path):
     assert noted(readings.notes, "strain-amplitude-not-read", "'Strain dyn'")
 
 
+@pytest.mark.parametrize("unit", ["", "-", "1"])
+def test_tan_delta_must_agree_with_the_moduli(tmp_path, unit):
+    tables = raw_tables()
+    tables["Exported Data"][1][9] = unit
+    for row in tables["Exported Data"][2:]:
+        row[9] *= 2.0
+    with refused("columns-contradict"):
+        read(saved(tmp_path, tables))
+
+
 def test_row_without_strain_keeps_its_moduli(tmp_path):
     tables = raw_tables()
     tables["Exported Data"][2][2] = "---"

@@ -88,6 +88,12 @@ def test_frequency_in_hertz_is_turned_into_radians():
     assert np.allclose(readings.angular_frequency, [2 * np.pi, 20 * np.pi], rtol=1e-12)
 
 
+def test_angular_frequency_without_a_unit_is_in_radians():
+    readings = rheocompass.read(written(sweep(ROWS, units=("[°C]", "[]", "[Pa]", "[Pa]"))))
+    assert readings.angular_frequency.tolist() == [1.0, 10.0]
+    assert noted(readings.notes, "frequency-without-unit", "'Angular Frequency'")
+
+
 @pytest.mark.parametrize(("unit", "factor"), [("[1]", 1.0), ("[%]", 0.01)])
 def test_strain_is_a_fraction(unit, factor):
     columns = ("Temperature", "Angular Frequency", "Storage Modulus", "Loss Modulus", "Shear Strain")
@@ -142,6 +148,14 @@ def test_strain_without_a_known_unit_is_not_read(unit):
     readings = rheocompass.read(written(sweep(rows, columns, ("[°C]", "[rad/s]", "[Pa]", "[Pa]", unit))))
     assert readings.strain_amplitude is None
     assert len(noted(readings.notes, "strain-amplitude-not-read", "'Shear Strain'")) == 1
+
+
+@pytest.mark.parametrize("unit", ["[1]", "[-]"])
+def test_loss_factor_must_agree_with_the_moduli(unit):
+    columns = ("Temperature", "Angular Frequency", "Storage Modulus", "Loss Modulus", "Loss Factor")
+    text = sweep([[*row, "0.7"] for row in ROWS], columns, ("[°C]", "[rad/s]", "[Pa]", "[Pa]", unit))
+    with refused("columns-contradict", None, "0.7"):
+        rheocompass.read(written(text))
 
 
 @pytest.mark.parametrize("times", [("1,234", "2,345"), ("1,5", "2,5"), ("1.5", "2,5")])

@@ -293,6 +293,14 @@ def test_hertz_alone_and_radians_alone_mean_the_same(tmp_path):
         assert_planted(read(trios.write_json(tmp_path, names=names)))
 
 
+def test_angular_frequency_without_a_unit_is_in_radians(tmp_path):
+    path = trios.write_lims(tmp_path)
+    path.write_text(path.read_text(encoding="utf-8-sig").replace("rad/s", ""), encoding="utf-8")
+    readings = read(path)
+    assert_planted(readings)
+    assert noted(readings.notes, "frequency-without-unit", "'Angular frequency'")
+
+
 def test_loss_modulus_may_be_given_by_tan_delta(tmp_path):
     readings = read(trios.write_lims(tmp_path, names=tuple(name for name in trios.COLUMNS if name != "Loss modulus")))
     assert_planted(readings)

@@ -17,6 +17,7 @@ from viscofric.readers.dma.names import deformation_of, quantity, said_by_column
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
+from viscofric.readers.table import MISSING
 from viscofric.readers.tables import name_columns
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
         found["temperature"] = table.place("isotherm" if master_curve else "set temperature")
     places = {what: place for what, place in found.items() if place is not None}
     tangent = places.get("tan delta")
-    if tangent is not None and table.columns[tangent].unit not in ("", "1", "-", "–"):  # a tangent has no unit
+    if tangent is not None and table.columns[tangent].unit.lower() not in MISSING | {"1"}:  # a tangent has no unit
         del places["tan delta"]
     missing = [] if "frequency" in places else ["frequency"]
     if "tan delta" not in places or not any(modulus in places for modulus in _MODULI):
