@@ -50,7 +50,7 @@ NUMBERS = {
     # WLF about Tg with 17.44 and 51.6 K: 17.44·51.6/99.6 − 17.44·51.6/129.6
     "plot_06_modulus_and_temperature": Number("log10_shift", -17.44 * 51.6 * (1 / 99.6 - 1 / 129.6), 1e-12),
     # planted: 17.44·51.6/169.6 − 17.44·51.6/99.6, found within its standard error of 0.008
-    "plot_07_shift_factors": Number("log10_at_100", 17.44 * 51.6 * (1 / 169.6 - 1 / 99.6), 2e-3, -3.730143),
+    "plot_07_shift_factors": Number("log10_at_100", 17.44 * 51.6 * (1 / 169.6 - 1 / 99.6), 2e-3, -3.727301),
     # of the planted rubber; the fit averages 1 % of noise over the few isotherms that hold this frequency
     "plot_08_master_curve": Number("storage_modulus", 7.73002e6, 6e-3, 7.692169e6),
     # of the planted rubber, solved to 1e-4; the prediction goes through sweeps with 1 % of noise
@@ -62,7 +62,7 @@ NUMBERS = {
     # planted: 17.44·51.6/159.6 − 17.44·51.6/129.6, found within its standard error of 0.013; 1 % of noise
     "plot_12_shift_from_friction": Number("log10_at_90", 17.44 * 51.6 * (1 / 159.6 - 1 / 129.6), 1e-2, -1.304127),
     # from 400 draws; that of 60 is known to 1/√120 = 9 % only
-    "plot_13_uncertainty": Number("standard_error", 0.00631305, 0.2, 0.006359126),
+    "plot_13_uncertainty": Number("standard_error", 0.00778332, 0.2, 0.008442481),
     # the anchor is of that frequency, the planted rubber the truth; half the 95 % band is 2 %
     "plot_14_identification": Number("ratio", 1.0, 2e-2, 1.000256),
     # the same track on 256² points; the example's error estimate is 3 %, as 128² points leave it

@@ -340,7 +340,8 @@ def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
 
 
 @pytest.mark.apart
-def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent():
+def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent_or_more():
+    """More, since offsets of isotherms, which these sweeps do not have, are not excluded by them."""
     rubbers = ((vf.synthetic_fluoroelastomer(), 303.15, 0.01), (synthetic_polymer(), 298.15, 0.03))
     shares = []
     for truth, reference, noise in rubbers:
@@ -354,10 +355,10 @@ def test_bands_of_95_per_cent_hold_the_truth_at_95_per_cent():
             shares.append((storage.mean(), loss.mean()))
     storage, loss = np.mean(shares, axis=0)
     # Points of one curve err together: the share of one seed scatters by 13 % in E', 6 % in E'' and 7 % in both,
-    # that of 24 by 2.7, 1.2 and 1.4 %; three of these about 95 %, and 0.5 % for limits from 100 samples.
+    # that of 24 by 2.7, 1.2 and 1.4 %; three of these below 95 %, and 0.5 % for limits from 100 samples.
     assert storage > 0.95 - 0.085
-    assert abs(loss - 0.95) < 0.04
-    assert abs(0.5 * (storage + loss) - 0.95) < 0.045
+    assert loss > 0.95 - 0.04
+    assert 0.5 * (storage + loss) > 0.95 - 0.045
     # Of the twelve of each rubber the scatter is 2.0 %.
     assert np.all(np.mean(np.reshape(shares, (2, 24)), axis=1) > 0.95 - 0.065)
 
