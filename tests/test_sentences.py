@@ -8,6 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
@@ -90,6 +92,7 @@ def quoted(source: str) -> Iterator[tuple[int, str]]:
             yield getattr(one, "lineno", 0), text
 
 
+@pytest.mark.apart
 def test_no_test_compares_sentences_but_those_of_messages() -> None:
     found = [
         f"{path.relative_to(TESTS)}, line {line}: {text!r}"

@@ -271,7 +271,7 @@ def test_samples_that_do_not_fit_are_refused(measured) -> None:
         predicted(replace(material, spectrum=table), samples, 333.15, 0.1)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_what_is_reported_is_how_far_the_truth_is_off() -> None:
     """True friction of the planted rubber, in standard errors told, over five measurements of it with 1 % noise.
 

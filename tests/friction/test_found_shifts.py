@@ -106,13 +106,12 @@ def test_planted_shift_factors_are_found_without_noise() -> None:
     assert master("0.1 m/s", "56 degC") == pytest.approx(given_law("0.1 m/s", "56 degC"), rel=3e-3)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seeds", [30, pytest.param(100, marks=pytest.mark.apart)])
-def test_95_per_cent_intervals_hold_95_per_cent(seeds: int) -> None:
+@pytest.mark.apart
+def test_95_per_cent_intervals_hold_95_per_cent() -> None:
     """1000 seeds hold 94.9 % of each α and 94.5 % of all together, and none raises a false alarm."""
     law = planted_law()
     inside, slopes, together = [], [], []
-    for seed in range(seeds):
+    for seed in range(100):
         master = shift_friction(synthetic_curves(noise=NOISE, seed=seed))
         assert LEFT_OUT not in codes(master.notes)
         factors = master.shift_factors
@@ -122,10 +121,9 @@ def test_95_per_cent_intervals_hold_95_per_cent(seeds: int) -> None:
         slopes.append(abs(agreement.slope - 1.0) < 1.96 * agreement.slope_error)
         together.append(agreement.p_value > 0.05)
     # The standard deviation of 100 independent values is 2.2 %, that of 800 correlated ones less.
-    wider = np.sqrt(100 / seeds)
-    assert np.mean(inside) >= 0.95 - 0.05 * wider
-    assert np.mean(slopes) >= 0.95 - 0.06 * wider
-    assert np.mean(together) >= 0.95 - 0.06 * wider
+    assert np.mean(inside) >= 0.90
+    assert np.mean(slopes) >= 0.89
+    assert np.mean(together) >= 0.89
 
 
 @pytest.mark.parametrize("true", [3.0, 4.0, 8.0])

@@ -43,7 +43,7 @@ def scattered(seed: int) -> TractionRuns:
     return replace(runs, traction_force=runs.traction_force * factor)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_intervals_hold_the_truth_in_95_of_100_tests() -> None:
     """Multiplicative scatter of 5 %, eight replicates, 50 seeds: within 95 ± 5 %, and far closer on all entries."""
     held: dict[str, list[float]] = {"viscoelastic": [], "coulomb": []}

@@ -103,7 +103,7 @@ def test_ball_on_a_circle_that_closes():
     assert force == pytest.approx(exact[steps // 8 :: steps // 8], abs=8e-3 * np.abs(force).max())
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_cylinder_that_is_lifted_and_returns_to_its_track():
     """The largest difference is 1.9e-3, 2e-4 and 1.5e-4 of the largest friction with 120, 240 and 480 strips."""
     time, load = [0.0, 0.01, 0.015, 0.02, 0.03], [0.0, 500.0, 0.0, 0.0, 500.0]
@@ -164,7 +164,7 @@ def waited_for(spectrum, depths, times, periods, count):
     return np.array(loads)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.parametrize("swing", [0.05, 0.2])
 def test_oscillation_whose_edge_is_lost_in_every_period(swing):
     """Rings of pressure know nothing of springs. With 60 and 120 of them the loss differs by 3e-4 and 4e-5."""

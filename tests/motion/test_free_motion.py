@@ -94,6 +94,7 @@ def test_friction_of_a_stiff_cylinder_fades_smoothly_after_a_stop():
     assert run.energy_imbalance < 1e-3
 
 
+@pytest.mark.apart
 def test_the_load_after_a_glassy_start_is_as_accurate_as_asked():
     """A depth is put on at once: 800 times the later load for a moment, of which no part is left as an error."""
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="800 MPa", tau="0.2 s")
@@ -117,7 +118,7 @@ def test_friction_overshoots_after_a_start_from_rest(ratio, peak, place):
     assert run.position[top, 0] / A0 == pytest.approx(place, abs=0.02)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_a_slow_start_from_rest_does_not_overshoot():
     """A tenth of the retardation time from edge to centre: the friction is soon the steady one, and never above it."""
     times = np.linspace(0.1, 1.5, 15) * A0 / (0.1 * SPEED)
@@ -324,7 +325,7 @@ def test_far_memory_acts_as_on_its_cells(line):
     assert sum(part.sum() for _, part in revived) == pytest.approx(memory.sum() - near.sum(), rel=1e-12)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_a_contact_returns_to_memory_that_was_far(monkeypatch):
     monkeypatch.setattr(solve, "_LINE_CELLS", 24)
     history = vf.motion.History([0.0, 0.02, 0.04], load=20.0, position=[0.0, 3e-3, 0.0], before="at rest")

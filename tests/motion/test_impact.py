@@ -250,6 +250,7 @@ def test_what_cannot_fall_is_refused():
         vf.motion.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, accuracy=0.5)
 
 
+@pytest.mark.apart
 @pytest.mark.parametrize("accuracy", [1e-2, 1e-4])
 def test_the_error_of_restitution_includes_merged_modes_and_springs(accuracy: float) -> None:
     """Restitution at this accuracy and at a much finer one differ by no more than the stated error."""
@@ -298,6 +299,7 @@ def test_the_error_of_the_energy_of_an_impact_includes_its_imbalance(ratio: floa
     assert np.all(one.errors.energy >= np.abs(one.errors.balance))
 
 
+@pytest.mark.apart
 def test_motion_faster_than_the_material_was_measured_is_noted() -> None:
     solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
     material = vf.Material(replace(solid, fit=SpectrumFit(None, None, False, False, (100.0, 2e3))))

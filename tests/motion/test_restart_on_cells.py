@@ -176,7 +176,7 @@ def test_an_interruption_before_the_first_step_of_a_finer_grid_keeps_the_coarser
     same(solved("cylinder", resume=begun), run)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_a_normal_motion_that_goes_on_by_sliding_is_solved_again_on_cells(tmp_path: Path):
     slides = vf.motion.History([0.0, 0.02, 0.03], load=1.0, position=[0.0, 0.0, 1e-3])
     pressed = vf.motion.solve_transient(

@@ -238,7 +238,7 @@ def _with_errors_in_common(kind: str, size: float) -> vf.FrictionCurves:
     return replace(curves, viscoelastic=friction, viscoelastic_error=0.005 * friction, **same)
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 @pytest.mark.usefixtures("closed_form")
 @pytest.mark.parametrize("kind", ["common_error", "drift_error", "coulomb_level_error", "level_error"])
 def test_bands_hold_with_errors_in_common_that_are_given(kind: str) -> None:

@@ -197,7 +197,7 @@ def test_stiffness_gives_the_modulus() -> None:
     assert found.records[0].to_dataset()["angular_frequency"].attrs["units"] == "rad/s"
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_planted_modulus_comes_back_from_rebounds_and_unloading() -> None:
     records = [rebounds(kelvin, (0.3, 0.7, 1.5)) for kelvin in (283.15, 303.15, 323.15)]
     found = vf.identify_from_indentation(records, BALL, shift=RUBBER.shift, reference=KELVIN, samples=20)
