@@ -268,6 +268,33 @@ def test_names_and_units_may_stand_in_two_rows(tmp_path, names, units):
 
 
 @pytest.mark.parametrize(
+    ("names", "units"),
+    [
+        (HEADER, "°C,Hz,MPa,MPa"),
+        (HEADER, "[C],[HZ],[N/mm²],"),
+        ("T,f (Hz),E' (MPa),E'' (MPa)", "°C,,,"),
+        ("T,f,E',E'' (MPa)", "°C,Hz,MPa,MPa"),
+    ],
+)
+def test_units_may_stand_in_headings_and_in_the_row_below(tmp_path, names, units):
+    assert_is_the_table(read_dma(write(tmp_path, names, units, *ROWS)))
+
+
+@pytest.mark.parametrize(
+    ("units", "refusal"),
+    [
+        ("°C,Hz,MPa,kPa", ("units-contradict", 2, "'MPa'", "'kPa'")),
+        ("°C,rad/s,MPa,MPa", ("units-contradict", 2, "'Hz'", "'rad/s'")),
+        ("K,Hz,MPa,MPa", ("units-contradict", 2, "'degC'", "'K'")),
+        ("25 °C,1 Hz,5 MPa,1 MPa", ("not-a-number", 2, "'1 Hz'")),  # values, not units
+    ],
+)
+def test_units_in_headings_and_in_the_row_below_must_agree(tmp_path, units, refusal):
+    with refused(*refusal):
+        read_dma(write(tmp_path, HEADER, units, *ROWS))
+
+
+@pytest.mark.parametrize(
     "header",
     [
         "Temperatur (°C);Frequenz (Hz);Speichermodul (MPa);Verlustmodul (MPa)",
@@ -446,6 +473,15 @@ def test_numbered_columns_that_are_not_read_are_named(tmp_path, other):
     sweeps = read_dma(write(tmp_path, f"{HEADER},{other}", *(f"{row},21" for row in ROWS)))
     assert_is_the_table(sweeps)
     assert noted(sweeps.notes, "unused-columns", repr(other))
+
+
+def test_words_that_may_tell_specimens_apart_are_named(tmp_path):
+    rows = [f"{row},{word}" for row, word in zip(ROWS, "ABAB", strict=True)]
+    sweeps = read_dma(write(tmp_path, f"{HEADER},sample", *rows))
+    assert noted(sweeps.notes, "unused-columns", "'sample'", "'A', 'B'")
+    for words in ("AAAA", "A  A", "ABCD"):  # one specimen, and remarks
+        rows = [f"{row},{word}" for row, word in zip(ROWS, words, strict=True)]
+        assert "unused-columns" not in codes(read_dma(write(tmp_path, f"{HEADER},sample", *rows)).notes)
 
 
 def test_two_columns_of_strain_amplitude_are_named(tmp_path):

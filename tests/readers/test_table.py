@@ -8,8 +8,7 @@ import sys
 import pytest
 
 from readers.refusal import refused
-from viscofric import files, read_dma
-from viscofric.readers.table import table_of_text
+from viscofric import files, read_dma, read_friction_curves
 
 HEADER = "temperature (degC);frequency (Hz);tensile storage modulus (MPa);tensile loss modulus (MPa)"
 
@@ -33,10 +32,26 @@ def test_points_and_commas_in_one_file_are_refused(tmp_path, rows, line, cell):
         read_dma(write(tmp_path, HEADER, *rows))
 
 
-def test_decimal_commas_in_columns_without_a_unit_alone():
+def test_decimal_commas_in_columns_without_a_unit_alone(tmp_path):
     heading = "speed (mm/s);temperature (degC);load (N);viscoelastic friction"
-    table = table_of_text("sweeps.csv", "\n".join([heading, "20;30;25;0,02", "40;30;25;0,0175"]))
-    assert table.numbers(3).tolist() == [0.02, 0.0175]
+    curves = read_friction_curves(write(tmp_path, heading, "20;30;25;0,02", "40;30;25;0,0175"))
+    assert curves.viscoelastic.tolist() == [0.02, 0.0175]
+
+
+def test_quoted_cells_may_have_decimal_commas_between_commas(tmp_path):
+    rows = ['"20","0,1","5,5","0,5"', '"20","1,0","6,5","0,5"']
+    sweeps = read_dma(write(tmp_path, HEADER.replace(";", ","), *rows))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+    with refused("ambiguous-decimals", 2, "'5,500'"):
+        read_dma(write(tmp_path, HEADER.replace(";", ","), '"20","1","5,500","0"'))
+
+
+@pytest.mark.parametrize("sign", ["-", "−"])
+@pytest.mark.parametrize("degree", ["°C", "ºC", "˚C", "℃"])
+def test_signs_that_look_alike_are_the_same(tmp_path, sign, degree):
+    header = HEADER.replace("(degC)", f"({degree})")
+    sweeps = read_dma(write(tmp_path, header, f"{sign}20;0.1;5.5;0.5", f"{sign}20;1;6.5;0.5"))
+    assert sweeps.temperatures == pytest.approx([253.15])
 
 
 @pytest.mark.parametrize("line", ["sep=;", '"sep=;"', "SEP=;"])

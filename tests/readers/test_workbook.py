@@ -104,8 +104,16 @@ def test_sheets_of_several_temperatures_are_joined_and_others_refused(tmp_path):
     assert sweeps.temperatures - 273.15 == pytest.approx([20.0, 30.0])
     assert noted(sweeps.notes, "sheets-as-temperatures", "'20', '30'")
     twice = write(tmp_path / "b.xlsx", {"A": [HEADER, *POINTS, *warm], "B": [HEADER, *warm]})
-    with refused("several-tables", None, "'A' (20.0 to 30.0 °C)", "'B' (30.0 to 30.0 °C)"):
+    with refused("several-tables", None, "'A'", "20.0 to 30.0 °C", "'B'", "30.0 to 30.0 °C"):
         read_dma(twice)
+
+
+def test_sheets_of_tension_and_shear_are_refused_with_what_each_holds(tmp_path):
+    shear = [[*HEADER[:2], "G' (MPa)", "G'' (MPa)"], *([T, f, E / 3, loss / 3] for T, f, E, loss in POINTS)]
+    path = write(tmp_path / "both.xlsx", {"E": [HEADER, *POINTS], "G": shear})
+    with refused("several-tables", None, "'E' (tension,", "'G' (shear,"):
+        read_dma(path)
+    assert read_dma(path, sheet="G").deformation == "shear"
 
 
 def test_the_name_of_a_sheet_may_show_the_temperature(tmp_path):

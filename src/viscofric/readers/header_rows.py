@@ -26,7 +26,6 @@ class Found:
 
     rows: list[NumberedRow]
     header: int
-    comma_is_free: bool = True
 
 
 def named(cells: Sequence[str], words: Vocabulary) -> set[str]:
@@ -109,7 +108,7 @@ def guessed(rows: Sequence[NumberedRow]) -> list[str]:
 def is_number(cell: str) -> bool:
     """Return whether a cell is a number, with a decimal point or comma."""
     try:
-        float(cell.strip().replace(",", "."))
+        float(cell.strip().replace(",", ".").replace("−", "-"))
     except ValueError:
         return False
     return True

@@ -189,13 +189,18 @@ def is_place(said: str) -> bool:
     return bool(_PLACE.fullmatch(bracketed["name"] if bracketed else said))
 
 
+def with_primes(text: str) -> str:
+    """Return text with all primes as ``'`` and ``''``."""
+    return re.sub('[″”"]', "''", re.sub("[’′‘`´]", "'", text))
+
+
 @lru_cache(maxsize=4096)
 def heading(text: str) -> Column:
     """Split a heading into name and unit: ``"E' (MPa)"``, ``"T [degC]"``, ``"E' / MPa"``, ``"T_C"``, ``"f in Hz"``."""
     text = text.strip()
     if len(text) > _LONGEST_HEADING:
         return Column(text, text, "")
-    plain = re.sub(r"[’′‘`´]", "'", text).replace("″", "''").replace("”", "''").replace('"', "''")
+    plain = re.sub("[º˚]", "°", with_primes(text))
     name, unit = plain, ""
     for pattern in () if _FUNCTION.fullmatch(plain) else (_BRACKETED, _SEPARATED, _SLASHED, _LETTER):
         match = pattern.match(plain)

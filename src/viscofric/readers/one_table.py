@@ -15,7 +15,7 @@ from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.given_files import bytes_of
 from viscofric.readers.headings import Vocabulary, option_of
 from viscofric.readers.source import Source, checked_sheet, insist_on_content
-from viscofric.readers.table import Table, table_of_text
+from viscofric.readers.table import Table
 from viscofric.readers.tables import find_tables, name_columns
 from viscofric.readers.workbook import is_workbook
 
@@ -25,24 +25,15 @@ def table_of(
 ) -> Table:
     """Return the table of a file, whose columns have the quantities that they name or that the user says."""
     source = Source(str(file_path(path)), b"", columns=vocabulary.checked(columns), sheet=checked_sheet(sheet))
-    source = replace(source, data=bytes_of(source.path))
-    return one_table(source, vocabulary)
-
-
-def one_table(source: Source, vocabulary: Vocabulary) -> Table:
-    """Return the one table of a file, as `table_of` does."""
-    insist_on_content(source)
-    if not (source.columns or source.sheet or is_workbook(source)):
-        if source.text is None:
-            raise DataFileError(source.path, "is a binary file; it must be a text table or a workbook.", code="binary")
-        table = table_of_text(source.path, source.text)
-        columns = vocabulary.columns([column.heading for column in table.columns])
-        return replace(table, columns=columns, vocabulary=vocabulary)
-    return only_table(source, vocabulary)
+    return only_table(replace(source, data=bytes_of(source.path)), vocabulary)
 
 
 def only_table(source: Source, vocabulary: Vocabulary) -> Table:
     """Return the one table of a text or a workbook that has the columns of a vocabulary."""
+    insist_on_content(source)
+    if source.text is None and not is_workbook(source):
+        problem = f"is a binary file; {vocabulary.kind} is a text or a workbook."
+        raise DataFileError(source.path, problem, code="binary")
     tables = find_tables(source, vocabulary)
     if len(tables) > 1:
         shown = ", ".join(map(repr, tables))

@@ -124,7 +124,7 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     """
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     if unit == "K":
-        text = _TEMPERATURE_UNITS.get(re.sub(r"[°\s]", "", text.replace("℃", "C")).lower(), text)
+        text = _TEMPERATURE_UNITS.get(re.sub(r"[°º˚\s]", "", text.replace("℃", "C")).lower(), text)
     plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())
     folded = plain.replace(" ", "").casefold()
     try:
@@ -149,3 +149,23 @@ def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
     if re.fullmatch(r"[mkM]?Hz", plain, re.IGNORECASE) and not angular:
         return 2.0 * math.pi * (_PREFIXES[plain[0]] if len(plain) == 3 else 1.0)
     return None
+
+
+#: Units that are told apart by their kind; `to_rad_per_second` knows those of frequencies.
+_KINDS = ("K", "Pa", "N", "m/s", "m", "s", "1/Pa")
+
+
+def same_unit(one: str, other: str) -> bool:
+    """Return whether two units as printed are the same, however spelt: ``°C`` and ``degC``, ``N/mm²`` and ``MPa``."""
+    if one == other:
+        return True
+    angular = to_rad_per_second(one, angular=False)
+    if angular is not None:
+        return angular == to_rad_per_second(other, angular=False)
+    for kind in _KINDS:
+        try:
+            factors, offsets = zip(unit_conversion(one, kind), unit_conversion(other, kind), strict=True)
+        except InputError:
+            continue
+        return math.isclose(*factors, rel_tol=1e-9) and math.isclose(*offsets, abs_tol=1e-6)
+    return False

@@ -12,7 +12,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.headings import NO_WORDS, Column, Vocabulary, heading, option_of
+from viscofric.readers.headings import NO_WORDS, Column, Vocabulary, option_of
 from viscofric.readers.source import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
@@ -25,9 +25,30 @@ if TYPE_CHECKING:
 
 
 #: Printed by instruments and people in place of a number.
-MISSING = frozenset({"", "-", "--", "---", "----", "–", "—", "nan", "na", "n/a", "#n/a", "n.a.", "null", "none", "*"})
+MISSING = frozenset(
+    {
+        "",
+        "-",
+        "--",
+        "---",
+        "----",
+        "–",
+        "—",
+        "nan",
+        "na",
+        "n/a",
+        "#n/a",
+        "#nv",
+        "n.a.",
+        "null",
+        "none",
+        "*",
+        "***",
+        "bad",
+    }
+    | {"-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind"}  # of Windows
+)
 
-_FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 _IS_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 
 
@@ -167,33 +188,6 @@ class Table:
         return found[0] if found else None
 
 
-def table_of_text(shown: str, text: str) -> Table:
-    """Read a table of numbers under one row of headings from text; `shown` names the file in errors.
-
-    Blank lines, lines that begin with ``#`` and a first line ``sep=;`` (the delimiter for Excel) are skipped.
-    """
-    lines = text_lines(text)
-    if lines and _FOR_EXCEL.fullmatch(lines[0][1]):
-        del lines[0]
-    if not lines:
-        raise DataFileError(shown, "the file is empty; it must hold a header and rows of numbers.", code="empty")
-    first, header = lines[0]
-    delimiter = max("\t;,", key=header.count)
-    if delimiter not in header:
-        raise DataFileError(
-            shown, "the header has no columns separated by commas, semicolons or tabs.", first, code="no-columns"
-        )
-    columns = tuple(heading(cell) for cell in split_cells(shown, first, header, delimiter))
-    rows = [(number, split_cells(shown, number, line, delimiter)) for number, line in lines[1:]]
-    return make_table(shown, columns, rows, comma=False if delimiter == "," else None)
-
-
-def text_lines(text: str) -> list[tuple[int, str]]:
-    """Return the lines that are neither blank nor remarks (``#``), each with its number."""
-    numbered = enumerate(text.splitlines(), start=1)
-    return [(number, line) for number, line in numbered if line.strip() and not line.lstrip().startswith("#")]
-
-
 def make_table(
     path: str,
     columns: tuple[Column, ...],
@@ -221,7 +215,7 @@ def make_table(
         if places and not any(cells[place].strip() for place in places):
             empty += 1
             continue
-        rows.append(tuple(cells))
+        rows.append(tuple(cell.replace("−", "-") for cell in cells))
         lines.append(number)
     if not rows:
         raise DataFileError(path, "there is a header, but no row of numbers under it.", code="no-points")

@@ -13,7 +13,7 @@ from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
 from viscofric.readers.headings import option_of, place_of
-from viscofric.readers.source import decimal_comma
+from viscofric.readers.source import decimal_comma, same_unit
 from viscofric.readers.table import MISSING, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
 
@@ -152,14 +152,10 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     columns = words.columns(names)
     body = list(rows[header + 1 :])
     if body and _is_row_of_units(columns, body[0][1]):
-        units = body.pop(0)[1]
-        columns = tuple(
-            column if column.unit else replace(column, unit=_unit(cell))
-            for column, cell in zip(columns, [*units, *[""] * len(columns)], strict=False)
-        )
+        columns = _with_units(path, columns, *body.pop(0))
     blocks = _stacked(body, list(rows[header][1]), columns)
     kept = [row for block in blocks for row in block]
-    table = make_table(path, columns, kept, comma=None if found.comma_is_free else False, vocabulary=words)
+    table = make_table(path, columns, kept, vocabulary=words)
     first_lines = [block[0][0] for block in blocks if block]
     block = np.searchsorted(first_lines, table.lines, side="right") if len(first_lines) > 1 else None
     return replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block)
@@ -173,7 +169,7 @@ def _stacked(body: Sequence[NumberedRow], header: list[str], columns: Sequence[C
             while blocks[-1] and sum(map(is_number, blocks[-1][-1][1])) < 2:
                 blocks[-1].pop()
             blocks.append([])
-        elif blocks[-1] or len(blocks) == 1 or not _is_row_of_units(columns, row[1], repeated=True):
+        elif blocks[-1] or len(blocks) == 1 or not _is_row_of_units(columns, row[1]):
             blocks[-1].append(row)
     return blocks
 
@@ -193,18 +189,29 @@ def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:
             )
 
 
-def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str], *, repeated: bool = False) -> bool:
-    """Return whether a row under headings without units gives them; units that the user adds do not count.
+def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:
+    """Return whether a row under headings holds units: no number, and a word under a column of the vocabulary."""
+    if len(cells) > len(columns) + 1 or any(is_number(cell) for cell in cells if cell.strip() != "1"):  # of a ratio
+        return False
+    return any(_stated(column, cell) for column, cell in zip(columns, cells, strict=False))
 
-    `repeated`: the units are known already, from the same row under the same headings.
-    """
-    known = [place for place, column in enumerate(columns[: len(cells)]) if column.quantity]
-    if not repeated and any(_unit(columns[place].unit) and not columns[place].given for place in known):
-        return False
-    numbers = (cell for cell in cells if cell.strip() != "1")  # the unit of a ratio
-    if any(map(is_number, numbers)) or len(cells) > len(columns) + 1:
-        return False
-    return any(_unit(cells[place]) and cells[place].strip().lower() not in MISSING for place in known)
+
+def _stated(column: Column, cell: str) -> str:
+    """Return the unit in a cell under a heading of the vocabulary, "" for a value or for nothing."""
+    unit = _unit(cell)
+    return unit if column.quantity and unit.lower() not in MISSING and unit[0] not in "0123456789+-−." else ""
+
+
+def _with_units(path: str, columns: Sequence[Column], row: int, cells: Sequence[str]) -> tuple[Column, ...]:
+    """Return columns with the units of the row below them; a unit that the heading has too must be the same."""
+    found = []
+    for column, cell in zip(columns, [*cells, *[""] * len(columns)], strict=False):
+        stated = _stated(column, cell)
+        if stated and column.unit and not column.given and not same_unit(_unit(column.unit), stated):
+            problem = f"column {column.heading!r} has {column.unit!r} in its heading, but {stated!r} in the row below; "
+            raise DataFileError(path, problem + "keep the unit that is right.", row, code="units-contradict")
+        found.append(column if _unit(column.unit) else replace(column, unit=_unit(cell)))
+    return tuple(found)
 
 
 def _unit(cell: str) -> str:
@@ -244,7 +251,7 @@ def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> 
     above = found.rows[: found.header + 1]
     remarked = {number for number, _, is_remark in lines if is_remark}
     below = [row for row in found.rows[found.header + 1 :] if row[0] not in remarked]
-    return Found([*above, *below], found.header, delimiter != ",")
+    return Found([*above, *below], found.header)
 
 
 def _lines(text: str, remarks: bool) -> list[tuple[int, str, bool]]:

@@ -22,7 +22,7 @@ from viscofric.readers.dma.instruments.eplexor_master import SHIFT_LIST, ShiftLi
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.one_table import insist_on_columns, only_table
-from viscofric.readers.source import Source, checked_sheet, insist_on_content, unit_conversion
+from viscofric.readers.source import Source, checked_sheet, unit_conversion
 from viscofric.readers.table import Table
 from viscofric.readers.tables import name_columns
 from viscofric.readers.workbook import is_workbook, sheets
@@ -208,11 +208,6 @@ def _from_workbook(source: Source) -> _Factors:
 
 
 def _from_table(source: Source) -> _Factors:
-    insist_on_content(source)
-    if source.text is None and not is_workbook(source):
-        raise DataFileError(
-            source.path, "is a binary file; a table of shift factors is text, or an Eplexor workbook.", code="binary"
-        )
     table = only_table(source, SHIFT_FACTORS)
     insist_on_columns(table, SHIFT_FACTORS)
     at = table.place("temperature")

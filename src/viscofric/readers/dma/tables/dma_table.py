@@ -188,6 +188,8 @@ def deformation(tables: Sequence[Table], tools: Tools | None = None) -> Said:
     return said_by_columns([column.heading for column in moduli], [table.filled for table in tables], tools)
 
 
+#: Words of more kinds in a column are remarks.
+_MOST_KINDS = 20
 #: Frequency range of the sweeps of any instrument; master curves exceed it.
 WIDEST_SWEEP = 7.0  # decades
 
@@ -228,7 +230,7 @@ def read_points(
         _insist_on_most(table, places, "storage modulus", storage)
     kind, said_by = deformation([table], tools)
     amplitude = _strain_amplitude(table, notes, "" if exported else "1")
-    _note_numbered(table, notes)
+    _note_unread(table, notes)
     return Readings(
         source=source.path,
         format=format,
@@ -325,8 +327,15 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
     raise table.wrong_cell(int(bad[0]), place, "above zero")
 
 
-def _note_numbered(table: Table, notes: list[str]) -> None:
-    """Add a note on unread columns whose names differ from those of a sweep by a number only."""
+def _note_unread(table: Table, notes: list[str]) -> None:
+    """Add notes on unread columns that may tell sweeps apart: words of several kinds, and numbered names of a sweep."""
+    for place, column in enumerate(table.columns):
+        kinds = {row[place].strip() for row in table.rows}
+        words = sorted(word for word in kinds if word.lower() not in MISSING and not is_number(word))
+        if not column.quantity and 1 < len(words) == len(kinds) <= min(_MOST_KINDS, len(table.rows) // 2):
+            shown = ", ".join(map(repr, words[:3])) + (" and more" if len(words) > 3 else "")
+            text = f"Column {column.heading!r} holds {shown} and is not read; are all rows of one specimen?"
+            notes.append(Note("unused-columns", text))
     others = (column for column in table.columns if not column.quantity)
     numbered = [repr(column.heading) for column in others if quantity(column.unnumbered)]
     if numbered:

@@ -85,12 +85,13 @@ def _insist_on_own_temperatures(source: Source, readings: dict[str, Readings]) -
     for name, one in readings.items():
         known = one.temperature[np.isfinite(one.temperature)]
         if known.size:
-            spans.append((float(known.min()), float(known.max()), name))
+            low, high = float(known.min()), float(known.max())
+            kind = f"{one.deformation}, " if one.deformation else ""
+            spans.append((low, high, name, f"{name!r} ({kind}{shown_celsius(low)} to {shown_celsius(high)} °C)"))
     spans.sort()
-    for (low, high, name), (next_low, next_high, next_name) in pairwise(spans):
+    for (_, high, name, shown), (next_low, _, _, next_shown) in pairwise(spans):
         if next_low <= high:
-            both = f"{name!r} ({shown_celsius(low)} to {shown_celsius(high)} °C) and {next_name!r} "
-            both += f"({shown_celsius(next_low)} to {shown_celsius(next_high)} °C)"
+            both = f"{shown} and {next_shown}"
             problem = f"the sheets {both} each contain a DMA table and overlap; keep one of them, or choose one with "
             remedy = setting("material.sheet", "Sheet", repr(name)) + "."
             values = {"sheets": list(readings)}
