@@ -116,6 +116,26 @@ def test_decimal_commas(tmp_path):
         read(path)
 
 
+#: Names as other formats have them in German.
+GERMAN = {
+    "Storage modulus": "Speichermodul",
+    "Loss modulus": "Verlustmodul",
+    "Angular frequency": "Kreisfrequenz",
+    "Frequency": "Frequenz",
+    "Temperature": "Temperatur",
+    "Oscillation strain": "Dehnungsamplitude",
+}
+
+
+def test_columns_are_known_in_the_words_of_all_formats(tmp_path):
+    path = trios.write_lims(tmp_path)
+    text = path.read_text(encoding="utf-8-sig")
+    for name, word in GERMAN.items():
+        text = text.replace(f"\t{name}", f"\t{word}")
+    path.write_text(text, encoding="utf-8")
+    assert_planted(read(path))
+
+
 @settings(deadline=None, max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(order=st.permutations(list(trios.COLUMNS)), layout=st.sampled_from(["lims", "json"]))
 def test_columns_stand_in_any_order(tmp_path, order, layout):

@@ -70,6 +70,17 @@ def test_order_of_signals_is_taken_from_the_header(tmp_path, order, binary):
     assert_planted(read(write(tmp_path, signals=signals)), SINGLE if binary else PRINTED)
 
 
+def test_signals_are_known_in_other_languages(tmp_path):
+    path = q800.write_text(tmp_path, encoding="utf-8")
+    text = path.read_text(encoding="utf-8")
+    german = {"Time (": "Zeit (", "Storage Modulus": "Speichermodul", "Loss Modulus": "Verlustmodul"}
+    german |= {"Frequency (": "Frequenz (", "Temperature (": "Temperatur (", "Strain (": "Dehnung ("}
+    for name, word in german.items():
+        text = text.replace(name, word)
+    path.write_text(text, encoding="utf-8")
+    assert_planted(read(path), PRINTED)
+
+
 def test_empty_cells_and_tabs_at_the_end_of_rows_do_no_harm(tmp_path):
     lines = q800.text_lines(events=())
     start = lines.index("StartOfData") + 1

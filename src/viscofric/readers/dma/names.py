@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from viscofric.notes import Note, setting
-from viscofric.readers.headings import Vocabulary, heading
+from viscofric.readers.headings import Vocabulary, heading, with_primes
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -50,6 +50,7 @@ ISOTHERM = frozenset({"isotherm", "isotherm temperature", "temperature of the is
 STORAGE_MODULUS = frozenset(
     {"E'", "G'", "e'", "g'", "e stor", "g stor", "e storage", "g storage", "estor", "gstor"}
     | {sort + name for sort in _SORTS for name in ("storage", "storage modulus", "storage mod.")}
+    | {"storage modulus e'", "storage modulus g'", "speichermodul e'", "speichermodul g'"}
     | {"speichermodul", "speicherschubmodul", "zugspeichermodul", "e-speichermodul", "g-speichermodul"}
     | {"module de conservation", "module conservation", "module de stockage", "module élastique"}
     | {"module de conservation en cisaillement", "módulo de almacenamiento", "módulo elástico", "modulo conservativo"}
@@ -60,6 +61,7 @@ STORAGE_MODULUS = frozenset(
 LOSS_MODULUS = frozenset(
     {"E''", "G''", "e''", "g''", "e loss", "g loss", "eloss", "gloss"}
     | {sort + name for sort in _SORTS for name in ("loss", "loss modulus", "loss mod.")}
+    | {"loss modulus e''", "loss modulus g''", "verlustmodul e''", "verlustmodul g''"}
     | {"verlustmodul", "verlustschubmodul", "zugverlustmodul", "e-verlustmodul", "g-verlustmodul"}
     | {"module de perte", "module perte", "module de dissipation", "module visqueux", "module de perte en cisaillement"}
     | {"módulo de pérdida", "módulo de pérdidas", "módulo viscoso", "modulo dissipativo", "modulo di perdita"}
@@ -95,6 +97,8 @@ STRAIN_AMPLITUDE = frozenset(
     | {"strain dyn", "strain dyn.", "dehnungsamplitude", "dynamische dehnung", "scheramplitude", "dehnung"}
     | {"deformation", "deformationsamplitude", "amplitude de déformation", "déformation", "déformation dynamique"}
     | {"amplitud de deformación", "deformación", "deformazione", "ampiezza di deformazione", "deformação"}
+    | {"scherdeformation", "déformation de cisaillement", "deformação de cisalhamento", "deformazione di taglio"}
+    | {"déformation en cisaillement", "deformación de cizalla", "deformación de corte"}
 )
 STEP = frozenset(
     {
@@ -218,9 +222,14 @@ _FORCE = re.compile(
 )
 
 
+def is_load(name: str) -> bool:
+    """Return whether a column of this name holds a torque or a force of the oscillation."""
+    return bool(_TORQUE.fullmatch(name.lower()) or _FORCE.fullmatch(name.lower()))
+
+
 def deformation_of(name: str) -> Deformation | None:
     """Return whether a modulus of this name is tensile or shear, None if the name does not state it."""
-    lower = re.sub(r"[’′‘`´]", "'", name).lower() + " "
+    lower = with_primes(name).lower() + " "
     if _SHEAR.match(lower):
         return "shear"
     return "tension" if _TENSION.match(lower) else None

@@ -16,6 +16,7 @@ from viscofric.notes import Note
 from viscofric.readers.dma.names import DMA, quantity
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
+from viscofric.readers.headings import with_primes
 from viscofric.readers.source import Source, decimal_comma
 from viscofric.readers.table import Table, instrument_table
 
@@ -50,12 +51,8 @@ def recognises(source: Source) -> bool:
 
 
 def _is_header(line: str) -> bool:
-    names = _primes(line).split()
+    names = with_primes(line).split()
     return names[:1] == ["Index"] and {"Ts", "f"} <= set(names) and bool({"E'", "G'"} & set(names))
-
-
-def _primes(text: str) -> str:
-    return re.sub(r"[’′‘`´]", "'", text).replace('"', "''").replace("″", "''").replace("”", "''")
 
 
 def read(source: Source) -> Readings:
@@ -92,7 +89,7 @@ def _blocks(source: Source) -> list[_Block]:
             continue
         if _is_header(line):
             units = _UNIT.findall(next(lines, (0, ""))[1])
-            names = _primes(line).split()
+            names = with_primes(line).split()
             if len(units) != len(names):
                 raise DataFileError(
                     source.path, "each name must have a unit in brackets below it.", number + 1, code="wrong-unit"

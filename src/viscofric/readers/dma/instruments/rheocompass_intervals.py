@@ -25,11 +25,6 @@ _INTERVAL = re.compile(
     r'"?[^\t;,:"\r\n]{3,60}:"?(?P=mark)',
     re.MULTILINE,
 )
-#: RheoCompass's names of the strain, besides those of all formats.
-_STRAIN = frozenset(
-    {"shear strain", "scherdeformation", "déformation de cisaillement", "deformação de cisalhamento"}
-    | {"déformation en cisaillement", "deformación de cizalla", "deformación de corte", "deformazione di taglio"}
-)
 _SWEEP = ("storage modulus", "loss modulus")
 #: Rows of qualifiers and units between the names of the columns and the first point.
 _ROWS_BEFORE_POINTS = 3
@@ -56,8 +51,7 @@ class Interval:
         """Columns by what they hold, in the words of `names.QUANTITIES`; the first of several."""
         found: dict[str, int] = {}
         for place, column in enumerate(self.columns[1:], start=1):
-            what = "strain amplitude" if column.lower() in _STRAIN else names.quantity(column)
-            if what is not None:
+            if (what := names.quantity(column)) is not None:
                 found.setdefault(what, place)
         return found
 

@@ -12,27 +12,20 @@ import numpy as np
 from viscofric.arrays import Array, Mask
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.names import DMA
+from viscofric.readers.dma.names import DMA, is_load
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
-from viscofric.readers.headings import Column
+from viscofric.readers.headings import Column, with_primes
 from viscofric.readers.source import COMMA_NUMBER, Source, Test, decimal_comma
 from viscofric.readers.table import Table
 
 #: Tests in words.
 TESTS = {"frequency": "frequency sweep", "temperature": "temperature ramp", "amplitude": "amplitude sweep"}
-#: What a column holds -> its names, in small letters.
-ROLES = {
-    "temperature": re.compile(r"(sample )?temperature"),
-    "angular frequency": re.compile(r"ang(ular|\.)? frequency"),
-    "frequency": re.compile(r"frequency"),
-    "storage modulus": re.compile(r"((tensile|shear|young's) )?storage modulus( [eg]')?|[eg]'"),
-    "loss modulus": re.compile(r"((tensile|shear|young's) )?loss modulus( [eg](''|\"))?|[eg](''|\")"),
-    "tan delta": re.compile(r"tan ?\(?(delta|δ)\)?"),
-    "strain amplitude": re.compile(r"oscillation strain"),
-    "oscillation torque": re.compile(r"oscillation torque"),
-    "oscillation force": re.compile(r"oscillation force"),
-}
+#: Quantities of columns that are read.
+_READ = frozenset(
+    {"temperature", "angular frequency", "frequency", "storage modulus", "loss modulus", "tan delta"}
+    | {"strain amplitude"}
+)
 
 #: Steps that vary the amplitude are not frequency sweeps, even at several frequencies.
 _AMPLITUDE = re.compile(r"amplitude|(strain|stress|force|displacement) sweep", re.IGNORECASE)
@@ -118,13 +111,13 @@ class Step:
 
 
 def roles(names: Sequence[str]) -> dict[str, int]:
-    """Return the place of the first column of each role in `ROLES`."""
+    """Return the first column of each quantity that is read, and of torque and force; "oscillation …" come first."""
     places: dict[str, int] = {}
-    for place, name in enumerate(names):
-        plain = " ".join(re.sub(r"[’′‘`´]", "'", name).replace("″", "''").lower().split())
-        for role, pattern in ROLES.items():
-            if pattern.fullmatch(plain):
-                places.setdefault(role, place)
+    for place, name in sorted(enumerate(names), key=lambda one: not one[1].strip().lower().startswith("oscillation")):
+        plain = " ".join(with_primes(name).split())
+        what = DMA.quantity(plain)
+        if what in _READ or is_load(plain):
+            places.setdefault(what or plain, place)
     return places
 
 
@@ -141,13 +134,11 @@ class StepText:
     rows: list[tuple[int, list[str]]] = field(default_factory=list)
 
 
-def steps_of(
-    path: str, texts: Sequence[StepText], also: Mapping[str, str] | None = None, where: str = "line"
-) -> list[Step]:
-    """Return the steps of a file, which share one decimal mark; `also` are names of columns, rows count `where`."""
+def steps_of(path: str, texts: Sequence[StepText], where: str = "line") -> list[Step]:
+    """Return the steps of a file, which share one decimal mark; rows count `where`."""
     found = []
     for text in texts:
-        places = roles([(also or {}).get(name.strip().lower(), name) for name in text.names])
+        places = roles(text.names)
         if "storage modulus" in places:
             _insist_on_columns(path, text)
         found.append((text, places))

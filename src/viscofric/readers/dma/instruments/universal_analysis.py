@@ -24,6 +24,7 @@ from viscofric.notes import Note
 from viscofric.readers.dma.instruments.ta_steps import StepText, readings_of, steps_of
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.source import Source
+from viscofric.readers.steps.columns import TIME
 
 #: Number of a line or a record, and its cells.
 Row = tuple[int, list[str]]
@@ -36,8 +37,6 @@ _END_OF_HEADER = b"\r\0\n\0\f\0"
 _FIRST_LINES = re.compile(r"\s*CLOSED\s*[\r\n]+\s*Version\b", re.IGNORECASE)
 #: Tags in which the instrument, not the user, may name the clamp.
 _CLAMP_TAGS = re.compile(r"mode|module|xcomment|.*(clamp|geometry|fixture).*", re.IGNORECASE)
-#: Universal Analysis calls the amplitude of the oscillation's strain just strain.
-_ALSO = {"strain": "oscillation strain"}
 
 
 def recognises(source: Source) -> bool:
@@ -63,7 +62,7 @@ def read(source: Source) -> Readings:
         header = [_tag(line) for line in source.data[start:end].decode("utf-16-le", "replace").splitlines()]
         names, units = _signals(source.path, header)
         rows, where = _records(len(names), source.data[end + len(_END_OF_HEADER) + 1 :], notes), "record"
-    step = steps_of(source.path, [StepText(_title(header), names, units, rows)], _ALSO, where)[0]
+    step = steps_of(source.path, [StepText(_title(header), names, units, rows)], where)[0]
     step = replace(step, named_by_instrument=False)
     if not step.has_moduli:
         instrument = next((value for tag, value in header if tag.lower() == "instrument"), "the instrument")
@@ -134,7 +133,7 @@ def _signals(path: str, header: Sequence[tuple[str, str]]) -> tuple[list[str], l
             path, f"the header states {int(stated)} signals but has no line {missing[0]!r}.", code="damaged-header"
         )
     parts = [_name_and_unit(found[f"sig{k}"]) for k in range(1, int(stated) + 1)]
-    if not re.match("time", parts[0][0], re.IGNORECASE):
+    if parts[0][0].lower() not in TIME:
         raise DataFileError(
             path,
             f"the first signal is {parts[0][0]!r}; it must be the time, whose sign marks events.",
