@@ -245,6 +245,38 @@ def test_columns_that_are_not_read_are_named(tmp_path: Path) -> None:
     assert note.values == {"headings": ["viscoelastic friction std dev"]}
 
 
+def test_friction_of_any_origin_is_noted_and_traction_runs_are_refused(tmp_path: Path) -> None:
+    """A coefficient of sliding friction includes Coulomb friction, and a sliding speed is not that of the rubber."""
+    path = tmp_path / "curves.csv"
+    path.write_text(FOREIGN.replace("viscoelastic friction", "friction coefficient"), encoding="utf-8")
+    found = vf.read_friction_curves(path)
+    assert found.viscoelastic == pytest.approx([0.031, 0.025], rel=1e-12)
+    assert "total-friction" in codes(found.notes)
+    for columns in ({"viscoelastic_friction": "friction coefficient (%)"}, None):
+        text = FOREIGN if columns is None else path.read_text()
+        (tmp_path / "stated.csv").write_text(text, encoding="utf-8")
+        assert "total-friction" not in codes(vf.read_friction_curves(tmp_path / "stated.csv", columns=columns).notes)
+    for speeds in ("rolling speed (mm/s);sliding speed (mm/s)", "disc speed (mm/s);ball speed (mm/s)"):
+        runs = tmp_path / "runs.csv"
+        runs.write_text(f"{speeds};temperature (degC);load (N);friction coefficient\n20;1;30;25;0.03\n", "utf-8")
+        assert not holds_friction_curves(runs)
+        with refused("traction-runs", DataFileError):
+            vf.read_friction_curves(runs)
+        assert vf.read_mtm(runs).traction_force == pytest.approx([0.75], rel=1e-12)
+
+
+def test_headings_of_curves_are_found_as_those_of_any_table(tmp_path: Path) -> None:
+    path = tmp_path / "curves.csv"
+    path.write_text(FOREIGN, encoding="utf-8")
+    plain = vf.read_friction_curves(path)
+    names, *rows = FOREIGN.splitlines()
+    split = [part.rstrip(")").split(" (") for part in names.split(";")]
+    below = [";".join(name for name, _ in split), ";".join(f"[{unit}]" for _, unit in split), *rows]
+    for lines in (["Rig 3", "date; today", names, *rows], below, [line.replace(";", "   ") for line in below]):
+        path.write_text("\n".join(lines), encoding="utf-8")
+        same(replace(vf.read_friction_curves(path), source=""), replace(plain, source=""))
+
+
 NAMED = {"speed": "v1 (mm/s)", "temperature": "ofen (degC)", "viscoelastic_friction": "#4 (%)"}
 
 

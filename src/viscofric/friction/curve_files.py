@@ -17,6 +17,7 @@ from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
 from viscofric.readers.given_files import bytes_of
 from viscofric.readers.headings import quantity_of
+from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.one_table import table_of
 from viscofric.readers.source import Source
 from viscofric.readers.tables import find_tables, name_columns
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from viscofric.arrays import Array
+    from viscofric.readers.headings import Column
     from viscofric.readers.table import Table
 
 
@@ -38,8 +40,8 @@ _REMARKS = ("source", "assumption", "note")
 #: Fields that are infinite where not known, an empty cell in the file.
 _OPEN = ("_error", "_scatter", "_freedom")
 _MOST_REPLICATES = 1e9
-#: A table of friction curves has a column of one of these, the files of a tribometer have none.
-_MARKS = ("viscoelastic", "friction_coefficient")
+#: As results of studies name viscoelastic friction.
+_OF_RESULTS = "friction_coefficient"
 
 
 def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> None:
@@ -135,11 +137,17 @@ def read_friction_curves(
     array([0.025, 0.02 , 0.016])
     """
     table = table_of(path, CURVES, columns, sheet)
+    if _is_of_runs(table):
+        problem = "this is a table of traction runs, whose friction is not separated yet"
+        raise DataFileError(str(path), problem, code="traction-runs", remedy=AS_RUNS)
     places = _places(table)
     unit = _load_unit(table, places["load"])
     found = {name: _read_column(table, name, place, unit) for name, place in places.items()}
     remarks = _remarks(str(path))
     notes = list(remarks["note"])
+    if _is_any_friction(column := table.columns[places["viscoelastic"]]):
+        said = f"Column {column.heading!r} was read as viscoelastic friction; friction measured in sliding includes "
+        notes.append(Note("total-friction", said + "Coulomb friction, which must be subtracted first."))
     unused = [column.heading for column in table.unused(places.values())]
     if unused:
         said = f"Columns of the file of friction curves that are not read: {', '.join(map(repr, unused))}."
@@ -162,24 +170,30 @@ def read_friction_curves(
 
 
 def holds_friction_curves(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> bool:
-    """Return whether a file has the headings of friction curves, not of a tribometer's runs; False if unreadable.
+    """Return whether a file has a column of viscoelastic friction, not of a tribometer's runs; False if unreadable.
 
     So has one of which `columns` names the viscoelastic friction.
     """
     if any(quantity_of(name) == "viscoelastic friction" for name in columns or {}):
         return True
     try:
-        if is_workbook(source := Source(str(path), bytes_of(str(path)))):
-            return _holds_curves(source)
-        lines = [line.lower() for line in read_text(str(path)).splitlines() if not line.startswith("#")]
+        tables = find_tables(Source(str(path), bytes_of(str(path))), CURVES).values()
     except DataFileError:
         return False
-    return any(mark in line for line in lines for mark in _MARKS)
+    return any(table.has("viscoelastic friction") and not _is_of_runs(table) for table in tables)
 
 
-def _holds_curves(workbook: Source) -> bool:
-    tables = find_tables(workbook, CURVES).values()
-    return any(not CURVES.missing(column.quantity for column in table.columns) for table in tables)
+def _is_any_friction(column: Column) -> bool:
+    """Return whether a heading states a coefficient of friction, but not that it is viscoelastic."""
+    return not (column.given or "viscoelastic" in column.name.lower() or column.heading.startswith(_OF_RESULTS))
+
+
+def _is_of_runs(table: Table) -> bool:
+    """Return whether a table has coefficients of friction beside the two speeds of a tribometer with slip."""
+    coefficients = [column for column in table.columns if column.quantity == "viscoelastic friction"]
+    held = {TRACTION.quantity(column.name) for column in table.columns if not column.given}
+    two_speeds = "rolling speed" in held or {"disc speed", "ball speed"} <= held
+    return two_speeds and any(map(_is_any_friction, coefficients))
 
 
 def _cell(value: float) -> str:

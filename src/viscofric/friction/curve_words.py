@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
 
 #: field -> (SI unit, empty for a pure number; the heading written; other headings accepted)
 COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "speed": ("m/s", "speed", ("v", "sliding speed", "disc speed", "disk speed")),
     "temperature": ("K", "temperature", ("T", "temp", "temp.")),
-    "load": ("N", "load", ("normal load", "normal force")),
+    "load": ("N", "load", ("normal load", "normal force", "F", "Fn", "fn")),
     "viscoelastic": (
         "",
         "viscoelastic friction",
@@ -42,7 +43,8 @@ _NEEDED = ("speed", "temperature", "load", "viscoelastic")
 #: The words of tables of friction curves.
 CURVES = Vocabulary(
     "a table of friction curves",
-    {heading.lower(): frozenset({heading, heading.lower(), *others}) for _, heading, others in COLUMNS.values()},
+    {heading.lower(): frozenset({heading, heading.lower(), *others}) for _, heading, others in COLUMNS.values()}
+    | {"temperature": TEMPERATURE},
     needed=tuple((COLUMNS[name][1],) for name in _NEEDED),
     example="friction curves have 'speed (mm/s)', 'temperature (degC)', 'load (N)' and 'viscoelastic friction'",
     key="measurement.columns",

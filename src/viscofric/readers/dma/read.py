@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from os import PathLike
 from typing import Protocol
 
@@ -10,7 +11,6 @@ import numpy as np
 
 from viscofric.data import DEFORMATIONS, Deformation, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, check_choice, not_needed
-from viscofric.notes import Remedy
 from viscofric.readers.dma.instruments import (
     eplexor,
     mettler,
@@ -24,7 +24,7 @@ from viscofric.readers.dma.names import DMA, NOT_SAID
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables import delimited, reptate, workbook
 from viscofric.readers.given_files import sources_of
-from viscofric.readers.mtm.delimited import TRACTION
+from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.source import Source, Test, insist_on_content, unit_conversion
 from viscofric.readers.tables import holds_table, no_header
 from viscofric.units import Quantity
@@ -84,13 +84,7 @@ def _refuse_traction(source: Source) -> None:
             source.path,
             "this is a table of traction runs, not of DMA sweeps",
             code="traction-runs",
-            remedy=Remedy(
-                "; use read_mtm, or name it as mtm under [measurement] of a run file.",
-                "; viscofric measure reads it, and as mtm under [measurement] a run file.",
-                "; name it as mtm under [measurement].",
-                "; drop it under “Measurement”.",
-                "material.dma",
-            ),
+            remedy=replace(AS_RUNS, field="material.dma"),
         )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.dma.names import DMA
+from viscofric.readers.dma.names import DMA, TEMPERATURE
 from viscofric.readers.headings import Column, Vocabulary
 from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.one_table import only_table
@@ -22,21 +22,36 @@ from viscofric.readers.tables import holds_table, name_columns
 
 NAME = "delimited text, one reading per row"
 
+#: Names of a coefficient of friction of any origin.
+COEFFICIENT = frozenset(
+    {"traction coefficient", "traction coeff", "traction coeff.", "friction coefficient", "coefficient of friction"}
+    | {"coefficient of traction", "friction coeff", "friction coeff.", "cof", "mu", "µ", "μ"}
+    | {"reibwert", "reibungskoeffizient", "coefficient de frottement", "coeficiente de fricción"}
+)
+#: What to do with traction runs in place of friction curves or sweeps.
+AS_RUNS = Remedy(
+    "; use read_mtm, or name it as mtm under [measurement] of a run file.",
+    "; viscofric measure reads it, and as mtm under [measurement] a run file.",
+    "; name it as mtm under [measurement].",
+    "; drop it under “Measurement”.",
+    "measurement.mtm",
+)
+
 #: The words of tables of traction runs: quantity -> names of its columns.
 TRACTION = Vocabulary(
     "a table of traction runs",
     {
-        "temperature": frozenset({"T", "temp", "temp.", "temperature"}),
+        "temperature": TEMPERATURE,
         "disc speed": frozenset({"disc speed", "disk speed", "u disc", "u disk"}),
         "ball speed": frozenset({"ball speed", "u ball"}),
-        "load": frozenset({"load", "ball load", "normal load", "normal force"}),
-        "traction force": frozenset({"traction force", "traction"}),
+        "load": frozenset({"load", "ball load", "normal load", "normal force", "Fn", "fn"}),
+        "traction force": frozenset({"traction force", "traction", "friction force"}),
         "rolling speed": frozenset({"rolling speed", "entrainment speed", "entrainment velocity", "mean speed"}),
         "sliding speed": frozenset({"sliding speed", "slip speed", "sliding velocity"}),
         "slide to roll ratio": frozenset(
             {"srr", "slide-to-roll ratio", "slide-roll ratio", "slide roll ratio", "slide to roll ratio"}
         ),
-        "traction coefficient": frozenset({"traction coefficient", "traction coeff", "traction coeff."}),
+        "traction coefficient": COEFFICIENT,
         "zero force": frozenset({"zero force", "zero traction force"}),
         "time": frozenset({"t", "time", "step time"}),
         "track radius": frozenset({"track radius", "disc track radius"}),
@@ -219,7 +234,8 @@ def speeds(table: Table, notes: list[Note]) -> tuple[Array, Array, set[str]]:
         factor = _RATIO.get(column.unit.strip())
         if factor is None:
             shown = f"the unit {column.unit!r}" if column.unit else "no unit"
-            raise table.refused("wrong-unit", f"column {column.heading!r} has {shown}; it must be '%' or '-'.")
+            right = f"write it as '{column.name} (%)' or '{column.name} (-)'"
+            raise table.refused("wrong-unit", f"column {column.heading!r} has {shown}; {right}.")
         sliding = factor * table.numbers(place) * rolling
     said = f"The speeds of disc and ball follow from rolling speed and {what}, which is positive where the disc is "
     notes.append(Note("speeds-from-slip", f"{said}faster."))
