@@ -90,11 +90,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             "--direction '1,2,3': give an angle, '30 deg', or two numbers, '0,1'.",
         ),
         (
-            f"solve {SOLID} --profile none.txt --speed '1 m/s' --load '1 N'",
-            2,
-            "--profile needs --spacing, the distance of its heights, such as '5 um'.",
-        ),
-        (
             f"solve {SOLID} {BALL} --picture a.gif",
             2,
             "Invalid value for --picture: a.gif: must end in .png, .svg, .pdf.",

@@ -269,6 +269,10 @@ def test_heights_of_a_ball_are_a_ball(tmp_path: Path) -> None:
     # A spline through a paraboloid is the paraboloid, but for rounding.
     assert found["results"]["friction_coefficient"] == pytest.approx(expected().friction_coefficient, rel=1e-6)
     assert found["inputs"]["indenter"]["points"] == [31, 31]
+    text = (tmp_path / "ball.csv").read_text().replace(",", ";").replace(".", ",")
+    (tmp_path / "ball.csv").write_text(f"# Width: 6.2 mm\n# Value units: um\n{text}")
+    stated = record(*RUBBER, *BALL[2:], "--height-map", tmp_path / "ball.csv")
+    assert stated["results"]["indentation"] == pytest.approx(found["results"]["indentation"], rel=1e-9)
     again = record(*RUBBER, *BALL[2:], "--height-map", tmp_path / "ball.npy", "--spacing", "0.2 mm")
     assert again["results"]["indentation"] == pytest.approx(found["results"]["indentation"], rel=1e-9)
 

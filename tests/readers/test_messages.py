@@ -85,12 +85,12 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     (
         lambda path: read_scan(path, ScanOptions()),
         ["1,2,3,4", "5,6,7,8"],
-        "does not state the spacing of its points; give spacing='5 um', for instance.",
+        "does not state the spacing of its points; give spacing = '5 um', for instance.",
     ),
     (
         lambda path: read_scan(path, ScanOptions(unit="um")),
         ["x (um),z (um)", "1,2", "2,3"],
-        "column 'x (um)' states its unit; leave unit = 'um' out.",
+        "its headings state their units; leave unit = 'um' out.",
     ),
 ]
 

@@ -120,9 +120,46 @@ def test_missing_heights_are_reported_by_words_or_by_a_number(tmp_path):
     np.testing.assert_array_equal(np.isnan(found.heights), [[0, 0, 1], [0, 1, 0], [0, 0, 1]])
 
 
+@pytest.mark.parametrize("header", ["x (um);y (um);z (um)\n", ""])
+def test_the_number_of_a_missing_height_is_in_the_units_of_the_file(tmp_path, header):
+    text = header + "".join(f"{x};{y};{-9999 if x == y == 5 else 1 + x}\n" for x in (0, 5, 10) for y in (0, 5))
+    found = vf.read_topography(write(tmp_path, text), missing=-9999, unit="" if header else "um")
+    assert np.argwhere(np.isnan(found.heights)).tolist() == [[1, 1]]
+    assert np.nanmin(found.heights) == pytest.approx(1e-6)
+
+
+@pytest.mark.parametrize(
+    "above",
+    [
+        "Position X [mm];Position Y [mm];Height Z [µm]\n",
+        "Profilometer 3\nsample;17\n\nX (mm);Y (mm);Z in µm\n",
+        "x;y;z\nmm;mm;µm\n",
+    ],
+)
+def test_headings_of_points_are_found_as_those_of_any_table(tmp_path, above):
+    rows = [f"{x};{y};{10 * x + y}".replace(".", ",") for x in (0.0, 0.5, 1.0) for y in (0.0, 0.25)]
+    found = vf.read_topography(write(tmp_path, above + "\n".join(rows)))
+    assert found.spacing == pytest.approx((5e-4, 2.5e-4), rel=1e-9)
+    assert found.heights == pytest.approx(1e-6 * np.array([[0, 0.25], [5, 5.25], [10, 10.25]]), rel=1e-9)
+
+
+def test_positions_about_a_matrix_are_no_heights(tmp_path):
+    rows = [",".join(map(str, row)) for row in ([0.0, 1, 2, 4], [5.0, 3, 1, 2], [10.0, 1, 1, 5])]
+    for corner in ("", "x/y", "nan"):
+        text = f"{corner},0,10,20\n" + "\n".join(rows)
+        found = vf.read_topography(write(tmp_path, text), unit="um")
+        assert found.heights == pytest.approx(1e-6 * np.array([[1, 2, 4], [3, 1, 2], [1, 1, 5]]))
+        assert found.spacing == pytest.approx((5e-6, 10e-6))
+        assert "positions-in-matrix" in codes(found.history)
+    uneven = vf.read_topography(write(tmp_path, text.replace("5.0", "6.0")), unit="um", spacing="5 um")
+    assert uneven.shape == (4, 4)
+
+
 @pytest.mark.parametrize(
     ("text", "arguments", "refusal"),
     [
+        ("1,5\n1,25\n0,75\n", {"spacing": "1 um"}, ("ambiguous-decimals", 1, "'1,5'")),  # one column, or two
+        ("1,234;5,678\n9,123;4,567\n", {"spacing": "1 um"}, ("ambiguous-decimals", 1, "'1,234'")),
         ("1,2,3,4\n5,6,7,8\n", {}, ("no-spacing",)),
         ("1,2,3,4\n5,6\n", {"spacing": "1 um"}, ("row-length", 2, "2 numbers", "4")),
         (5 * "1,2,3,4\n" + "1,2,3,oops\n", {"spacing": "1 um"}, ("not-a-number", 6, "'oops'")),

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 import numpy as np
 
-from viscofric.cli.errors import placed_at
+from viscofric.cli.errors import placed_at, print_notes, typed_as
 from viscofric.cli.files import FILE
 from viscofric.cli.output import together
+
+if TYPE_CHECKING:
+    from viscofric.roughness.topography import Topography
 
 #: Options of the indenter alone.
 indenter_options = together(
@@ -33,15 +36,20 @@ indenter_options = together(
     click.option(
         "--height-map",
         type=FILE,
-        help="Table of heights (text or .npy); one line per position along the motion. Needs --spacing.",
+        help="Heights of the indenter above its lowest point, which touches first; one line of the file per position "
+        "along the motion. Invert the scan of a surface whose summits touch.",
     ),
     click.option(
-        "--profile", type=FILE, help="One column of heights along the motion (line contact). Needs --spacing."
+        "--profile", type=FILE, help="As --height-map, one column of heights along the motion (line contact)."
     ),
     click.option(
-        "--spacing", metavar="LENGTH", help="Spacing of the heights: '5 um', or '5 um,10 um' along and across."
+        "--spacing",
+        metavar="LENGTH",
+        help="Spacing of the heights if the file does not state it: '5 um', or '5 um,10 um' along and across.",
     ),
-    click.option("--height-unit", metavar="UNIT", help="Unit of the heights in the file [default: m]."),
+    click.option(
+        "--height-unit", metavar="UNIT", help="Unit of the heights if the file does not state it [default: m]."
+    ),
 )
 #: Options, one of which says what shape it is.
 SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")
@@ -104,10 +112,8 @@ def chosen_body(parameters: dict[str, Any]) -> NamedIndenter:
     if given:
         raise click.UsageError(f"--surface and {given[0]} are both given; the contact has one of them.")
     from viscofric.friction.cases.surfaces import step_of
-    from viscofric.roughness.reading import read_topography
 
-    steps = None if parameters["spacing"] is None else _spacing(parameters)
-    topography = read_topography(path, unit=parameters["height_unit"] or "", spacing=steps)
+    topography = _read_heights(path, parameters)
     for words in parameters["prepare"]:
         with placed_at("--prepare"):
             topography = step_of(words)(topography)
@@ -153,20 +159,30 @@ def _simple(shape: str, text: str) -> NamedIndenter:
     return NamedIndenter(round_one, f"{noun} of radius {length(radius)}", {"shape": shape, "radius": radius})
 
 
+def _read_heights(path: Path, parameters: dict[str, Any]) -> Topography:
+    """Return heights of a file, and print what was assumed of them."""
+    from viscofric.notes import note_of
+    from viscofric.roughness.reading import read_topography
+
+    steps = None if parameters["spacing"] is None else _spacing(parameters)
+    with typed_as({"unit": "height_unit"}):
+        topography = read_topography(path, unit=parameters["height_unit"] or "", spacing=steps)
+    print_notes([note for note in map(note_of, topography.history) if note.code])
+    return topography
+
+
 def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
     from viscofric.contact.indenters.height_map import HeightMap, Profile
-    from viscofric.errors import InputError
-    from viscofric.readers.topography.tables import read_heights
+    from viscofric.errors import DataFileError, InputError
 
     path: Path = parameters[shape]
-    if parameters["spacing"] is None:
-        raise click.UsageError(f"{option(shape)} needs --spacing, the distance of its heights, such as '5 um'.")
-    heights = read_heights(path, parameters["height_unit"] or "m")
-    steps = _spacing(parameters)
-    if shape == "profile" and (min(heights.shape) > 1 or not isinstance(steps, str)):
-        raise click.UsageError(f"--profile is one column of heights with one spacing; {path} holds a map.")
+    topography = _read_heights(path, parameters)
+    if topography.is_line != (shape == "profile"):
+        held, other = ("one line", "--profile") if topography.is_line else ("a map", "--height-map")
+        raise DataFileError(str(path), f"holds {held} of heights; give it by {other}.", code="not-heights")
     try:
-        made = Profile(heights.ravel(), steps) if shape == "profile" else HeightMap(heights, steps)
+        heights, (along, across) = topography.complete(), topography.spacing
+        made = Profile(heights[:, 0], along) if topography.is_line else HeightMap(heights, (along, across))
     except InputError as error:
         raise error.at(str(path)) from None
     points = [heights.size] if shape == "profile" else list(heights.shape)

@@ -8,6 +8,7 @@ import math
 import sys
 import warnings
 import zipfile
+from dataclasses import replace
 from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
@@ -19,7 +20,7 @@ from viscofric.errors import DataFileError, InputError, not_imported
 from viscofric.files import insist_on_size
 from viscofric.limited_process import LimitedProcess
 from viscofric.readers.source import Source
-from viscofric.readers.topography.scan import Scan, ScanOptions, name_of
+from viscofric.readers.topography.scan import SPACING, UNIT, Scan, ScanOptions, name_of, scan_of_points
 from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.units import conversion
 
@@ -30,6 +31,10 @@ _APART = LimitedProcess(LONGEST_READ, LARGEST_MEMORY, needed=__name__)
 _BY_PACKAGE = (
     "is neither a table of numbers nor a NumPy array; formats of instruments are read by the package "
     "SurfaceTopography, but {why}."
+)
+_UNKNOWN = (
+    "has no known format for heights of a surface; save a matrix of numbers, with # before lines of text, or columns "
+    "x (um), y (um), z (um)."
 )
 #: Elevations of the globe without a header: any file of a square's size would be recognised as such.
 _BY_SIZE = ("hgt",)
@@ -86,11 +91,7 @@ def read_here(source: Source, options: ScanOptions) -> Scan:
         except (InputError, MemoryError):
             raise
         except CannotDetectFileFormat:
-            raise DataFileError(
-                source.path,
-                "has no known format for heights of a surface.",
-                code="unknown-format",
-            ) from None
+            raise DataFileError(source.path, _UNKNOWN, code="unknown-format") from None
         except Exception as error:  # noqa: BLE001 - a damaged file makes the package raise anything
             reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
             raise DataFileError(
@@ -121,13 +122,16 @@ def _insist_on_small_workbook(source: Source) -> None:
 
 def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
     if reader.format() in _BY_SIZE:
-        raise DataFileError(source.path, "has no known format for heights of a surface.", code="unknown-format")
+        raise DataFileError(source.path, _UNKNOWN, code="unknown-format")
     channel = _channel(source, reader, options.channel)
     given: dict[str, Any] = {}
     if channel.unit is None:
         if not options.unit:
             raise DataFileError(
-                source.path, "does not state the unit of its heights; give unit='um', for instance.", code="no-unit"
+                source.path,
+                "does not state the unit of its heights; give ",
+                code="no-unit",
+                remedy=UNIT + ", for instance.",
             )
         given["unit"] = options.unit
     elif options.unit:
@@ -140,7 +144,10 @@ def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
     if channel.physical_sizes is None:
         if options.spacing is None:
             raise DataFileError(
-                source.path, "does not state the spacing of its points; give spacing='5 um'.", code="no-spacing"
+                source.path,
+                "does not state the spacing of its points; give ",
+                code="no-spacing",
+                remedy=SPACING + ".",
             )
         points = channel.nb_grid_pts
         given["physical_sizes"] = tuple(n * d / factor for n, d in zip(points, options.spacing, strict=False))
@@ -160,10 +167,6 @@ def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
 
 
 def _line(source: Source, measured: Any, heights: Array, factor: float, origin: str) -> Scan:
-    from dataclasses import replace
-
-    from viscofric.readers.topography.scan import scan_of_points
-
     if measured.is_uniform:
         step = factor * float(measured.pixel_size[0])
         return Scan(heights[:, None], (step, step), origin, periodic=bool(measured.is_periodic))

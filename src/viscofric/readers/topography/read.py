@@ -27,7 +27,7 @@ def read_scan(path: object, options: ScanOptions) -> Scan:
     if not source.data:
         raise DataFileError(file, "is empty.", code="empty")
     try:
-        plain = source.data.startswith(NUMPY) or is_table(source.text)
+        plain = source.data.startswith(NUMPY) or is_table(source)
         if plain and options.channel not in (None, 0):
             raise DataFileError(
                 file,

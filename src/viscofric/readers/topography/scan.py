@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
-from viscofric.notes import Note
+from viscofric.notes import Note, setting
 from viscofric.readers.source import Source
+
+#: What to give where a file does not state it.
+SPACING = setting("surface.spacing", "Spacing", "'5 um'")
+UNIT = replace(setting("surface.unit", "Unit", "'um'"), shell="--height-unit um")
 
 
 @dataclass(frozen=True)
@@ -44,12 +48,14 @@ def name_of(source: Source) -> str:
 #: Positions belong to the same row of the grid up to this part of the distance of rows.
 _SAME = 0.05
 #: Positions of a line scan are even up to this part of their distance; others are interpolated.
-_EVEN = 0.02
+EVEN = 0.02
 #: A grid with fewer of its points than this is no grid.
 _LEAST_FILLED = 0.25
 
 
-def scan_of_points(source: Source, points: Array, options: ScanOptions, lines: list[int]) -> Scan:
+def scan_of_points(
+    source: Source, points: Array, options: ScanOptions, lines: list[int], notes: tuple[str, ...] = ()
+) -> Scan:
     """Return points x, z or x, y, z, m (z is NaN without a reading), on their grid; `lines` are those of the file."""
     if options.spacing is not None:
         raise DataFileError(
@@ -63,12 +69,10 @@ def scan_of_points(source: Source, points: Array, options: ScanOptions, lines: l
             lines[int(bad[0])],
             code="not-a-number",
         )
-    if options.missing is not None:
-        points = points.copy()
-        points[points[:, -1] == options.missing, -1] = math.nan
     if len(points) < 2:
         raise DataFileError(source.path, "contains one point only; a line or a grid is needed.", code="no-points")
-    return _line(source, points) if points.shape[1] == 2 else _grid(source, points)
+    found = _line(source, points) if points.shape[1] == 2 else _grid(source, points)
+    return replace(found, notes=(*found.notes, *notes))
 
 
 def _line(source: Source, points: Array) -> Scan:
@@ -82,7 +86,7 @@ def _line(source: Source, points: Array) -> Scan:
             code="same-position",
         )
     mean = float(np.ptp(x)) / (len(x) - 1)
-    if float(np.abs(x - x[0] - mean * np.arange(len(x))).max()) <= _EVEN * mean:
+    if float(np.abs(x - x[0] - mean * np.arange(len(x))).max()) <= EVEN * mean:
         return Scan(z[:, None], (mean, mean), origin)
     # The lower quartile of the distances: nearly nothing is lost where points are dense.
     step = float(np.quantile(steps, 0.25))
@@ -102,8 +106,9 @@ def _grid(source: Source, points: Array) -> Scan:
         raise DataFileError(
             source.path,
             f"its {len(points)} points form no grid: their x and y would need one of {nx} × {ny}; a matrix of heights "
-            "needs spacing='5 um', for instance.",
+            "needs ",
             code="no-grid",
+            remedy=SPACING + ", for instance.",
         )
     heights = np.full((nx, ny), math.nan)
     heights[i, j] = points[:, 2]

@@ -5,48 +5,59 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import DataFileError
-from viscofric.files import LARGEST_FILE, decoded, insist_on_short_text, read_bytes, saved_array
-from viscofric.notes import Note
-from viscofric.readers.source import Source
+from viscofric.files import saved_array
+from viscofric.notes import Note, Remedy
+from viscofric.readers.headings import Vocabulary
+from viscofric.readers.one_table import only_table
+from viscofric.readers.source import Source, decimal_comma
 from viscofric.readers.table import MISSING
-from viscofric.readers.topography.scan import Scan, ScanOptions, name_of, scan_of_points
+from viscofric.readers.tables import holds_table
+from viscofric.readers.topography.scan import EVEN, SPACING, UNIT, Scan, ScanOptions, name_of, scan_of_points
 from viscofric.units import conversion
 
 NUMPY = b"\x93NUMPY"
 _BLANKS = re.compile(r"\s+")
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
-_UNIT = re.compile(r"[(\[]\s*([^()\[\]]+?)\s*[)\]]|_(nm|um|µm|mm|m)$|/\s*(\S+)$")
+_WHOLE = re.compile(r"[+-]?\d{1,15}")
 #: "# Width: 10.0 µm", as Gwyddion and others write above a matrix with lines along y.
 _REMARK = re.compile(r"#\s*(Width|Height|Value units)\s*:\s*(.+?)\s*$", re.IGNORECASE)
-_POINT_NAMES = (("x", "z"), ("x", "height"), ("x", "y", "z"), ("x", "y", "height"))
+
+#: The words of tables of positions and heights.
+HEIGHTS = Vocabulary(
+    "a table of heights",
+    {
+        "x": frozenset({"x", "X", "position", "position x", "x position", "distance", "lateral", "weg", "länge"}),
+        "y": frozenset({"y", "Y", "position y", "y position"}),
+        "height": frozenset({"z", "Z", "height", "height z", "z height", "profile", "elevation", "höhe", "hauteur"}),
+    },
+    needed=(("x",), ("height",)),
+    example="heights have e.g. 'x (um)', 'y (um)', 'z (um)'",
+    key="",
+)
 
 
 class _Text(NamedTuple):
-    """A table of numbers in text: headings (none, if there are none), rows, the line of each, and the remarks."""
+    """A matrix of numbers in text, (rows, columns), the line of each row, and the remarks."""
 
-    headings: tuple[str, ...]
     rows: Array
     lines: list[int]
     remarks: dict[str, str]
 
 
-def is_table(text: str | None) -> bool:
-    """Return whether a text is a table of numbers, under remarks and at most one row of headings."""
-    if text is None:
+def is_table(source: Source) -> bool:
+    """Return whether a text is a table of numbers: columns with headings, or a matrix under remarks."""
+    if source.text is None:
         return False
-    lines = [line.strip() for line in text.splitlines()[:200] if line.strip() and not line.lstrip().startswith("#")]
-    if not lines:
-        return False
-    with_headings = _points_headings(_cells(lines[0])) is not None
-    body = lines[1:] if with_headings else lines
-    return bool(body) and all(map(_is_number, _cells(body[0])))
+    plain = (line.strip() for line in source.text.splitlines()[:200])
+    first = next((line for line in plain if line and not line.startswith("#")), "")
+    cells = _cells(first)
+    return (bool(first) and all(map(_is_number, cells[1:] or cells))) or holds_table(source, HEIGHTS)
 
 
 def read_array(source: Source, options: ScanOptions) -> Scan:
@@ -61,21 +72,34 @@ def read_array(source: Source, options: ScanOptions) -> Scan:
 def read_text_table(source: Source, options: ScanOptions) -> Scan:
     """Read a text table: a matrix of heights, or columns x, z or x, y, z, recognised by headings or by their grid."""
     assert source.text is not None
+    if holds_table(source, HEIGHTS):
+        return _points(source, options)
     table = _parsed(source.path, source.text)
-    named = _points_headings(table.headings)
-    if named is not None:
-        factors = _units(source, table.headings, options)
-        return scan_of_points(source, factors * table.rows, options, table.lines)
     if options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3):
         factor, _ = conversion(options.unit or "m", "m", "unit")
-        found = scan_of_points(source, factor * table.rows, options, table.lines)
-        assumed = (
-            ()
-            if options.unit
-            else (Note("unit-assumed", "positions and heights assumed to be in m", values={"unit": "m"}),)
-        )
-        return replace(found, notes=(*found.notes, *assumed))
+        rows = np.column_stack([table.rows[:, :-1], _read(table.rows[:, -1], options)])
+        assumed = Note("unit-assumed", "positions and heights assumed to be in m", values={"unit": "m"})
+        return scan_of_points(source, factor * rows, options, table.lines, () if options.unit else (assumed,))
     return _matrix(source, table.rows, options, table.remarks, "text matrix")
+
+
+def _points(source: Source, options: ScanOptions) -> Scan:
+    """Read columns of positions and heights under their headings."""
+    table = only_table(source, HEIGHTS)
+    places = [place for what in ("x", "y", "height") if (place := table.place(what)) is not None]
+    named = [table.columns[place] for place in places]
+    if options.unit and all(column.unit for column in named):
+        problem = f"its headings state their units; leave unit = {options.unit!r} out."
+        raise DataFileError(source.path, problem, code="unit-not-needed")
+    units = [column if column.unit else replace(column, unit=options.unit) for column in named]
+    factors = [table.conversion(column, "m", Remedy(", or give it by ") + UNIT)[0] for column in units]
+    columns = [*map(table.numbers, places[:-1]), _read(table.numbers_or_missing(places[-1]), options)]
+    return scan_of_points(source, np.column_stack(columns) * factors, options, table.lines.tolist())
+
+
+def _read(heights: Array, options: ScanOptions) -> Array:
+    """Return heights as printed, NaN for the number that means no reading."""
+    return heights if options.missing is None else np.where(heights == options.missing, math.nan, heights)
 
 
 def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[str, str], kind: str) -> Scan:
@@ -87,12 +111,12 @@ def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[st
             code="unit-not-needed",
         )
     factor, _ = conversion(options.unit or stated_unit or "m", "m", "unit")
-    table = np.where(table == options.missing, math.nan, table) if options.missing is not None else table
+    table, notes, step = _without_positions(_read(table, options))
     heights = np.atleast_2d(table.T).T if min(np.shape(table)) > 1 or table.ndim == 1 else table.reshape(-1, 1)
     # Such remarks precede an image, whose lines follow one another along y.
     if (options.lines == "y" or "width" in remarks) and heights.shape[1] > 1:
         heights = heights.T
-    spacing = options.spacing
+    spacing = options.spacing or (step if step is None else (factor * step[0], factor * step[1]))
     if "width" in remarks:
         if spacing is not None:
             raise DataFileError(source.path, "states its width; leave the spacing out.", code="spacing-not-needed")
@@ -102,23 +126,32 @@ def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[st
     if spacing is None:
         raise DataFileError(
             source.path,
-            "does not state the spacing of its points; give spacing='5 um', for instance.",
+            "does not state the spacing of its points; give ",
             code="no-spacing",
+            remedy=SPACING + ", for instance.",
         )
-    notes = (
-        ()
-        if options.unit or stated_unit
-        else (Note("unit-assumed", "heights assumed to be in m", values={"unit": "m"}),)
-    )
-    return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})", notes=notes)
+    if not (options.unit or stated_unit):
+        notes.append(Note("unit-assumed", "heights assumed to be in m", values={"unit": "m"}))
+    return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})", notes=tuple(notes))
+
+
+def _without_positions(table: Array) -> tuple[Array, list[Note], tuple[float, float] | None]:
+    """Return a matrix without a first row and column of even positions about an empty corner, and their distances."""
+    if table.ndim != 2 or min(table.shape) < 3 or not math.isnan(table[0, 0]):
+        return table, [], None
+    steps = [np.diff(positions) for positions in (table[1:, 0], table[0, 1:])]
+    if not all(np.all(step > 0.0) and np.ptp(step) < EVEN * step.mean() for step in steps):
+        return table, [], None
+    said = Note("positions-in-matrix", "first row and first column, evenly spaced, taken as positions")
+    return table[1:, 1:], [said], (float(steps[0].mean()), float(steps[1].mean()))
 
 
 def _length(path: str, text: str) -> float:
-    match = re.fullmatch(r"([0-9.eE+-]+)\s*(\S+)", text)
+    match = re.fullmatch(r"([0-9.,eE+-]+)\s*(\S+)", text)
     if match is None or not _NUMBER.fullmatch(match[1]):
         raise DataFileError(path, f"{text!r} in its remarks is not a length such as '10 um'.", code="wrong-unit")
     factor, _ = conversion(match[2], "m", "width")
-    return factor * float(match[1])
+    return factor * float(match[1].replace(",", "."))
 
 
 def _cells(line: str) -> list[str]:
@@ -137,36 +170,8 @@ def _is_number(cell: str) -> bool:
     return cell.lower() in MISSING or _NUMBER.fullmatch(cell) is not None
 
 
-def _points_headings(cells: list[str] | tuple[str, ...]) -> tuple[str, ...] | None:
-    """Return the names of columns of positions and heights, if these are headings of such."""
-    names = tuple(_UNIT.sub("", cell.strip().strip('"')).strip().lower() for cell in cells)
-    return names if names in _POINT_NAMES else None
-
-
-def _units(source: Source, headings: tuple[str, ...], options: ScanOptions) -> Array:
-    factors = []
-    for cell in headings:
-        match = _UNIT.search(cell.strip().strip('"'))
-        stated = next((part for part in match.groups() if part), "") if match else ""
-        if stated and options.unit:
-            raise DataFileError(
-                source.path,
-                f"column {cell!r} states its unit; leave unit = {options.unit!r} out.",
-                code="unit-not-needed",
-            )
-        if not stated and not options.unit:
-            raise DataFileError(
-                source.path,
-                f"column {cell!r} has no unit; write it as '{cell} (um)', or give unit='um'.",
-                code="no-unit",
-            )
-        factors.append(conversion(stated or options.unit, "m", f"unit of column {cell!r}")[0])
-    return np.array(factors)
-
-
 def _parsed(path: str, text: str) -> _Text:
     remarks: dict[str, str] = {}
-    headings: tuple[str, ...] = ()
     found: list[tuple[int, list[str]]] = []
     for number, line in enumerate(text.splitlines(), 1):
         words = line.strip(" \r\n")
@@ -176,24 +181,32 @@ def _parsed(path: str, text: str) -> _Text:
             if match := _REMARK.match(words):
                 remarks[match[1].lower()] = match[2]
             continue
-        cells = _cells(words)
-        if not found and not headings and _points_headings(cells) is not None:
-            headings = tuple(cells)
-        else:
-            found.append((number, cells))
+        found.append((number, _cells(words)))
     if not found:
         raise DataFileError(path, "contains no heights.", code="no-points")
     if all(len(cells) > 1 and not cells[-1] for _, cells in found):  # delimiters that close each row
         found = [(number, cells[:-1]) for number, cells in found]
-    wanted = len(headings) or len(found[0][1])
-    first = "the header names" if headings else "the first holds"
+    wanted = len(found[0][1])
     for number, cells in found:
         if len(cells) != wanted:
-            raise DataFileError(
-                path, f"the line holds {len(cells)} numbers where {first} {wanted}.", number, code="row-length"
-            )
+            problem = f"the line holds {len(cells)} numbers where the first holds {wanted}."
+            raise DataFileError(path, problem, number, code="row-length")
+    _insist_on_delimiters(path, found)
+    decimal_comma(path, ((cell, number) for number, cells in found for cell in cells if "," in cell))
+    if not _is_number(found[0][1][0]):  # a label in the corner of positions
+        found[0][1][0] = ""
     rows = np.array([[_number(path, cell, number) for cell in cells] for number, cells in found])
-    return _Text(headings, rows, [number for number, _ in found], remarks)
+    return _Text(rows, [number for number, _ in found], remarks)
+
+
+def _insist_on_delimiters(path: str, found: list[tuple[int, list[str]]]) -> None:
+    """Refuse whole numbers in pairs, which may be one number with a decimal comma, unless the first ones ascend."""
+    if all(len(cells) == 2 and _WHOLE.fullmatch(cells[0]) and cells[1].isdecimal() for _, cells in found):
+        first = [int(cells[0]) for _, cells in found]
+        if any(np.diff(first) <= 0):
+            number, cells = found[0]
+            problem = f"'{','.join(cells)}' may be one number with a decimal comma, or two; write a decimal point."
+            raise DataFileError(path, problem, number, code="ambiguous-decimals")
 
 
 def _number(path: str, cell: str, line: int) -> float:
@@ -209,24 +222,6 @@ def _number(path: str, cell: str, line: int) -> float:
 
 #: Heights above this, m, were read in another unit, or are damaged.
 HIGHEST = 1e3
-_BETWEEN = re.compile(r"[,;\t ]+")
-_NUMPY = b"\x93NUMPY"
-
-
-def read_heights(path: str | Path, unit: str = "m") -> Array:
-    """Return heights (nx, ny), m, of a table in a unit of length: text with a line for each x, or an .npy array."""
-    factor, _ = conversion(unit, "m", "height unit")
-    data = read_bytes(path, LARGEST_FILE)
-    if data.startswith(_NUMPY):
-        table = _numpy(data, path)
-    else:
-        insist_on_short_text(data, path)
-        table = _text(decoded(data, path), path)
-    if not np.all(np.isfinite(table)):
-        raise DataFileError(
-            path, "some heights are not finite numbers; fill gaps of a measurement first.", code="not-a-number"
-        )
-    return checked_heights(factor * table, path)
 
 
 def checked_heights(heights: Array, path: object) -> Array:
@@ -239,34 +234,3 @@ def checked_heights(heights: Array, path: object) -> Array:
             code="implausible-height",
         )
     return heights
-
-
-def _numpy(data: bytes, path: str | Path) -> Array:
-    array = saved_array(data, path)
-    if array.ndim not in (1, 2) or array.dtype.kind not in "fiu" or array.size == 0:
-        raise DataFileError(
-            path,
-            f"holds an array of shape {array.shape} of {array.dtype}; a table of heights is needed.",
-            code="not-heights",
-        )
-    return np.atleast_2d(np.asarray(array, dtype=float).T).T
-
-
-def _text(text: str, path: str | Path) -> Array:
-    rows: list[list[float]] = []
-    for number, line in enumerate(text.splitlines(), 1):
-        if not (words := line.strip()) or words.startswith("#"):
-            continue
-        try:
-            row = [float(word) for word in _BETWEEN.split(words.strip(",;"))]
-        except ValueError:
-            raise DataFileError(
-                path, f"{words[:40]!r} is not a line of heights, plain numbers only.", number, code="not-a-number"
-            ) from None
-        if rows and len(row) != len(rows[0]):
-            problem = f"holds {len(row)} heights where the first line holds {len(rows[0])}."
-            raise DataFileError(path, problem, number, code="row-length")
-        rows.append(row)
-    if not rows:
-        raise DataFileError(path, "contains no heights.", code="no-points")
-    return np.array(rows)
