@@ -196,6 +196,16 @@ def test_only_tables_are_printed_in_place_of_a_file(tmp_path: Path, monkeypatch:
     monkeypatch.chdir(tmp_path)
     for arguments in (["demo"], ["run", "study.toml"], ["material", "fit", "dma.csv"]):
         assert CliRunner().invoke(main, [*arguments, "--out", "-"]).exit_code == 2
+    for arguments in (
+        ["solve", "--picture", "-"],
+        ["transient", "--save-state", "-"],
+        ["transient", "--pressures", "-"],
+        ["transient", "--animation", "-"],
+        ["material", "indentation", "creep.csv", "--csv", "-"],
+        ["material", "convert", "rubber.json", "-", "--format", "csv"],
+    ):
+        done = CliRunner().invoke(main, arguments)
+        assert (done.exit_code, done.stdout, "nothing but tables" in done.stderr) == (2, "", True), arguments
     assert CliRunner().invoke(main, ["verify", "--list", "--json"]).exit_code == 2
     assert CliRunner().invoke(main, ["new", "-", "--json"]).exit_code == 2
     assert not list(tmp_path.iterdir())

@@ -47,8 +47,22 @@ def refuse_to_overwrite(inputs: Iterable[Path], *targets: Path | None) -> None:
             raise refusal("is-input", f"{target} is an input and would be overwritten; choose another name.")
 
 
+class Named(click.Path):
+    """A file or a folder with a name: `-` is none."""
+
+    def __init__(self, **kinds: bool) -> None:
+        super().__init__(path_type=Path, **kinds)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path."""
+        found = super().convert(value, param, ctx)
+        if found == DASH:
+            self.fail("`-` is no name of a file or folder, and nothing but tables can be printed.", param, ctx)
+        return found
+
+
 #: A file to be written, or to be read.
-FILE = click.Path(path_type=Path, dir_okay=False)
+FILE = Named(dir_okay=False)
 #: A file to be written, or `-` for standard output.
 OUT = click.Path(path_type=Path, dir_okay=False, allow_dash=True)
 

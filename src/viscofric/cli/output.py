@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.files import DASH, FILE, OUT, PICTURES, check_ending, to_be_written
+from viscofric.cli.files import DASH, FILE, OUT, PICTURES, Named, check_ending, to_be_written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -30,7 +30,7 @@ def together(*options: Decorator) -> Decorator:
 
 
 #: A folder to be written into.
-FOLDER = click.Path(path_type=Path, file_okay=False)
+FOLDER = Named(file_okay=False)
 
 #: Help of `--json` where a study runs.
 RUN_JSON = "Print progress as JSON, one object a line; the last one has the outcome."
@@ -57,10 +57,6 @@ def out_option(
         if found is not None and ctx.get_parameter_source("out") is not click.core.ParameterSource.DEFAULT:
             raise click.UsageError(f"--out and {old} are both given; they are the same option.")
         found = value if found is None else found
-        if found == DASH and not kind.allow_dash:
-            raise click.BadParameter(
-                "is a file or folder here; nothing but tables can be printed.", param_hint="--out -"
-            )
         if found == DASH and ctx.params.get("as_json"):
             raise click.UsageError(
                 "--json and --out - both write to standard output; use one of them, or give --out a file."
