@@ -475,6 +475,27 @@ def test_numbered_columns_that_are_not_read_are_named(tmp_path, other):
     assert noted(sweeps.notes, "unused-columns", repr(other))
 
 
+@pytest.mark.parametrize(
+    "titles",
+    [
+        ("Temperature: {} °C",) * 2,
+        ("T (°C);{}",) * 2,
+        ("{} °C; 0,1 %", "Sweep 2 @ {}C"),
+    ],
+)
+@pytest.mark.parametrize("extra", ["", "\n°C;MPa;MPa"])
+def test_a_line_above_each_table_gives_its_temperature(tmp_path, titles, extra):
+    lines = ["Rubber 7; tested at 23 °C"]
+    for title, kelvin in zip(titles, ("-20", "30"), strict=True):
+        head = "f;E';E''\nHz;MPa;MPa" if extra else "f (Hz);E' (MPa);E'' (MPa)"
+        lines += [title.format(kelvin), head, "0,1;5;0,5", "1;6;0,6", ""]
+    sweeps = read_dma(write(tmp_path, *lines))
+    assert sweeps.temperatures - 273.15 == pytest.approx([-20.0, 30.0])
+    assert "temperature-from-title" in codes(sweeps.notes)
+    with refused("no-temperature"):  # one table has none
+        read_dma(write(tmp_path, *(line.replace(titles[1].format("30"), "Sweep 2") for line in lines)))
+
+
 def test_words_that_may_tell_specimens_apart_are_named(tmp_path):
     rows = [f"{row},{word}" for row, word in zip(ROWS, "ABAB", strict=True)]
     sweeps = read_dma(write(tmp_path, f"{HEADER},sample", *rows))

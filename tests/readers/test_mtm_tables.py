@@ -99,6 +99,20 @@ def test_numbered_forces_and_speeds_are_not_passed_over(tmp_path, numbered):
         read_mtm(write(tmp_path, f"{HEADER},{numbered}", f"{ROW},1.2"))
 
 
+@pytest.mark.parametrize(
+    ("heading", "agrees", "contradicts"),
+    [("sliding speed (mm/s)", "5", "10"), ("SRR (%)", "5.13", "2.56"), ("SRR (-)", "0.0513", "5.13")],
+)
+def test_slip_beside_both_speeds_must_agree_with_them(tmp_path, heading, agrees, contradicts):
+    header = f"temperature (degC),disc speed (mm/s),ball speed (mm/s),load (N),traction force (N),{heading}"
+    for slip, wrong in ((agrees, False), (f"-{agrees}", False), (contradicts, True)):
+        path = tmp_path / "runs.csv"
+        path.write_text("\n".join([header, *[f"20,100,95,25,1.3,{slip}"] * 3]), encoding="utf-8")
+        notes = read_mtm(path).notes
+        assert ("slip-contradicts" in codes(notes)) == wrong
+        assert ("unused-columns" in codes(notes)) == wrong
+
+
 def test_columns_that_are_not_read_are_named(tmp_path):
     runs = read_mtm(write(tmp_path, f"{HEADER},load 2 (N),remark,step", f"{ROW},25,run in,1"))
     (note,) = runs.notes

@@ -128,6 +128,15 @@ def test_the_number_of_a_missing_height_is_in_the_units_of_the_file(tmp_path, he
     assert np.nanmin(found.heights) == pytest.approx(1e-6)
 
 
+def test_a_height_far_from_all_others_is_noted(tmp_path):
+    for hole, suspected in ((-9999, True), (-60, False), (99999, True)):  # a scratch of 20 times the range is none
+        path = write(tmp_path, f"1,2,3\n4,{hole},2\n1,2,{hole}\n")
+        found = vf.read_topography(path, spacing="1 um", unit="um")
+        assert ("missing-suspected" in codes(found.history)) == suspected
+        again = vf.read_topography(path, spacing="1 um", unit="um", missing=hole)
+        assert "missing-suspected" not in codes(again.history)
+
+
 @pytest.mark.parametrize(
     "above",
     [

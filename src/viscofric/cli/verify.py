@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import sys
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Columns that the table needs; a narrower terminal gets lines, as a file does.
 _TABLE_WIDTH = 110
+#: What is written of a comparison, in the order in which it is printed.
+_COLUMNS = ("case", "quantity", "computed", "expected", "error", "bound", "measure", "passed")
 _SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
 
 
@@ -218,9 +219,7 @@ def _record(outcomes: list[Outcome]) -> dict[str, Any]:
                 "passed": outcome.passed,
                 "trouble": outcome.trouble,
                 "seconds": outcome.seconds,
-                "comparisons": [
-                    asdict(one) | {"error": one.error, "passed": one.passed} for one in outcome.comparisons
-                ],
+                "comparisons": [{name: getattr(one, name) for name in _COLUMNS} for one in outcome.comparisons],
             }
             for outcome in outcomes
         ],

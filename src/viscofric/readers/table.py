@@ -63,6 +63,7 @@ class Table:
     decimal_comma: bool
     above: tuple[tuple[str, ...], ...] = ()  # cells of the rows above the header, and of other sheets
     block: Integers | None = None  # of each row, where several tables stand below each other
+    titles: tuple[tuple[str, ...], ...] = ()  # cells of the line above the header of each of these tables
     empty_rows: int = 0  # left out, with none of the quantities that make a header
     vocabulary: Vocabulary = NO_WORDS
 
@@ -182,9 +183,9 @@ class Table:
         if len(found) > 1:
             both = " and ".join(repr(self.columns[place].heading) for place in found)
             problem = f"{both} could each be the {what}; keep one of them"
-            raise self.refused(
-                "ambiguous-columns", problem, or_name_it(self.vocabulary.key, what, self.columns[found[0]].heading)
-            )
+            headings = {self.columns[place].heading for place in found}
+            first = self.columns[found[0]].heading if len(headings) == len(found) else f"#{found[0] + 1}"
+            raise self.refused("ambiguous-columns", problem, or_name_it(self.vocabulary.key, what, first))
         return found[0] if found else None
 
 

@@ -153,25 +153,38 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     body = list(rows[header + 1 :])
     if body and _is_row_of_units(columns, body[0][1]):
         columns = _with_units(path, columns, *body.pop(0))
-    blocks = _stacked(body, list(rows[header][1]), columns)
+    blocks, titles = _stacked(body, list(rows[header][1]), columns)
+    titles = [list(rows[header - 1][1]) if header else [], *titles]
     kept = [row for block in blocks for row in block]
     table = make_table(path, columns, kept, vocabulary=words)
     first_lines = [block[0][0] for block in blocks if block]
     block = np.searchsorted(first_lines, table.lines, side="right") if len(first_lines) > 1 else None
-    return replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block)
+    held = tuple(tuple(title) for title, rows_of in zip(titles, blocks, strict=True) if rows_of)
+    return replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block, titles=held)
 
 
-def _stacked(body: Sequence[NumberedRow], header: list[str], columns: Sequence[Column]) -> list[list[NumberedRow]]:
-    """Return the rows of tables below each other that repeat their header, without the text between them."""
+def _stacked(
+    body: Sequence[NumberedRow], header: list[str], columns: Sequence[Column]
+) -> tuple[list[list[NumberedRow]], list[Sequence[str]]]:
+    """Return the rows of tables below each other that repeat their header, and the line of text above each repeat."""
     blocks: list[list[NumberedRow]] = [[]]
+    titles: list[Sequence[str]] = []
     for row in body:
-        if list(row[1]) == header:
+        if _without_end(row[1]) == _without_end(header):
+            above: list[Sequence[str]] = []
             while blocks[-1] and sum(map(is_number, blocks[-1][-1][1])) < 2:
-                blocks[-1].pop()
+                above.append(blocks[-1].pop()[1])
+            titles.append(above[0] if above else [])
             blocks.append([])
         elif blocks[-1] or len(blocks) == 1 or not _is_row_of_units(columns, row[1]):
             blocks[-1].append(row)
-    return blocks
+    return blocks, titles
+
+
+def _without_end(cells: Sequence[str]) -> list[str]:
+    """Return the cells of a row up to the last one that is not blank."""
+    filled = [place for place, cell in enumerate(cells, start=1) if cell.strip()]
+    return list(cells[: max(filled, default=0)])
 
 
 def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from os import PathLike
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import file_path
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.readers.topography.read import read_scan
 from viscofric.readers.topography.scan import ScanOptions
 from viscofric.readers.topography.tables import checked_heights
@@ -18,6 +20,14 @@ from viscofric.units import Quantity, to_si, two_lengths
 
 #: Heights of a scan that lie further apart, m, were probably read in another unit.
 _LARGE_EXTENT = 0.1
+#: A number for no reading is further from all heights than so many times their range; dust and scratches are not.
+_FAR_OFF = 100.0
+_AS_MISSING = Remedy(
+    "; if they are no readings, give their number in the file by missing=.",
+    "; if they are no readings, write nan in their place.",
+    "; if they are no readings, give their number in the file as missing under [surface].",
+    field="surface.missing",
+)
 
 
 def read_topography(
@@ -83,6 +93,7 @@ def read_topography(
     if (extent := float(np.nanmax(heights, initial=-np.inf) - np.nanmin(heights, initial=np.inf))) > _LARGE_EXTENT:
         said = f"heights lie up to {extent:.3g} m apart, more than scans of surfaces have: check their unit"
         notes.append(Note("implausible-heights", said))
+    notes += [note for extreme in (np.nanmin, np.nanmax) if (note := _far_off(heights, extreme)) is not None]
     try:
         found = Topography(heights, scan.spacing, scan.periodic, file_path(path).stem, (scan.origin, *notes))
     except InputError as error:
@@ -90,3 +101,18 @@ def read_topography(
     if found.missing == found.heights.size:
         raise DataFileError(path, "contains no heights: no point has a reading.", code="no-points")
     return found
+
+
+def _far_off(heights: Array, extreme: Callable[[Array], Any]) -> Note | None:
+    """Return a note on an extreme height that looks like the number for no reading."""
+    if not np.isfinite(heights).any():
+        return None
+    value = float(extreme(heights))
+    others = heights[np.isfinite(heights) & (heights != value)]
+    gap = 0.0 if others.size == 0 else float(np.abs(others - value).min())
+    if not (others.size and gap > _FAR_OFF * float(np.ptp(others)) > 0.0):
+        return None
+    count = int(np.count_nonzero(heights == value))
+    held = "1 height of" if count == 1 else f"{count} heights of"
+    said = f"{held} {value:.6g} m lie far from all others"
+    return Note("missing-suspected", said, remedy=_AS_MISSING, values={"height": value, "count": count})

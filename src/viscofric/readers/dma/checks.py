@@ -21,10 +21,17 @@ def usable(points: Points, source: str) -> tuple[Indices, list[Note]]:
     """Return the usable points, and a note on each kind of those left out."""
     if not len(points):
         raise DataFileError(source, "contains no point of a frequency sweep.", code="no-points")
-    columns = (points.temperature, points.angular_frequency, points.storage_modulus, points.loss_modulus)
-    keep = np.all([np.isfinite(column) for column in columns], axis=0)
     notes: list[Note] = []
-    _leave_out(points, source, ~keep, notes, ("a value is missing in it", "a value is missing in each"), None)
+    keep = np.full(len(points), True)
+    for name, plural, column in (
+        ("temperature", "temperatures", points.temperature),
+        ("frequency", "frequencies", points.angular_frequency),
+        ("storage modulus", "storage moduli", points.storage_modulus),
+        ("loss modulus", "loss moduli", points.loss_modulus),
+    ):
+        missing = keep & ~np.isfinite(column)
+        _leave_out(points, source, missing, notes, (f"its {name} is missing", f"their {plural} are missing"), None)
+        keep &= ~missing
     cold = np.flatnonzero(keep & (points.temperature <= 0.0))
     if cold.size:
         problem = (

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from viscofric.notes import Note, setting
+from viscofric.readers.header_rows import is_number
 from viscofric.readers.headings import Vocabulary, heading, with_primes
 from viscofric.units import CELSIUS_ZERO
 
@@ -158,6 +159,9 @@ _TEMPERATURE_IN_NAME = re.compile(
 )
 
 
+_AS_PRINTED = {"C": "°C", "DEGC": "°C", "K": "K"}
+
+
 def quantity(name: str) -> str | None:
     """Return the quantity of `DMA` that a heading without its unit names, or None."""
     return DMA.quantity(name) or None
@@ -175,6 +179,16 @@ def temperature_in_name(name: str) -> float | None:
     number = float(one["number"].replace(",", ".")) * (-1.0 if one["sign"] in ("-", "−") else 1.0)
     kelvin = number if one["unit"] == "K" else number + CELSIUS_ZERO
     return kelvin if kelvin > 0.0 else None
+
+
+def temperature_of_title(cells: Sequence[str]) -> float | None:
+    """Return the temperature in a line above a table, such as ``T = 25 °C`` or ``Temperature (°C)`` and ``25``, K."""
+    filled = [cell.strip() for cell in cells if cell.strip()]
+    if len(filled) == 2 and is_number(filled[1]):
+        name = heading(filled[0].rstrip(":= "))
+        if DMA.quantity(name.name) == "temperature" and name.unit:
+            filled = [f"{filled[1]} {_AS_PRINTED.get(name.unit.strip('°').upper(), name.unit)}"]
+    return temperature_in_name(" ".join(filled))
 
 
 #: The problem if nothing decides between tension and shear.

@@ -18,12 +18,14 @@ from viscofric.units import shown_celsius
 #: What to do with a master curve in place of sweeps, and with sweeps in place of a master curve.
 AS_MASTER_CURVE = Remedy(
     "; use read_master_curve with its reference temperature.",
+    "; viscofric material fit --master-curve reads it.",
     run_file="; name it as master_curve, with its reference_temperature.",
     page="; under “Data” choose “A master curve” as the source, and drop it there.",
     field="material.dma",
 )
 AS_SWEEPS = Remedy(
     "; use read_dma.",
+    "; viscofric material read and fit read it.",
     run_file="; name it as dma.",
     page="; under “Data” choose “Sweeps of a DMA or rheometer” as the source, and drop it there.",
     field="material.master_curve",

@@ -199,6 +199,8 @@ def _whole_numbers(table: Table, what: str) -> Integers | None:
     return numbers.astype(np.int64)
 
 
+#: Printed slip agrees with the printed speeds to this part of it: a difference of nearly equal speeds.
+SLIP_AGREES = 0.2
 #: Unit of a slide-to-roll ratio -> factor to a fraction.
 _RATIO = {"%": 0.01, "-": 1.0, "1": 1.0, "–": 1.0}
 
@@ -222,24 +224,52 @@ def speeds(table: Table, notes: list[Note]) -> tuple[Array, Array, set[str]]:
     The slide-to-roll ratio is (u_disc - u_ball)/U, with the rolling speed U, the mean of the two.
     """
     if table.has("disc speed") and table.has("ball speed"):
-        return _values(table, "disc speed", "m/s"), _values(table, "ball speed", "m/s"), {"disc speed", "ball speed"}
+        disc, ball = _values(table, "disc speed", "m/s"), _values(table, "ball speed", "m/s")
+        return disc, ball, {"disc speed", "ball speed", *_agreeing_slip(table, disc, ball, notes)}
     rolling = _values(table, "rolling speed", "m/s")
-    if table.has("sliding speed"):
-        what, sliding = "sliding speed", _values(table, "sliding speed", "m/s")
-    else:
-        what = "slide to roll ratio"
-        place = table.place(what)
-        assert place is not None  # see `missing`
-        column = table.columns[place]
-        factor = _RATIO.get(column.unit.strip())
-        if factor is None:
-            shown = f"the unit {column.unit!r}" if column.unit else "no unit"
-            right = f"write it as '{column.name} (%)' or '{column.name} (-)'"
-            raise table.refused("wrong-unit", f"column {column.heading!r} has {shown}; {right}.")
-        sliding = factor * table.numbers(place) * rolling
+    what = "sliding speed" if table.has("sliding speed") else "slide to roll ratio"
+    sliding = _slip(table, what) * (1.0 if what == "sliding speed" else rolling)
     said = f"The speeds of disc and ball follow from rolling speed and {what}, which is positive where the disc is "
     notes.append(Note("speeds-from-slip", f"{said}faster."))
     return rolling + 0.5 * sliding, rolling - 0.5 * sliding, {"rolling speed", what}
+
+
+def _agreeing_slip(table: Table, disc: Array, ball: Array, notes: list[Note]) -> set[str]:
+    """Return the quantities of slip that are printed beside both speeds and agree; add a note where one does not.
+
+    A sign may be left out.
+    """
+    slip, rolling = np.abs(disc - ball), np.abs(0.5 * (disc + ball))
+    ratio = slip / np.where(rolling > 0.0, rolling, np.nan)
+    agreeing = set()
+    for what, expected in (("sliding speed", slip), ("slide to roll ratio", ratio)):
+        try:
+            printed = np.abs(_slip(table, what))
+        except DataFileError:  # not needed
+            continue
+        slack = SLIP_AGREES * (expected + 0.5 * np.nanmax(expected, initial=0.0))
+        if 2 * np.count_nonzero(np.abs(printed - expected) > slack) <= len(slip):
+            agreeing.add(what)
+        elif (place := table.place(what)) is not None:
+            said = f"Column {table.columns[place].heading!r} contradicts the two speeds in most rows; these were used."
+            notes.append(Note("slip-contradicts", said))
+    return agreeing
+
+
+def _slip(table: Table, what: str) -> Array:
+    """Return a column of slip: a speed, m/s, or a ratio; NaN without it."""
+    place = table.place(what)
+    if place is None:
+        return np.full(len(table.rows), np.nan)
+    if what == "sliding speed":
+        return table.values(place, "m/s")
+    column = table.columns[place]
+    factor = _RATIO.get(column.unit.strip())
+    if factor is None:
+        shown = f"the unit {column.unit!r}" if column.unit else "no unit"
+        right = f"write it as '{column.name} (%)' or '{column.name} (-)'"
+        raise table.refused("wrong-unit", f"column {column.heading!r} has {shown}; {right}.")
+    return factor * table.numbers(place)
 
 
 def force(table: Table, load: Array, slip: Array, notes: list[Note]) -> tuple[Array, str]:

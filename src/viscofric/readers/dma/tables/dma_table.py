@@ -13,7 +13,13 @@ from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import doubts, insist_on_agreement
-from viscofric.readers.dma.names import deformation_of, quantity, said_by_columns, temperature_in_name
+from viscofric.readers.dma.names import (
+    deformation_of,
+    quantity,
+    said_by_columns,
+    temperature_in_name,
+    temperature_of_title,
+)
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
@@ -230,7 +236,8 @@ def read_points(
         _insist_on_most(table, places, "storage modulus", storage)
     kind, said_by = deformation([table], tools)
     amplitude = _strain_amplitude(table, notes, "" if exported else "1")
-    _note_unread(table, notes)
+    if not exported:
+        _note_unread(table, notes)
     return Readings(
         source=source.path,
         format=format,
@@ -283,6 +290,10 @@ def _temperature(
     if source.temperature is not None:
         notes.append(Note("temperature-given", "No column holds a temperature; it was given by the user."))
         return np.full(len(angular), source.temperature)
+    titles = [temperature_of_title(title) for title in table.titles]
+    if table.block is not None and None not in titles:
+        notes.append(Note("temperature-from-title", "Temperatures were taken from the line above each table."))
+        return np.array(titles)[table.block - 1]
     found, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
     swept = angular[angular > 0.0]
     decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
@@ -307,6 +318,7 @@ def _no_temperature(table: Table, decades: float) -> DataFileError:
         remedy=setting("material.temperature", "Temperature of the sweep", "'25 degC'")
         + Remedy(
             ", and a master curve is read by read_master_curve.",
+            ", and a master curve is read by viscofric material fit --master-curve.",
             run_file=", and a master curve is named as master_curve.",
             page=".",
         ),
