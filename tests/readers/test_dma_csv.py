@@ -344,6 +344,54 @@ def test_the_loss_tangent_stands_for_a_modulus_that_is_missing(tmp_path, names, 
     assert bool(codes(sweeps.notes) & {"loss-computed", "storage-computed", "moduli-computed"}) == computed
 
 
+def degrees(row):
+    """Return a row of `ROWS` with |E*| and the loss angle in degrees."""
+    T, f, storage, loss = map(float, row.split(","))
+    return f"{T},{f},{math.hypot(storage, loss)!r},{math.degrees(math.atan2(loss, storage))!r}"
+
+
+@pytest.mark.parametrize("header", ["T/°C,f/Hz,|E*|/MPa,δ/°", "T (°C),f (Hz),E* (MPa),Phase Angle (deg)"])
+def test_the_loss_angle_stands_for_a_modulus_that_is_missing(tmp_path, header):
+    sweeps = read_dma(write(tmp_path, header, *map(degrees, ROWS)))
+    assert_is_the_table(sweeps)
+    assert noted(sweeps.notes, "moduli-computed")
+
+
+def test_an_angle_in_another_unit_is_refused_and_a_single_one_beyond_ninety_degrees_left_out(tmp_path):
+    rows = [*map(degrees, ROWS), "30,20,6,-0.3"]
+    sweeps = read_dma(write(tmp_path, "T (°C),f (Hz),E* (MPa),phase (°)", *rows))
+    assert_is_the_table(sweeps)
+    with refused("out-of-range", 2):
+        read_dma(write(tmp_path, "T (°C),f (Hz),E* (MPa),phase (rad)", *rows))
+    with refused("no-unit"):
+        read_dma(write(tmp_path, "T (°C),f (Hz),E* (MPa),phase", *rows))
+
+
+@pytest.mark.parametrize(
+    ("header", "base", "assumed"),
+    [
+        ("T (°C),log f (Hz),log E' (MPa),log E'' (MPa)", 10.0, True),
+        ("T (°C),log10(f/Hz),lg(E') (MPa),log10 E'' / MPa", 10.0, False),
+        ("T (°C),ln(f/Hz),ln(E' [MPa]),ln E'' (MPa)", math.e, False),
+    ],
+)
+def test_logarithms_of_frequency_and_moduli_are_read(tmp_path, header, base, assumed):
+    rows = [[float(cell) for cell in row.split(",")] for row in ROWS]
+    lines = [",".join(repr(one) for one in (T, *(math.log(value, base) for value in rest))) for T, *rest in rows]
+    sweeps = read_dma(write(tmp_path, header, *lines))
+    assert_is_the_table(sweeps)
+    assert ("decadic-logarithms" in codes(sweeps.notes)) == assumed
+
+
+def test_headings_of_rubber_process_analysers_and_metravib_are_known(tmp_path):
+    rows = [row.split(",") for row in ROWS]
+    in_cycles = [",".join([T, str(60.0 * float(f)), *rest]) for T, f, *rest in rows]
+    assert_is_the_table(read_dma(write(tmp_path, "Temp [°C],Freq. [cpm],G' [MPa],G'' [MPa]", *in_cycles)))
+    assert_is_the_table(
+        read_dma(write(tmp_path, "Temp Cel,Freq Hz,Young modulus E' (MPa),Loss modulus E'' (MPa)", *ROWS))
+    )
+
+
 def test_strain_amplitudes_are_kept_as_fractions(tmp_path):
     rows = [f"{row},{amplitude}" for row, amplitude in zip(ROWS, (0.1, 0.1, 0.1, "---"), strict=True)]
     first, second = read_dma(write(tmp_path, HEADER + ",strain amplitude (%)", *rows)).isotherms

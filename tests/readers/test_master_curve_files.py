@@ -88,6 +88,15 @@ def test_a_master_curve_that_a_fit_has_written_is_read_again(tmp_path):
         read_dma(path, temperature="30 degC")
 
 
+def test_logarithms_of_a_base_that_is_not_stated_are_refused(tmp_path):
+    rows = ["-3,0.7,-0.3", "3,0.95,-0.15", "0,0.78,-0.05"]
+    with refused("logarithm-unknown"):
+        read_master_curve(write(tmp_path, "log f (Hz),log E' (MPa),log E'' (MPa)", *rows), "25 degC")
+    curve = read_master_curve(write(tmp_path, "log10 f (Hz),lg E' (MPa),log10 E'' (MPa)", *rows), "25 degC")
+    assert curve.angular_frequency == pytest.approx(2 * math.pi * np.array([1e-3, 1.0, 1e3]))
+    assert curve.storage_modulus == pytest.approx(1e6 * 10.0 ** np.array([0.7, 0.78, 0.95]))
+
+
 def test_reduced_frequencies_count_before_measured_ones(tmp_path):
     lines = ["reduced frequency (Hz),frequency (Hz),T (°C),E' (MPa),E'' (MPa)", "1,10,40,5,0.5", "20,10,20,6,0.6"]
     path = write(tmp_path, *lines)

@@ -65,6 +65,16 @@ def test_one_frequency_in_each_file_makes_sweeps_together(tmp_path: Path) -> Non
     assert by_kind(paths) == {"dma": paths}
 
 
+def test_a_modulus_of_unknown_kind_beside_a_frequency_is_no_relaxation(tmp_path: Path) -> None:
+    path = tmp_path / "sweep.txt"
+    path.write_text(
+        "Time (min)\tTemp. (°C)\tFreq (Hz)\tModulus (Pa)\tTan Delta\n1\t20\t1\t5e6\t0.1\n", encoding="utf-8"
+    )
+    with pytest.raises(DataFileError) as caught:
+        kind_of_test(path)
+    assert caught.value.code == "missing-columns"
+
+
 def test_what_is_no_test_has_the_error_of_sweeps(tmp_path: Path) -> None:
     path = tmp_path / "alpha.csv"
     path.write_text("T_C,log10_aT\n1,2\n3,0\n", encoding="utf-8")

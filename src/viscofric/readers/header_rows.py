@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from viscofric.readers.headings import heading, is_place, place_of
+from viscofric.readers.headings import is_place, place_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -34,7 +34,7 @@ def named(cells: Sequence[str], words: Vocabulary) -> set[str]:
         return set()
     if words.user_columns:
         return {column.quantity for column in words.columns(cells)} - {""}
-    return {words.quantity(heading(cell).name) for cell in cells if 0 < len(cell) < _LONGEST_NAME} - {""}
+    return {words.column(cell).quantity for cell in cells if 0 < len(cell) < _LONGEST_NAME} - {""}
 
 
 def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:

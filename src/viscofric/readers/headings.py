@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import unicodedata
 from collections.abc import Mapping
@@ -20,7 +21,7 @@ _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNIT = (
     r"(?i:°[CKF]|℃|deg[CFK]|[mkM]?Hz|rad[/_]?s(?:ec)?|[kMG]?Pa|[kM]?psi|bar|[mkM]?N/[mc]?m(?:\^?2|²)|dynes?/cm(?:\^?2|²)"
-    r"|dyn/cm(?:\^?2|²)|kgf?/[mc]m(?:\^?2|²)|[mcµu]?m/s|1/s|rpm|1/[kMG]?Pa|mm|[µu]m|ms|min|%)|mN"
+    r"|dyn/cm(?:\^?2|²)|kgf?/[mc]m(?:\^?2|²)|[mcµu]?m/s|1/s|rpm|1/[kMG]?Pa|mm|[µu]m|ms|min|cpm|Cel|%)|mN"
 )
 _SEPARATED = re.compile(
     rf"^(?P<name>.*?[^\s/_,])(?:(?:\s+in\s+|_in_|\s*,\s*|_|\s+)(?P<unit>{_UNIT})"
@@ -33,6 +34,9 @@ _FUNCTION = re.compile(
     r"|((log[\s_]*10|log|lg|ln)?[\s_]*(a|α|alpha)\s*[(\[]\s*T\s*))[)\]]",
     re.IGNORECASE,
 )
+#: "log f (Hz)", "log10(E'/Pa)", "ln(ω) (rad/s)": a logarithm, and what it is of.
+_LOGARITHM = re.compile(r"(?P<kind>log[\s_]*10|log|lg|ln)[\s_]*(?P<of>\S.*)", re.IGNORECASE)
+_ARGUMENT = re.compile(r"\((?P<first>[^()]*)\)(?P<rest>.*)|\((?P<whole>.*)\)")
 _CELSIUS = re.compile(r"°?[CF]|deg[CF]|℃", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
 #: "#3": the third column of a table, whatever its heading.
@@ -52,12 +56,18 @@ class Column:
     unit: str
     quantity: str = ""  # of the vocabulary
     given: bool = False  # named by the user, not recognised
+    base: float = 0.0  # of the logarithm that the numbers are, 0 where they are none
 
     @property
     def unnumbered(self) -> str:
         """The name without the number at its end: "traction force" of "traction force 2"; empty if it has none."""
         match = _NUMBERED.fullmatch(self.name)
         return match["name"] if match else ""
+
+    @property
+    def assumed_decadic(self) -> bool:
+        """Whether the numbers are logarithms of a base that the heading does not state: "log f (Hz)"."""
+        return self.base == 10.0 and not re.match(r"lg|log[\s_]*10", self.heading.strip(), re.IGNORECASE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +82,7 @@ class Vocabulary:
     key: str = "material.columns"  # path of the run file's key with the user's own headings
     offered: tuple[tuple[str, str], ...] = ()  # quantities that a form offers, each with an example of its unit
     user_columns: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, see `checked`
+    logarithms: bool = False  # whether columns may hold logarithms of the quantities
 
     @cached_property
     def _meaning(self) -> dict[str, str]:
@@ -89,6 +100,19 @@ class Vocabulary:
         lower = plain.lower()
         spellings = (plain, *(one for one in (lower, _MARKS.sub("", lower)) if len(one) > 1))
         return next((what for one in spellings if (what := self._meaning.get(one))), "")
+
+    def column(self, text: str) -> Column:
+        """Return the column under a heading, with the quantity that it names, or of which it names the logarithm."""
+        found = heading(text)
+        what = self.quantity(found.name)
+        log = None if what or not self.logarithms else _LOGARITHM.fullmatch(found.heading)
+        if log:
+            argument = _ARGUMENT.fullmatch(log["of"])
+            of = heading((argument["whole"] or f"{argument['first']} {argument['rest']}") if argument else log["of"])
+            base = math.e if log["kind"].lower() == "ln" else 10.0
+            if what := self.quantity(of.name):
+                return replace(of, heading=found.heading, quantity=what, base=base)
+        return replace(found, quantity=what)
 
     def missing(self, found: Iterable[str]) -> list[str]:
         """Return what a header of these quantities lacks, one word for each of `needed`."""
@@ -139,9 +163,8 @@ class Vocabulary:
         """Return the columns under a row of headings, each with the quantity that it names or that the user says."""
         found = []
         for cell in cells:
-            column = heading(cell)
-            what = self.quantity(column.name)
-            found.append(replace(column, quantity="" if what in self.user_columns else what))
+            column = self.column(cell)
+            found.append(replace(column, quantity="" if column.quantity in self.user_columns else column.quantity))
         for what, said in self.user_columns.items():
             place, unit = place_of(said, cells)
             if place is not None:

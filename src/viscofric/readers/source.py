@@ -75,7 +75,9 @@ _LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 PRINTED_FREQUENCY = 0.05
 
 #: Units of temperature as instruments print them, which pint would read as coulomb, farad or nothing.
-_TEMPERATURE_UNITS = dict.fromkeys(("c", "degc", "celsius", "øc", ">c", "\ufffdc"), "degC")  # the last ones damaged
+_TEMPERATURE_UNITS = dict.fromkeys(
+    ("c", "cel", "degc", "celsius", "øc", ">c", "\ufffdc"), "degC"
+)  # the last ones damaged
 _TEMPERATURE_UNITS |= {"f": "degF", "degf": "degF", "k": "K"}
 #: Units as people and instruments print them, in lower case -> as pint knows them.
 _SPELLINGS = {
@@ -125,6 +127,8 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     if unit == "K":
         text = _TEMPERATURE_UNITS.get(re.sub(r"[°º˚\s]", "", text.replace("℃", "C")).lower(), text)
+    if unit == "rad":
+        text = re.sub("[°º˚]", "deg", text)
     plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())
     folded = plain.replace(" ", "").casefold()
     try:
@@ -148,6 +152,8 @@ def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
         return 1.0 if angular else None
     if re.fullmatch(r"[mkM]?Hz", plain, re.IGNORECASE) and not angular:
         return 2.0 * math.pi * (_PREFIXES[plain[0]] if len(plain) == 3 else 1.0)
+    if re.fullmatch(r"cpm|cyc(les?)?/min", plain, re.IGNORECASE) and not angular:  # of rubber process analysers
+        return 2.0 * math.pi / 60.0
     return None
 
 

@@ -73,23 +73,23 @@ class Table:
 
     def numbers(self, column: int) -> Array:
         """Return a column as printed, finite numbers only, or raise `DataFileError`."""
-        heading = self.columns[column].heading
+        one = self.columns[column]
         return np.array(
-            [self._number(row[column], heading, int(line)) for row, line in zip(self.rows, self.lines, strict=True)]
+            [self._number(row[column], one, int(line)) for row, line in zip(self.rows, self.lines, strict=True)]
         )
 
     def numbers_or_missing(self, column: int) -> Array:
         """Return a column as printed, NaN for a missing number."""
-        heading = self.columns[column].heading
+        one = self.columns[column]
         return np.array(
             [
-                math.nan if row[column].strip().lower() in MISSING else self._number(row[column], heading, int(line))
+                math.nan if row[column].strip().lower() in MISSING else self._number(row[column], one, int(line))
                 for row, line in zip(self.rows, self.lines, strict=True)
             ]
         )
 
-    def _number(self, cell: str, heading: str, line: int) -> float:
-        text = cell.strip()
+    def _number(self, cell: str, column: Column, line: int) -> float:
+        text, heading = cell.strip(), column.heading
         if not text:
             raise DataFileError(
                 self.path, f"the cell in column {heading!r} is empty; give a number.", line, code="empty-cell"
@@ -105,8 +105,8 @@ class Table:
             )
         plain = text.replace(",", ".") if self.decimal_comma else text
         try:
-            value = float(plain)
-        except ValueError:
+            value = column.base ** float(plain) if column.base else float(plain)
+        except (ValueError, OverflowError):
             value = math.nan
         if not math.isfinite(value) or "_" in plain:
             raise DataFileError(
@@ -124,7 +124,7 @@ class Table:
 
         Without a unit in the heading, the error ends with the hint; a unit of the wrong kind is an error too.
         """
-        example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s"}.get(unit, unit)
+        example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s", "rad": "deg"}.get(unit, unit)
         if not column.unit:
             right = f"{column.name} ({example})"
             problem = f"column {column.heading!r} has no unit; write it as {right!r}"

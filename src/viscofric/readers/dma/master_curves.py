@@ -125,6 +125,10 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
     places = dma_table.find_columns(table, master_curve=True)
     doubts: list[str] = []
     frequency = dma_table.angular_frequency(table, places, doubts)
+    for column in (table.columns[place] for place in places.values()):
+        if column.assumed_decadic:
+            problem = f"column {column.heading!r} may be decadic or natural logarithms; write 'log10' or 'ln' there."
+            raise table.refused("logarithm-unknown", problem)
     if doubts:  # a master curve carries no notes
         heading = table.columns[places["frequency"]].heading
         raise table.refused("no-unit", f"column {heading!r} has no unit; it must be 'rad/s' or 'Hz'.")

@@ -51,7 +51,8 @@ ISOTHERM = frozenset({"isotherm", "isotherm temperature", "temperature of the is
 STORAGE_MODULUS = frozenset(
     {"E'", "G'", "e'", "g'", "e stor", "g stor", "e storage", "g storage", "estor", "gstor"}
     | {sort + name for sort in _SORTS for name in ("storage", "storage modulus", "storage mod.")}
-    | {"storage modulus e'", "storage modulus g'", "speichermodul e'", "speichermodul g'"}
+    | {"storage modulus e'", "storage modulus g'", "speichermodul e'", "speichermodul g'", "elastic modulus e'"}
+    | {"young modulus e'", "young's modulus e'", "module d'young e'", "module d'élasticité e'"}
     | {"speichermodul", "speicherschubmodul", "zugspeichermodul", "e-speichermodul", "g-speichermodul"}
     | {"module de conservation", "module conservation", "module de stockage", "module élastique"}
     | {"module de conservation en cisaillement", "módulo de almacenamiento", "módulo elástico", "modulo conservativo"}
@@ -80,6 +81,21 @@ LOSS_TANGENT = frozenset(
     {"tan δ", "tan delta", "tan d", "loss factor"}
     | {"loss tangent", "damping factor", "verlustfaktor", "facteur de perte", "facteur d'amortissement"}
     | {"factor de pérdida", "fattore di perdita", "fator de perda", "verliesfactor", "förlustfaktor"}
+)
+LOSS_ANGLE = frozenset(
+    {
+        "δ",
+        "delta",
+        "phase",
+        "phase angle",
+        "loss angle",
+        "phase shift",
+        "phase lag",
+        "phase angle δ",
+        "phase angle delta",
+    }
+    | {"phasenwinkel", "verlustwinkel", "phasenverschiebung", "angle de phase", "angle de perte", "déphasage"}
+    | {"ángulo de fase", "angolo di fase", "ângulo de fase", "fasehoek", "位相角", "相位角"}
 )
 STRAIN_AMPLITUDE = frozenset(
     {
@@ -128,6 +144,7 @@ DMA = Vocabulary(
         "loss modulus": LOSS_MODULUS,
         "complex modulus": COMPLEX_MODULUS,
         "tan delta": LOSS_TANGENT,
+        "loss angle": LOSS_ANGLE,
         "angular frequency": ANGULAR_FREQUENCY,
         "reduced frequency": REDUCED_FREQUENCY,
         "reduced angular frequency": REDUCED_ANGULAR_FREQUENCY,
@@ -150,6 +167,7 @@ DMA = Vocabulary(
         ("tan delta", ""),
         ("strain amplitude", "%"),
     ),
+    logarithms=True,
 )
 
 # "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.

@@ -58,8 +58,11 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     tangent = places.get("tan delta")
     if tangent is not None and table.columns[tangent].unit.lower() not in MISSING | {"1"}:  # a tangent has no unit
         del places["tan delta"]
+    if "tan delta" not in places and not {"storage modulus", "loss modulus"} <= places.keys():
+        angle = table.place("loss angle")
+        places |= {} if angle is None else {"loss angle": angle}
     missing = [] if "frequency" in places else ["frequency"]
-    if "tan delta" not in places or not any(modulus in places for modulus in _MODULI):
+    if not places.keys() & {"tan delta", "loss angle"} or not places.keys() & {*_MODULI}:
         missing += [modulus for modulus in _MODULI[:2] if modulus not in places]
     if missing and "temperature" not in places:
         missing.insert(0, "temperature")
@@ -128,15 +131,15 @@ def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array
 def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str]) -> tuple[Array, Array]:
     """Return storage and loss modulus, Pa, as printed or from tan δ, with notes on what was computed.
 
-    With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ give the others exactly; redundant columns must
-    agree, else `DataFileError` is raised.
+    With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ, or the angle δ, give the others exactly;
+    redundant columns must agree, else `DataFileError` is raised.
     """
     values = {what: _modulus(table, places[what], source, notes) for what in _MODULI if what in places}
     if "storage modulus" in values and "loss modulus" in values:
         storage, loss = values["storage modulus"], values["loss modulus"]
         insist_on_agreement(table.path, storage, loss, _printed_tangent(table, places), values.get("complex modulus"))
         return storage, loss
-    tangent = table.numbers_or_missing(places["tan delta"])
+    tangent = _tangent(table, places)
     if "storage modulus" in values:
         notes.append(Note("loss-computed", "The loss moduli were computed as storage modulus times tan δ."))
         return values["storage modulus"], values["storage modulus"] * tangent
@@ -148,6 +151,19 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
     notes.append(Note("moduli-computed", said))
     storage = values["complex modulus"] / np.hypot(1.0, tangent)
     return storage, storage * tangent
+
+
+def _tangent(table: Table, places: dict[str, int]) -> Array:
+    """Return tan δ as printed, or from the angle δ."""
+    if "tan delta" in places:
+        return table.numbers_or_missing(places["tan delta"])
+    place = places["loss angle"]
+    factor, _ = table.conversion(table.columns[place], "rad")
+    angle = factor * table.numbers_or_missing(place)
+    beyond = (angle < 0.0) | (angle >= 0.5 * math.pi)
+    if 2 * np.count_nonzero(beyond) > len(angle):
+        raise table.wrong_cell(int(np.argmax(beyond)), place, "an angle from 0 to below 90°", "out-of-range")
+    return np.tan(np.where(beyond, np.nan, angle))
 
 
 def _printed_tangent(table: Table, places: dict[str, int]) -> Array | None:
@@ -222,6 +238,9 @@ def read_points(
         problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
         raise DataFileError(table.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
     notes: list[str] = []
+    if logarithms := [repr(column.heading) for column in table.columns if column.assumed_decadic]:
+        said = f"{' and '.join(logarithms)}: read as decadic logarithms."
+        notes.append(Note("decadic-logarithms", said))
     if table.empty_rows:
         rows = "1 row holds" if table.empty_rows == 1 else f"{table.empty_rows} rows hold"
         notes.append(Note("empty-rows", f"{rows} neither frequency nor modulus; skipped."))
