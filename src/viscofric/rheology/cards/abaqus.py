@@ -18,14 +18,11 @@ from viscofric.rheology.cards.card import (
     Reading,
     Solid,
     Writing,
-    card_law,
     number_text,
     relative_series,
-    relaxation_of,
     tensile,
-    written_poisson_ratio,
 )
-from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
@@ -62,12 +59,10 @@ def card_name(name: str) -> str:
 
 def write(material: Material, writing: Writing) -> str:
     """Return the card as text."""
-    relaxation = relaxation_of(material, NAME)
-    ratio = written_poisson_ratio(material, writing, NAME, None)
     # *TRS belongs to *VISCOELASTIC, TIME=…; in the frequency domain there is none.
-    law = card_law(material.shift) if writing.domain == "time" else None
-    content = stored(material, writing, ratio, relaxation, law is not None)
-    lines = comment_lines("**", remarks(material, writing, ratio, law is not None), content)
+    contents = contents_of(material, writing, NAME, with_shift=writing.domain == "time")
+    relaxation, ratio, law = contents[:3]
+    lines = contents.comments("**")
     if isinstance(law, Arrhenius):
         zero = 0.0 if writing.temperature_unit == "K" else -CELSIUS_ZERO
         gas = number_text(writing.energy(GAS_CONSTANT), _LONGEST_NUMBER)
@@ -80,7 +75,7 @@ def write(material: Material, writing: Writing) -> str:
     lines += [f"*ELASTIC, MODULI={kind}", _row(writing.modulus(modulus), ratio)]
     lines.append(f"*VISCOELASTIC, {writing.domain.upper()}=PRONY")
     bulk = 1.0 if ratio < 0.5 else 0.0
-    for modulus, time in zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True):
+    for modulus, time in contents.modes:
         share = modulus / relaxation.E_inf
         lines.append(_row(share, bulk * share, time))
     if isinstance(law, WLF):

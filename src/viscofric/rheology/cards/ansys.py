@@ -21,13 +21,10 @@ from viscofric.rheology.cards.card import (
     Reading,
     Solid,
     Writing,
-    card_law,
     relative_series,
-    relaxation_of,
     tensile,
-    written_poisson_ratio,
 )
-from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
@@ -50,21 +47,15 @@ def recognises(text: str) -> bool:
 
 def write(material: Material, writing: Writing) -> str:
     """Return the commands as text."""
-    relaxation = relaxation_of(material, NAME)
-    ratio = written_poisson_ratio(material, writing, NAME, "needs a Poisson ratio below 0.5 (MP,PRXY)")
-    law = card_law(material.shift)
+    contents = contents_of(material, writing, NAME, "needs a Poisson ratio below 0.5 (MP,PRXY)")
+    relaxation, ratio, law = contents[:3]
     number = writing.material_id
-    sentences = remarks(material, writing, ratio, law is not None)
-    if isinstance(law, Arrhenius):
-        sentences.append("TN counts temperatures in K: set TOFFST if the model counts them otherwise.")
-    lines = comment_lines("!", sentences, stored(material, writing, ratio, relaxation, law is not None))
+    kelvin = "TN counts temperatures in K: set TOFFST if the model counts them otherwise."
+    lines = contents.comments("!", *([kelvin] if isinstance(law, Arrhenius) else []))
     lines += [f"MP,EX,{number},{writing.modulus(relaxation.E_inf)!r}", f"MP,PRXY,{number},{ratio!r}"]
     if writing.written_density is not None:
         lines.append(f"MP,DENS,{number},{writing.written_density!r}")
-    pairs = [
-        f"{modulus / relaxation.E_inf!r},{time!r}"
-        for modulus, time in zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True)
-    ]
+    pairs = [f"{modulus / relaxation.E_inf!r},{time!r}" for modulus, time in contents.modes]
     for kind in ("SHEAR", "BULK"):
         lines.append(f"TB,PRONY,{number},1,{len(pairs)},{kind}")
         for start in range(0, len(pairs), _PAIRS):

@@ -155,39 +155,6 @@ def number_text(value: float, longest: int) -> str:
     raise InputError(f"{value!r} does not fit into {longest} characters.", code="too-long")
 
 
-def relaxation_of(material: Material, program: str) -> RelaxationSpectrum:
-    """Return a material's Prony series; InputError for a table, which has none."""
-    spectrum: Any = material.spectrum
-    if not isinstance(spectrum, RetardationSpectrum):
-        raise InputError(
-            f"{program} cards contain a Prony series, but this material is a table of moduli; fit a spectrum "
-            'first, or write format="csv" or "json".',
-            code="no-modes",
-        )
-    relaxation = spectrum.to_relaxation()
-    if not len(relaxation):
-        raise InputError(
-            f"{program} cards contain a Prony series, but this material is elastic: it has no mode.", code="no-modes"
-        )
-    return relaxation
-
-
-def written_poisson_ratio(material: Material, writing: Writing, program: str, incompressible: str | None) -> float:
-    """Return the Poisson ratio for a card: that of `writing`, else of the material.
-
-    `incompressible` is None if the program takes ν = 0.5, else the reason why it does not; `program` is named in the
-    error.
-    """
-    ratio = material.poisson_ratio if writing.poisson_ratio is None else writing.poisson_ratio
-    if ratio == 0.5 and incompressible:
-        raise InputError(
-            f"poisson_ratio = 0.5: {program} {incompressible}; choose a nearly incompressible one for the card, "
-            "write_card(…, poisson_ratio=0.4995) for instance (E stays as it is, 2(1+ν)G changes with it).",
-            code="incompressible",
-        )
-    return ratio
-
-
 def card_law(law: Any) -> WLF | Arrhenius | None:
     """Return a shift law that programs have: WLF (VFT is the same curve) or Arrhenius; None for all others."""
     if isinstance(law, VFT):

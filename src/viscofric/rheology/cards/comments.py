@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,7 +14,8 @@ from viscofric.notes import Note
 from viscofric.rheology.cards.card import Solid, Writing, card_law
 from viscofric.rheology.cards.native import VERSION, about, assembled, shift_of
 from viscofric.rheology.material import Material
-from viscofric.rheology.spectra.retardation import RelaxationSpectrum
+from viscofric.rheology.shifts.laws import WLF, Arrhenius
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.units import CELSIUS_ZERO, celsius
 
 #: Start of each line that `read_card` reads back; the rest of the line is a piece of one JSON text.
@@ -24,7 +26,65 @@ _UNITS = {"Pa": "Pa, s, m, kg", "MPa": "MPa, s, mm, tonne (density in t/mm^3, fo
 _SAME = 1e-9
 
 
-def remarks(material: Material, writing: Writing, poisson_ratio: float, shift_written: bool) -> list[str]:
+class Contents(NamedTuple):
+    """What the cards of all programs hold."""
+
+    relaxation: RelaxationSpectrum  # in tension
+    poisson_ratio: float
+    law: WLF | Arrhenius | None  # of the shift
+    sentences: list[str]  # for people
+    stored: dict[str, Any]  # what the keywords cannot hold
+
+    @property
+    def modes(self) -> list[tuple[float, float]]:
+        """Modulus, Pa, and relaxation time, s, of each mode."""
+        return list(zip(self.relaxation.E.tolist(), self.relaxation.tau.tolist(), strict=True))
+
+    def comments(self, mark: str, *more: str) -> list[str]:
+        """Return the head of the card, with more sentences; see `comment_lines`."""
+        return comment_lines(mark, [*self.sentences, *more], self.stored)
+
+
+def contents_of(
+    material: Material, writing: Writing, program: str, incompressible: str | None = None, *, with_shift: bool = True
+) -> Contents:
+    """Return what a program's card is to hold, without a shift law if it takes none.
+
+    `incompressible` is None if the program takes ν = 0.5, else the reason why it does not.
+    """
+    spectrum: Any = material.spectrum
+    if not isinstance(spectrum, RetardationSpectrum):
+        raise InputError(
+            f"{program} cards contain a Prony series, but this material is a table of moduli; fit a spectrum "
+            'first, or write format="csv" or "json".',
+            code="no-modes",
+        )
+    relaxation = spectrum.to_relaxation()
+    if not len(relaxation):
+        raise InputError(
+            f"{program} cards contain a Prony series, but this material is elastic: it has no mode.", code="no-modes"
+        )
+    ratio = material.poisson_ratio if writing.poisson_ratio is None else writing.poisson_ratio
+    if ratio == 0.5 and incompressible:
+        raise InputError(
+            f"poisson_ratio = 0.5: {program} {incompressible}; choose a nearly incompressible one for the card, "
+            "write_card(…, poisson_ratio=0.4995) for instance (E stays as it is, 2(1+ν)G changes with it).",
+            code="incompressible",
+        )
+    law = card_law(material.shift) if with_shift else None
+    card = {
+        "poisson_ratio": ratio,
+        "E0": relaxation.E0,
+        "E_inf": relaxation.E_inf,
+        "shift": law is not None,
+        "absolute_zero": 0.0 if writing.temperature_unit == "K" else -CELSIUS_ZERO,
+        "unit_system": writing.modulus_unit,
+    }
+    stored = {"version": VERSION, **about(material), "card": card}
+    return Contents(relaxation, ratio, law, _remarks(material, writing, ratio, law is not None), stored)
+
+
+def _remarks(material: Material, writing: Writing, poisson_ratio: float, shift_written: bool) -> list[str]:
     """Return the sentences for people at the head of a card."""
     temperatures = "K" if writing.temperature_unit == "K" else "degrees Celsius"
     sentences = [
@@ -53,24 +113,8 @@ def remarks(material: Material, writing: Writing, poisson_ratio: float, shift_wr
     return sentences
 
 
-def stored(
-    material: Material, writing: Writing, poisson_ratio: float, relaxation: RelaxationSpectrum, shift_written: bool
-) -> dict[str, Any]:
-    """Return the properties that the card itself cannot contain, for `comment_lines`."""
-    zero = 0.0 if writing.temperature_unit == "K" else -CELSIUS_ZERO
-    card = {
-        "poisson_ratio": poisson_ratio,
-        "E0": relaxation.E0,
-        "E_inf": relaxation.E_inf,
-        "shift": shift_written,
-        "absolute_zero": zero,
-        "unit_system": writing.modulus_unit,
-    }
-    return {"version": VERSION, **about(material), "card": card}
-
-
 def number_of(content: dict[str, Any] | None, name: str) -> float | None:
-    """Return a number that `stored` wrote into the comments, if there is one."""
+    """Return a number that `contents_of` put into the comments, if there is one."""
     value = None if content is None else content["card"].get(name)
     if value is None or (isinstance(value, (int, float)) and np.isfinite(value)):
         return value
@@ -78,7 +122,7 @@ def number_of(content: dict[str, Any] | None, name: str) -> float | None:
 
 
 def modulus_unit_of(content: dict[str, Any] | None) -> str | None:
-    """Return the unit of moduli that `stored` wrote into the comments, if there is one."""
+    """Return the unit of moduli that `contents_of` put into the comments, if there is one."""
     unit = None if content is None else content["card"].get("unit_system")
     if unit is None or unit in _UNITS:
         return unit
@@ -142,9 +186,8 @@ def stored_content(text: str) -> dict[str, Any] | None:
 def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material, list[Note]]:
     """Combine the properties of a card's keywords and of its comments; the keywords take precedence."""
     if content is None:
-        stated = {"name": solid.name, "poisson_ratio": solid.poisson_ratio}
-        material = assembled(solid.spectrum, stated)
-        return _with_shift(material, solid.shift, stated), []
+        material = assembled(solid.spectrum, {"name": solid.name, "poisson_ratio": solid.poisson_ratio})
+        return replace(material, shift=solid.shift), []
     notes, card = [], content["card"]
     stated = {name: value for name, value in content.items() if name != "card"}
     if not _close(card.get("poisson_ratio"), solid.poisson_ratio):
@@ -161,14 +204,8 @@ def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material,
             Note("changed-in-card", "The shift was changed in the card, which counts.", values={"shift": True})
         )
         stated.pop("shift", None)
-        return _with_shift(assembled(solid.spectrum, stated), solid.shift, stated), notes
+        return replace(assembled(solid.spectrum, stated), shift=solid.shift), notes
     return assembled(solid.spectrum, stated), notes
-
-
-def _with_shift(material: Material, shift: Any, stated: dict[str, Any]) -> Material:
-    from dataclasses import replace
-
-    return material if shift is None else replace(material, shift=shift)
 
 
 def _close(stored_value: Any, value: float) -> bool:

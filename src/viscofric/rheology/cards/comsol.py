@@ -16,8 +16,8 @@ from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.cards.card import Reading, Solid, Writing, card_law, relaxation_of, written_poisson_ratio
-from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.cards.card import Reading, Solid, Writing
+from viscofric.rheology.cards.comments import Contents, contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.parametric_law import ParametricLaw
@@ -48,16 +48,13 @@ def recognises_branches(text: str) -> bool:
         return False
 
 
-def _head(material: Material, writing: Writing, parameters: bool) -> tuple[RelaxationSpectrum, float, Any, list[str]]:
-    """Return tensile series, ratio, shift law (which only parameters can hold) and comment lines."""
-    relaxation = relaxation_of(material, NAME)
-    ratio = written_poisson_ratio(material, writing, NAME, None)
-    law = card_law(material.shift) if parameters else None
-    content = stored(material, writing, ratio, relaxation, law is not None)
-    sentences = remarks(material, writing, ratio, law is not None)
-    if ratio < 0.5:
-        sentences += _bulk_remarks(relaxation, ratio, parameters)
-    return relaxation, ratio, law, comment_lines("%", sentences, content)
+def _head(material: Material, writing: Writing, parameters: bool) -> tuple[Contents, list[str]]:
+    """Return contents (only parameters can hold a shift law) and comment lines."""
+    contents = contents_of(material, writing, NAME, with_shift=parameters)
+    ratio = contents.poisson_ratio
+    return contents, contents.comments(
+        "%", *(_bulk_remarks(contents.relaxation, ratio, parameters) if ratio < 0.5 else [])
+    )
 
 
 def _bulk_remarks(relaxation: RelaxationSpectrum, ratio: float, parameters: bool) -> list[str]:
@@ -90,7 +87,8 @@ def _bulk_remarks(relaxation: RelaxationSpectrum, ratio: float, parameters: bool
 
 def write(material: Material, writing: Writing) -> str:
     """Return the parameters as text."""
-    relaxation, ratio, law, lines = _head(material, writing, True)
+    contents, lines = _head(material, writing, True)
+    relaxation, ratio, law = contents[:3]
     shear = 1.0 / (2.0 * (1.0 + ratio))
     lines += [
         f'nu {ratio!r} "Poisson ratio"',
@@ -104,7 +102,7 @@ def write(material: Material, writing: Writing) -> str:
         ]
     if writing.density is not None:
         lines.append(f'rho {writing.density!r}[kg/m^3] "density"')
-    for number, (modulus, time) in enumerate(zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True), start=1):
+    for number, (modulus, time) in enumerate(contents.modes, start=1):
         lines.append(f'G_{number} {modulus * shear!r}[Pa] "shear modulus of branch {number}"')
         if bulk:
             lines.append(f'K_{number} {modulus * bulk!r}[Pa] "bulk modulus of branch {number}"')
@@ -128,13 +126,14 @@ def _exact(shift: ShiftLaw) -> str:
 
 def write_branches(material: Material, writing: Writing) -> str:
     """Return the table of branches as text; long-term moduli and shift are in its comments."""
-    relaxation, ratio, _, lines = _head(material, writing, False)
+    contents, lines = _head(material, writing, False)
+    relaxation, ratio = contents[:2]
     shear = 1.0 / (2.0 * (1.0 + ratio))
     lines.append(f"% Long-term shear modulus {relaxation.E0 * shear!r} Pa, Poisson ratio {ratio!r}.")
     if material.shift is not None:
         lines.append(f"% Shift: {_exact(material.shift)[:200]}".encode("ascii", "replace").decode())
     lines.append("% branch, shear modulus (Pa), relaxation time (s)")
-    for number, (modulus, time) in enumerate(zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True), start=1):
+    for number, (modulus, time) in enumerate(contents.modes, start=1):
         lines.append(f"{number} {modulus * shear!r} {time!r}")
     return "\n".join([*lines, ""])
 

@@ -22,13 +22,10 @@ from viscofric.rheology.cards.card import (
     Reading,
     Solid,
     Writing,
-    card_law,
     number_text,
-    relaxation_of,
     tensile,
-    written_poisson_ratio,
 )
-from viscofric.rheology.cards.comments import comment_lines, number_of, remarks, stored
+from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
@@ -53,25 +50,23 @@ def _fields(*values: float | str) -> str:
 
 def write(material: Material, writing: Writing) -> str:
     """Return the card as text."""
-    relaxation = relaxation_of(material, NAME)
+    contents = contents_of(material, writing, NAME, "needs a finite bulk modulus")
+    relaxation, ratio, law = contents[:3]
     if len(relaxation) + 1 > _TERMS:
         raise InputError(
             f"{NAME} takes at most {_TERMS} terms, one of them the long-term modulus, and this material has "
             f"{len(relaxation)} modes; fit it with at most {_TERMS - 1}.",
             code="too-many-modes",
         )
-    ratio = written_poisson_ratio(material, writing, NAME, "needs a finite bulk modulus")
     if writing.written_density is None:
         raise InputError(
             f"{NAME} needs a density, such as write_card(…, density=1100) for 1100 kg/m³.", code="no-density"
         )
-    law = card_law(material.shift)
     if writing.temperature_unit != "K" and isinstance(law, Arrhenius):
         raise InputError(
             f"{NAME} counts temperatures of an Arrhenius law in K; leave temperature_unit out.", code="temperature-unit"
         )
-    sentences = remarks(material, writing, ratio, law is not None)
-    sentences.append("Long format, fields of 20 characters.")
+    sentences = ["Long format, fields of 20 characters."]
     reference, A, B = 0.0, 0.0, 0.0
     if isinstance(law, WLF):
         reference, A, B = writing.temperature(law.reference), -law.C1 * LN10, law.C2
@@ -86,8 +81,7 @@ def write(material: Material, writing: Writing) -> str:
         raise InputError(
             f"TREF = {reference:g}: {NAME} needs it above zero; leave temperature_unit out, for K.", code="not-positive"
         )
-    content = stored(material, writing, ratio, relaxation, law is not None)
-    lines = ["*KEYWORD", *comment_lines("$", sentences, content), "*MAT_GENERAL_VISCOELASTIC_TITLE+"]
+    lines = ["*KEYWORD", *contents.comments("$", *sentences), "*MAT_GENERAL_VISCOELASTIC_TITLE+"]
     title = material.name.encode("ascii", "replace").decode() or "rubber"
     lines.append(title[:80])
     lines += ["$ MID, RO, BULK, PCF, EF, TREF, A, B"]
@@ -100,7 +94,7 @@ def write(material: Material, writing: Writing) -> str:
         "$ GI, BETAI, KI, BETAKI",
         _fields(relaxation.E0 * shear, 0.0, relaxation.E0 * bulk, 0.0),
     ]
-    for modulus, time in zip(relaxation.E.tolist(), relaxation.tau.tolist(), strict=True):
+    for modulus, time in contents.modes:
         lines.append(_fields(modulus * shear, 1.0 / time, modulus * bulk, 1.0 / time))
     return "\n".join([*lines, "*END", ""])
 
