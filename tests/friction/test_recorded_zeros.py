@@ -217,7 +217,7 @@ def test_errors_by_steps_are_those_of_the_sandwich_formula() -> None:
 def test_degrees_of_freedom_go_together_after_welch_and_satterthwaite() -> None:
     """Equal variances of 4 and 6 degrees of freedom: 2² / (1/4 + 1/6) = 9.6; one of none stays as it is."""
     error, freedom = np.full(4, 0.1), np.full(4, 4.0)
-    entry = Entry(np.zeros(4), error, error, freedom, 5, False, True, True)
+    entry = Entry(None, np.zeros(4), error, error, freedom)  # type: ignore[arg-type]
     wider = entry.widened(np.array([0.01, 0.01, 0.0, 0.03]), 6.0)
     np.testing.assert_allclose(wider.error, [np.sqrt(0.02), np.sqrt(0.02), 0.1, 0.2])
     np.testing.assert_allclose(wider.freedom, [9.6, 9.6, 4.0, 16.0 / (1.0 / 4.0 + 9.0 / 6.0)])

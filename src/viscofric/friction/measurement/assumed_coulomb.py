@@ -13,7 +13,7 @@ from viscofric.notes import Note, Remedy
 from viscofric.units import shown_number, to_si
 
 if TYPE_CHECKING:
-    from viscofric.friction.measurement.fit import Entry, Fit
+    from viscofric.friction.measurement.fit import Entry
     from viscofric.friction.measurement.zeros import Zeros
 
 
@@ -76,24 +76,21 @@ class Assumed:
         # With both directions of slip the fitted zero includes a Coulomb force: no limit follows from it.
         return not self.constant or np.unique(group.disc_sign * group.slip_sign).size == 1
 
-    def completed(self, fits: list[Fit], entries: list[Entry]) -> tuple[list[Entry], list[int]]:
-        """Separate the friction of one direction of slip where Coulomb friction is constant; return their indices too.
+    def completed(self, entries: list[Entry]) -> list[Entry]:
+        """Separate the friction of one direction of slip where Coulomb friction is constant.
 
         Its forces along the disc's motion are μ_v ± μ_c, + where the disc is faster than the ball.  Neither is
         negative, so that μ_c is at most the lowest of them with +, and at least the highest of −(μ_v − μ_c) with −.
         """
-        places = [place for place, fit in enumerate(fits) if fit.coulomb is not None]
-        if not self.constant or not places:
-            return entries, places
         entries = list(entries)
-        remaining = places
+        remaining = [place for place, one in enumerate(entries) if self.constant and one.fit.coulomb is not None]
         while remaining:
-            first = fits[remaining[0]].group
+            first = entries[remaining[0]].group
             sense = _sense(first)
-            groups = {place: fits[place].group for place in remaining}
+            groups = {place: entries[place].group for place in remaining}
             alike = [place for place, one in groups.items() if first.alike(one) and _sense(one) == sense]
             remaining = [place for place in remaining if place not in alike]
-            if np.unique([fits[place].group.speed for place in alike]).size < 2:
+            if np.unique([groups[place].speed for place in alike]).size < 2:
                 raise InputError(
                     f"coulomb = 'constant': at {first} one speed was measured with one direction of slip, from which "
                     "viscoelastic friction cannot be found; measure more speeds or both directions of slip.",
@@ -104,7 +101,7 @@ class Assumed:
             limit = entries[alike[lowest]]
             for place in alike:
                 entries[place] = _parted(entries[place], sense, friction[lowest], limit)
-        return entries, places
+        return entries
 
     def sentence(self, some: list[Condition], total: int) -> str:
         """Return a note on the assumption at some conditions; empty without any."""

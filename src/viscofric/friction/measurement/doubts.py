@@ -14,10 +14,10 @@ from viscofric.notes import Note
 from viscofric.units import shown_number
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from viscofric.arrays import Array
-    from viscofric.friction.measurement.fit import Entry, Fit
+    from viscofric.friction.measurement.fit import Entry
     from viscofric.friction.measurement.zeros import Zeros
     from viscofric.traction import TractionRuns
 
@@ -32,44 +32,41 @@ _FEWEST_FOR_OUTLIERS = 4  # readings of a configuration
 _NAMED = 3  # outliers that a note names one by one
 
 
-def doubts(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> list[Note]:
+def doubts(entries: list[Entry], zeros: Zeros) -> list[Note]:
     """Return notes on doubts about a measurement."""
-    groups = [fit.group for fit in fits]
-    return [
-        *_negative(fits, entries),
-        *_inconsistent(groups, entries),
-        *_another_zero(fits, entries, zeros),
-        *_incomplete(groups, entries),
-    ]
+    return [*_negative(entries), *_inconsistent(entries), *_another_zero(entries, zeros), *_incomplete(entries)]
 
 
-def _negative(fits: list[Fit], entries: list[Entry]) -> Iterator[Note]:
+def _where(some: Iterable[Entry], entries: list[Entry]) -> str:
+    return where([entry.group for entry in some], len(entries))
+
+
+def _negative(entries: list[Entry]) -> Iterator[Note]:
     """Yield notes on negative coefficients, one for each possible reason."""
-    groups = [fit.group for fit in fits]
     for number, name, reason in ((1, "viscoelastic", _why_viscoelastic), (2, "Coulomb", _why_coulomb)):
         deviation = np.array([-entry.value[number] for entry in entries])
         reasons = defaultdict(list)
-        places = _significant(groups, entries, number, deviation)
+        places = _significant(entries, number, deviation)
         if number == 1:
-            places += [place for place in _assumed_too_large(fits, entries, deviation) if place not in places]
-        for place in sorted(places):
-            reasons[reason(fits[place], entries[place])].append(place)
-        for (causes, why), places in reasons.items():
+            places += _assumed_too_large(entries, deviation)
+        for place in sorted(set(places)):
+            reasons[reason(entries[place])].append(entries[place])
+        for (causes, why), some in reasons.items():
             yield Note(
                 "negative-friction",
-                f"{where([groups[place] for place in places], len(groups))} the {name} friction coefficient is "
-                f"negative ({_shown(entries[places[0]], number)}): {why}.",
-                values={"coefficient": name, "conditions": len(places), "reasons": list(causes)},
+                f"{_where(some, entries)} the {name} friction coefficient is negative ({_shown(some[0], number)}): "
+                f"{why}.",
+                values={"coefficient": name, "conditions": len(some), "reasons": list(causes)},
             )
 
 
-def _assumed_too_large(fits: list[Fit], entries: list[Entry], deviation: Array) -> list[int]:
+def _assumed_too_large(entries: list[Entry], deviation: Array) -> list[int]:
     """Return the conditions where an assumed Coulomb friction exceeds that measured, however few the readings are."""
-    sure = threshold(np.inf, CHANCE / len(fits))
+    sure = threshold(np.inf, CHANCE / len(entries))
     return [
         place
-        for place, (fit, entry) in enumerate(zip(fits, entries, strict=True))
-        if fit.coulomb is not None and entry.slides and deviation[place] > sure * entry.error[1] + ROUNDING
+        for place, entry in enumerate(entries)
+        if entry.fit.assumes and deviation[place] > sure * entry.error[1] + ROUNDING
     ]
 
 
@@ -83,12 +80,13 @@ _CAUSES = {
 }
 
 
-def _why_viscoelastic(fit: Fit, entry: Entry) -> tuple[tuple[str, ...], str]:
+def _why_viscoelastic(entry: Entry) -> tuple[tuple[str, ...], str]:
     """Return possible causes of negative viscoelastic friction, and their words.
 
     The sign of the force is one only where Coulomb friction is not positive.
     """
-    measured = entry.slides and fit.coulomb is None
+    fit = entry.fit
+    measured = fit.slides and fit.coulomb is None
     reasons = []
     if not measured or entry.value[2] <= 0.0:
         reasons.append("signs-reversed")
@@ -96,7 +94,7 @@ def _why_viscoelastic(fit: Fit, entry: Entry) -> tuple[tuple[str, ...], str]:
         reasons.append("zero-differs-by-direction")
     if not fit.fits_offset:
         reasons.append("zero-differs")
-    if fit.coulomb is not None and entry.slides:
+    if fit.assumes:
         reasons.append("coulomb-not-assumed")
     if measured and entry.value[2] > 0.0:
         reasons.append("disc-turns-against-sign")
@@ -104,44 +102,43 @@ def _why_viscoelastic(fit: Fit, entry: Entry) -> tuple[tuple[str, ...], str]:
     return tuple(reasons), f"{sound or 'probably '}{', or '.join(_CAUSES[one] for one in reasons)}"
 
 
-def _why_coulomb(fit: Fit, entry: Entry) -> tuple[tuple[str, ...], str]:
+def _why_coulomb(entry: Entry) -> tuple[tuple[str, ...], str]:
     """Return the probable cause of negative Coulomb friction, and its words."""
-    cause = "speeds-exchanged" if entry.value[1] > 0.0 and fit.fits_offset else "signs-reversed"
+    cause = "speeds-exchanged" if entry.value[1] > 0.0 and entry.fit.fits_offset else "signs-reversed"
     return (cause,), f"probably {_CAUSES[cause]}"
 
 
-def _inconsistent(groups: list[Condition], entries: list[Entry]) -> Iterator[Note]:
-    found = _significant(groups, entries, 3, np.array([abs(entry.value[3]) for entry in entries]))
+def _inconsistent(entries: list[Entry]) -> Iterator[Note]:
+    found = _significant(entries, 3, np.array([abs(entry.value[3]) for entry in entries]))
     if found:
         yield Note(
             "inconsistent",
-            f"{where([groups[one] for one in found], len(groups))} the four sign configurations are inconsistent: "
+            f"{_where((entries[one] for one in found), entries)} the four sign configurations are inconsistent: "
             f"their residual is {_shown(entries[found[0]], 3)} of the load, where scatter alone would give zero.",
-            values={"conditions": len(found), "of": len(groups)},
+            values={"conditions": len(found), "of": len(entries)},
         )
 
 
-def _another_zero(fits: list[Fit], entries: list[Entry], zeros: Zeros) -> Iterator[Note]:
+def _another_zero(entries: list[Entry], zeros: Zeros) -> Iterator[Note]:
     """Compare the fitted zero with the recorded one."""
-    groups = [fit.group for fit in fits]
-    recorded = np.array([zeros.mean(fit.group) if fit.fits_offset else np.nan for fit in fits])
+    recorded = np.array([zeros.mean(one.group) if one.fit.fits_offset else np.nan for one in entries])
     deviation = np.abs([entry.value[0] for entry in entries] - recorded)
-    found = _significant(groups, entries, 0, np.where(np.isfinite(deviation), deviation, 0.0), zeros.error)
+    found = _significant(entries, 0, np.where(np.isfinite(deviation), deviation, 0.0), zeros.error)
     if found:
         fitted, known = entries[found[0]], float(recorded[found[0]])
         yield Note(
             "another-zero",
-            f"{where([groups[one] for one in found], len(groups))} the zero of the force cell from the configurations, "
+            f"{_where((entries[one] for one in found), entries)} the zero of the force cell from the configurations, "
             f"{_shown(fitted, 0)} N, differs from the recorded one, {shown_number(known, '.2g')} N; the former is "
             "used.",
-            values={"conditions": len(found), "of": len(groups), "fitted": float(fitted.value[0]), "recorded": known},
+            values={"conditions": len(found), "of": len(entries), "fitted": float(fitted.value[0]), "recorded": known},
         )
 
 
-def _incomplete(groups: list[Condition], entries: list[Entry]) -> Iterator[Note]:
+def _incomplete(entries: list[Entry]) -> Iterator[Note]:
     """Yield notes on conditions where replicates lack configurations, or are too few."""
-    total = len(groups)
-    together = [group for group, entry in zip(groups, entries, strict=True) if entry.together]
+    groups, total = [entry.group for entry in entries], len(entries)
+    together = [entry.group for entry in entries if entry.fit.together]
     beside = _rolling_beside(together, groups)
     rolled = [(group, readings) for group, readings in zip(together, beside, strict=True) if readings]
     if rolled:
@@ -160,25 +157,23 @@ def _incomplete(groups: list[Condition], entries: list[Entry]) -> Iterator[Note]
             f"{where(missing, total)} not every replicate has all sign configurations, so all readings "
             "are fitted together.",
         )
-    alone = [group for group, entry in zip(groups, entries, strict=True) if not np.isfinite(entry.error[1])]
+    alone = [entry for entry in entries if not np.isfinite(entry.error[1])]
     if alone:
         yield Note(
             "few-readings",
-            f"{where(alone, total)} there are too few readings to estimate the scatter; standard errors are "
+            f"{_where(alone, entries)} there are too few readings to estimate the scatter; standard errors are "
             "infinite; repeat the test.",
         )
 
 
-def _significant(
-    groups: list[Condition], entries: list[Entry], number: int, deviation: Array, more_error: float = 0.0
-) -> list[int]:
+def _significant(entries: list[Entry], number: int, deviation: Array, more_error: float = 0.0) -> list[int]:
     """Return the conditions where one of the four values deviates by more than chance and rounding."""
-    chance = CHANCE / len(groups)
+    chance = CHANCE / len(entries)
     found = []
-    for place, (group, entry) in enumerate(zip(groups, entries, strict=True)):
-        size = (abs(entry.value[0]) / group.load + abs(entry.value[1]) + abs(entry.value[2])) * (
-            group.load if number == 0 else 1.0
-        )
+    for place, entry in enumerate(entries):
+        load = entry.group.load
+        size = abs(entry.value[0]) / load + abs(entry.value[1]) + abs(entry.value[2])
+        size *= load if number == 0 else 1.0
         error = np.hypot(entry.error[number], more_error)
         if deviation[place] <= ROUNDING * size or not np.isfinite(error):
             continue
@@ -212,29 +207,29 @@ def constant_force(runs: TractionRuns) -> Iterator[Note]:
         )
 
 
-def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], list[Note]]:
+def without_unnoticed_slip(entries: list[Entry]) -> tuple[list[Entry], list[Note]]:
     """Compare viscoelastic friction in pure rolling with that of the largest slip at the same speed.
 
-    Slip too small to be measured can still transmit much of Coulomb friction, with one sign.  Returns the indices of
-    the conditions where it does, and notes on them.
+    Slip too small to be measured can still transmit much of Coulomb friction, with one sign.  Returns the conditions
+    where it does not, and notes on the others.
     """
-    sliding: dict[tuple[float, float], list[int]] = {}
-    for place, (fit, entry) in enumerate(zip(fits, entries, strict=True)):
-        if entry.slides and fit.coulomb is None:
-            sliding.setdefault((fit.group.temperature, fit.group.speed), []).append(place)
-    found, notes = [], []
-    for place, (fit, entry) in enumerate(zip(fits, entries, strict=True)):
-        group = fit.group
-        beside = sliding.get((group.temperature, group.speed), [])
-        alike = [other for other in beside if group.alike(fits[other].group)]
-        if entry.slides or not alike:
+    sliding = defaultdict(list)
+    for entry in entries:
+        if entry.fit.slides and entry.fit.coulomb is None:
+            sliding[entry.group.temperature, entry.group.speed].append(entry)
+    kept, notes = [], []
+    for entry in entries:
+        group = entry.group
+        alike = [one for one in sliding[group.temperature, group.speed] if group.alike(one.group)]
+        kept.append(entry)
+        if entry.fit.slides or not alike:
             continue
-        other = entries[max(alike, key=lambda one: fits[one].group.slip)]
+        other = max(alike, key=lambda one: one.group.slip)
         apart = abs(entry.value[1] - other.value[1])
         error = float(np.hypot(entry.error[1], other.error[1]))
-        chance = threshold(min(entry.freedom[1], other.freedom[1]), CHANCE / len(fits))
+        chance = threshold(min(entry.freedom[1], other.freedom[1]), CHANCE / len(entries))
         if apart > chance * error and apart > max(_MATTERS * abs(other.value[2]), ROUNDING):
-            found.append(place)
+            kept.pop()
             notes.append(
                 Note(
                     "unnoticed-slip",
@@ -249,14 +244,15 @@ def unnoticed_slip(fits: list[Fit], entries: list[Entry]) -> tuple[list[int], li
                     },
                 )
             )
-    return found, notes
+    return kept, notes
 
 
-def outliers(runs: TractionRuns, groups: list[Condition], entries: list[Entry]) -> list[tuple[Condition, int]]:
+def outliers(runs: TractionRuns, entries: list[Entry]) -> list[tuple[Condition, int]]:
     """Return the readings far from the others of their configuration, their conditions and rows."""
-    if not groups:
+    if not entries:
         return []
-    deviations = [_deviations(runs, group, entry.value[0]) for group, entry in zip(groups, entries, strict=True)]
+    groups = [entry.group for entry in entries]
+    deviations = [_deviations(runs, entry.group, entry.value[0]) for entry in entries]
     every = np.concatenate(deviations)
     configuration = np.concatenate([group.configurations for group in groups])
     # Few readings give a poor scale; the whole test, and all readings of equal signs, give a lower limit of it.

@@ -26,20 +26,22 @@ FORCE, DRIFT, ZERO_CHANGES = range(3)
 
 @dataclass(frozen=True, eq=False)
 class Entry:
-    """Zero (N), viscoelastic and Coulomb coefficient and consistency of a condition, in this order.
+    """Zero (N), viscoelastic and Coulomb coefficient and consistency of a condition (4,), in this order.
 
     `freedom` is the number of degrees of freedom of each error, infinite where it is exact; an unknown value has an
     infinite error.
     """
 
+    fit: Fit
     value: Array
     error: Array
     scatter: Array
     freedom: Array
-    replicates: int
-    together: bool
-    slides: bool
-    checks: bool
+
+    @property
+    def group(self) -> Condition:
+        """The condition."""
+        return self.fit.group
 
     def widened(self, variance: Array, freedom: float) -> Entry:
         """Add an independent variance (4,) to the squared errors; degrees of freedom after Welch and Satterthwaite."""
@@ -196,6 +198,11 @@ class Fit:
         return np.asarray(self.each[:, _OFFSET] @ weights)
 
     @property
+    def assumes(self) -> bool:
+        """Whether there is Coulomb friction that is not fitted."""
+        return self.coulomb is not None and self.slides
+
+    @property
     def paired(self) -> bool:
         """Whether there are several replicates, each with all configurations and fitted by itself."""
         return len(self.each) > 1
@@ -210,13 +217,12 @@ class Fit:
         `error` and `freedom` (4,) are the standard errors of the fit and their degrees of freedom.
         """
         value, freedom = self.mean(weights), freedom.copy()
-        count = self.replicates
-        scatter = error * np.sqrt(count)
+        scatter = error * np.sqrt(self.replicates)
         unknown = np.array([False, False, not self.slides, not self.checks])
         error, scatter = (np.where(unknown, np.inf, spread) for spread in (error, scatter))
         if not self.fits_offset:
             value[_OFFSET] = zeros.mean(self.group)
-        found = Entry(value, error, scatter, freedom, count, self.together, self.slides, self.checks)
+        found = Entry(self, value, error, scatter, freedom)
         if self.coulomb is not None and self.slides:
             value[_COULOMB], error[_COULOMB] = self.coulomb
             freedom[_COULOMB], scatter[_COULOMB] = np.inf, 0.0

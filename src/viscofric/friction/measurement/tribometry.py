@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
-from viscofric.friction.measurement.doubts import constant_force, doubts, outlier_notes, unnoticed_slip
+from viscofric.friction.measurement.doubts import constant_force, doubts, outlier_notes, without_unnoticed_slip
 from viscofric.friction.measurement.doubts import outliers as far_readings
 from viscofric.friction.measurement.drift import Drift
 from viscofric.friction.measurement.errors import BetweenRuns
@@ -161,8 +161,7 @@ def separate(
     assumed = Assumed.of(coulomb)
     kelvin = positive(temperature_tolerance, "delta_degC", "temperature_tolerance")
     found = _Separation.of(runs, zero, assumed, gap, kelvin)
-    groups = [fit.group for fit in found.fits]
-    far = far_readings(runs, groups, found.entries)
+    far = far_readings(runs, found.entries)
     notes = outlier_notes(runs, far, left_out=outliers == "leave out")
     if far and outliers == "leave out":
         rest = runs.select(np.setdiff1d(np.arange(len(runs)), [row for _, row in far]))
@@ -172,11 +171,9 @@ def separate(
 
 @dataclass(frozen=True, eq=False)
 class _Separation:
-    """Fits and results by condition, the indices where Coulomb friction was assumed, and notes."""
+    """Results by condition, and notes."""
 
-    fits: list[Fit]
     entries: list[Entry]
-    assumed: list[int]
     notes: list[str]
 
     @classmethod
@@ -194,35 +191,34 @@ class _Separation:
         uneven = Uneven.of(runs, grouping.groups, speed_tolerance)
         found = _fitted(runs, grouping.groups, zeros, assumed, uneven)
         for _ in range(_ROUNDS if uneven else 0):
-            uneven = uneven.with_growths(found.fits, found.bare, found.entries)
+            uneven = uneven.with_growths(found.bare, found.entries)
             found = _fitted(runs, grouping.groups, zeros, assumed, uneven)
-        slipping, slip_notes = unnoticed_slip(found.fits, found.entries)
-        fits = [fit for place, fit in enumerate(found.fits) if place not in slipping]
-        entries = [entry for place, entry in enumerate(found.entries) if place not in slipping]
-        groups = [fit.group for fit in fits]
-        entries, places = assumed.completed(fits, entries)
-        resting = [fit.group for fit in fits if not fit.fits_offset]
-        load = float(np.mean([fit.group.load for fit in fits]))
+        entries, slip_notes = without_unnoticed_slip(found.entries)
+        entries = assumed.completed(entries)
+        groups = [entry.group for entry in entries]
+        resting = [entry.group for entry in entries if not entry.fit.fits_offset]
+        load = float(np.mean([group.load for group in groups]))
         notes = [
             *grouping.notes,
-            *uneven.notes(grouping.groups, found.entries),
+            *uneven.notes(found.entries),
             *slip_notes,
             *zeros.notes(groups, resting),
             *zeros.drift(load),
-            *found.drift.notes(fits),
+            *found.drift.notes([entry.fit for entry in entries]),
             *found.errors.notes,
             *constant_force(runs),
-            *doubts(fits, entries, zeros),
+            *doubts(entries, zeros),
             *another_zero(runs, groups, zeros),
         ]
-        return cls(fits, entries, places, notes)
+        return cls(entries, notes)
 
     def curves(self, runs: TractionRuns, assumed: Assumed, notes: Sequence[str]) -> FrictionCurves:
         """Return one entry for each condition."""
-        groups = [fit.group for fit in self.fits]
-        sliding = any(entry.slides for entry in self.entries)
-        checked = any(entry.checks for entry in self.entries)
-        assumption = assumed.sentence([groups[place] for place in self.assumed], len(groups))
+        groups = [entry.group for entry in self.entries]
+        sliding = any(entry.fit.slides for entry in self.entries)
+        checked = any(entry.fit.checks for entry in self.entries)
+        without = [entry.group for entry in self.entries if entry.fit.coulomb is not None]
+        assumption = assumed.sentence(without, len(groups))
         if not assumption and not assumed.nothing:
             unused = "The given Coulomb friction is not used: the signs of the speeds determine it."
             notes = [*notes, Note("coulomb-not-used", unused)]
@@ -238,7 +234,7 @@ class _Separation:
             viscoelastic_error=column(1, "error"),
             viscoelastic_scatter=column(1, "scatter"),
             viscoelastic_freedom=column(1, "freedom"),
-            replicates=np.array([entry.replicates for entry in self.entries]),
+            replicates=np.array([entry.fit.replicates for entry in self.entries]),
             coulomb=column(2, "value") if sliding else None,
             coulomb_error=column(2, "error") if sliding else None,
             coulomb_scatter=column(2, "scatter") if sliding else None,
@@ -254,9 +250,8 @@ class _Separation:
 
 
 class _Fitted(NamedTuple):
-    """Fits of all conditions, and their results without and with the error of friction's change over speed."""
+    """Results of all conditions without and with the error of friction's change over speed, drift, and errors."""
 
-    fits: list[Fit]
     drift: Drift
     errors: BetweenRuns
     bare: list[Entry]
@@ -272,5 +267,4 @@ def _fitted(runs: TractionRuns, groups: list[Condition], zeros: Zeros, assumed: 
     drift = Drift.of(fits)
     errors = BetweenRuns.of(fits, drift.weights)
     bare = [drift.entry(fit, zeros, *one) for fit, *one in zip(fits, errors.error, errors.freedom, strict=True)]
-    entries = [uneven.widened(place, *one) for place, one in enumerate(zip(fits, bare, strict=True))]
-    return _Fitted(fits, drift, errors, bare, entries)
+    return _Fitted(drift, errors, bare, [uneven.widened(place, one) for place, one in enumerate(bare)])

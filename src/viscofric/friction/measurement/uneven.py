@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from viscofric.arrays import Array
-    from viscofric.friction.measurement.fit import Entry, Fit
+    from viscofric.friction.measurement.fit import Entry
     from viscofric.traction import TractionRuns
 
 
@@ -42,24 +41,20 @@ class Uneven:
     def __bool__(self) -> bool:
         return bool(np.any(self.apart))
 
-    def with_growths(self, fits: list[Fit], bare: list[Entry], entries: list[Entry]) -> Uneven:
+    def with_growths(self, bare: list[Entry], entries: list[Entry]) -> Uneven:
         """Return the change of friction from that at the speeds of each temperature and load.
 
         The standard errors of `entries` include the uncertainty of the change of friction, those of `bare` do not.
         """
         growths = list(self.growths)
-        isotherms = defaultdict(list)
-        for place, fit in enumerate(fits):
-            isotherms[fit.group.temperature].append(place)
         for place in np.flatnonzero(self.apart).tolist():
-            group = fits[place].group
-            alike = [other for other in isotherms[group.temperature] if group.alike(fits[other].group)]
-            growths[place] = _growth(place, alike, fits, bare, entries)
+            own = bare[place]
+            growths[place] = _growth(own, [one for one in entries if own.group.alike(one.group)])
         return Uneven(self.apart, growths)
 
-    def widened(self, place: int, fit: Fit, entry: Entry) -> Entry:
+    def widened(self, place: int, entry: Entry) -> Entry:
         """Add the uncertainty of the change of friction to the standard errors of a condition."""
-        growth = self.growths[place]
+        growth, fit = self.growths[place], entry.fit
         if growth is None:
             return entry
         scatter, rest = growth.deviations(fit.log_speed)
@@ -69,31 +64,32 @@ class Uneven:
         )
         return entry.widened(by_scatter, entry.freedom[1]).widened(by_rest, np.inf)
 
-    def notes(self, groups: list[Condition], entries: list[Entry]) -> Iterator[Note]:
+    def notes(self, entries: list[Entry]) -> Iterator[Note]:
         """Yield notes on conditions where the speeds differ."""
         largest = 100 * float(np.abs(self.apart).max(initial=0.0))
         for taken in (True, False):
-            found = [place for place, one in enumerate(self.growths) if one is not None and one.known == taken]
+            every = zip(self.growths, entries, strict=True)
+            found = [entry for growth, entry in every if growth is not None and growth.known == taken]
             if not found:
                 continue
             what = (
                 "is removed as far as it follows from friction at the other speeds; the rest is in the standard errors"
                 if taken
                 else "cannot be removed without other speeds, and half of it is in Coulomb friction; the standard "
-                f"errors allow for a change as steep as speed itself{_size(found, entries)}"
+                f"errors allow for a change as steep as speed itself{_size(found)}"
             )
             yield Note(
                 "speed-differs",
-                f"{where([groups[one] for one in found], len(groups))} the disc's speed differs by up to "
+                f"{where([entry.group for entry in found], len(entries))} the disc's speed differs by up to "
                 f"{largest:.2g} % between directions of slip; the change of viscoelastic friction between them {what}.",
                 values={
-                    "conditions": len(found), "of": len(groups), "difference": 0.01 * largest, "removed": taken,
+                    "conditions": len(found), "of": len(entries), "difference": 0.01 * largest, "removed": taken,
                 },
             )  # fmt: skip
 
 
-def _size(found: list[int], entries: list[Entry]) -> str:
-    errors = [error for error in (entries[place].error[2] for place in found) if np.isfinite(error)]
+def _size(found: list[Entry]) -> str:
+    errors = [entry.error[2] for entry in found if np.isfinite(entry.error[2])]
     return f" and are up to ±{max(errors):.2g}" if errors else ""
 
 
@@ -105,34 +101,30 @@ def _apart(runs: TractionRuns, group: Condition) -> float:
     return float(speed[faster].mean() - speed[~faster].mean()) / group.speed
 
 
-def _growth(place: int, alike: list[int], fits: list[Fit], bare: list[Entry], entries: list[Entry]) -> Growth:
-    """Return the change of friction about a condition's speed, from those at its temperature and load."""
-    here = fits[place].group
-    known = np.isfinite(bare[place].error[1])
+def _growth(own: Entry, others: list[Entry]) -> Growth:
+    """Return the change of friction about a condition's speed, from others at its temperature and load.
 
-    def error(one: int) -> float:
-        # A condition's own error must not increase by its own consequences.
-        return float((bare if one == place else entries)[one].error[1])
-
+    The error of `own` is without that of the change: it must not increase by its own consequences.
+    """
+    here = own.group
     # Of several slips at one speed, the nearest.
-    at_speed: dict[float, int] = {here.speed: place}
-    for one in alike:
-        group = fits[one].group
-        usable = entries[one].value[1] > 0.0 and (np.isfinite(error(one)) or not known)
+    at_speed = {here.speed: own}
+    for one in others:
+        group = one.group
+        usable = one.value[1] > 0.0 and (np.isfinite(one.error[1]) or not np.isfinite(own.error[1]))
         if not usable or group.speed == here.speed:
             continue
         slip = abs(group.slip / group.speed - here.slip / here.speed)
         other = at_speed.get(group.speed)
-        if other is None or slip < abs(fits[other].group.slip / group.speed - here.slip / here.speed):
+        if other is None or slip < abs(other.group.slip / group.speed - here.slip / here.speed):
             at_speed[group.speed] = one
-    if entries[place].value[1] <= 0.0:
+    if own.value[1] <= 0.0:
         return Growth.unknown()
-    nodes = list(at_speed.values())
-    friction = np.array([entries[one].value[1] for one in nodes])
-    errors = np.array([error(one) for one in nodes])
+    friction = np.array([one.value[1] for one in at_speed.values()])
+    errors = np.array([one.error[1] for one in at_speed.values()])
     return Growth.best(
         np.log(np.array(list(at_speed)) / here.speed),
         np.log(friction),
         np.where(np.isfinite(errors), errors, 0.0) / friction,
-        fits[place].log_speed,
+        own.fit.log_speed,
     )
