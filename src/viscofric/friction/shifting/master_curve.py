@@ -217,42 +217,13 @@ class FrictionMasterCurve(Plotted):
     def standard_error(
         self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None
     ) -> Any:
-        """Return the standard error of μ(v, T) due to the points' errors, without those of the shift factors.
-
-        Parameters
-        ----------
-        speed, temperature, load
-            As of a call.
-
-        Returns
-        -------
-        float or array
-            As of a call.
-
-        Raises
-        ------
-        InputError
-            As of a call.
-        """
+        """Return the standard error of μ(v, T) by the points' errors, without those of the shift factors; as a call."""
         return self._read(speed, temperature, load)[1]
 
     def covers(self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None) -> Any:
         """Return whether μ(v, T) is known: the reduced speed lies where there are points, and α is known at T.
 
-        Parameters
-        ----------
-        speed, temperature, load
-            As in a call.
-
-        Returns
-        -------
-        bool or array of bool
-            In the shape that a call has.
-
-        Raises
-        ------
-        InputError
-            As in a call, but not for reduced speeds without points and temperatures without α.
+        Arguments, shape and errors are those of a call, but nothing is refused for lack of points or of α.
         """
         velocity, kelvin, single = self._arguments(speed, temperature)
         relative = self._relative_load(load)

@@ -149,22 +149,12 @@ class InterfaceLaw(Shown, ABC):
         return np.asarray(10.0**decades)
 
     def standard_error(self, speed: Quantities, temperature: Quantities | None = None) -> Any:
-        """Return the standard error of log10 τ_s, by the delta method.
-
-        Parameters
-        ----------
-        speed, temperature
-            As of a call.
-
-        Returns
-        -------
-        float or array
-            Decades.
+        """Return the standard error of log10 τ_s, decades, by the delta method; arguments as of a call.
 
         Raises
         ------
         InputError
-            As of a call, or if the law has no covariance.
+            As a call, or if the law has no covariance.
         """
         if self.covariance is None:
             raise InputError(
@@ -209,23 +199,7 @@ class InterfaceLaw(Shown, ABC):
         return in_shape(self._in_pascal(middle - away)), in_shape(self._in_pascal(middle + away))
 
     def extrapolates(self, speed: Quantities, temperature: Quantities | None = None) -> Any:
-        """Return whether reduced speed or temperature lie outside those of the fit.
-
-        Parameters
-        ----------
-        speed, temperature
-            As of a call.
-
-        Returns
-        -------
-        bool or array of bool
-            False for a law that was not fitted.
-
-        Raises
-        ------
-        InputError
-            As of a call.
-        """
+        """Return whether reduced speed or temperature, as of a call, lie outside those of a fit; else False."""
         decades, kelvin = self._arguments(speed, temperature)
         outside: Mask = np.zeros(decades.shape, dtype=bool)
         if self.fitted_speeds is not None:

@@ -178,18 +178,7 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         )
 
     def at_reference(self, reference: Quantity) -> ShiftFactors:
-        """Return the same factors with α = 1 at another temperature.
-
-        Parameters
-        ----------
-        reference : float, str or pint.Quantity
-            K if a plain number.
-
-        Raises
-        ------
-        InputError
-            If it is outside the measured range.
-        """
+        """Return the same factors with α = 1 at another temperature of their range; see `ShiftLaw.at_reference`."""
         kelvin = positive(reference, "K", "reference")
         self._refuse(np.array([kelvin]))
         return ShiftFactors(
