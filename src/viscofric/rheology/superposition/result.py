@@ -4,34 +4,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
+from viscofric.data import Isotherm, MasterCurve
 from viscofric.rheology.superposition import consistency
-from viscofric.rheology.superposition.step_result import StepSuperposition
-from viscofric.showing import Plotted
+from viscofric.rheology.superposition.step_result import StepSuperposition, Superposed
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.data import Isotherm, MasterCurve
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.superposition.consistency import SuperpositionCheck
-    from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
-    from viscofric.rheology.superposition.overlap import OverlapQuality
     from viscofric.rheology.superposition.quantity import ShiftBy
     from viscofric.rheology.superposition.step_result import StepCheck
     from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
-class Superposition(Plotted):
+class Superposition(Superposed[MasterCurve, Isotherm]):
     """The result of `superpose`.
 
     Parameters
@@ -61,25 +52,13 @@ class Superposition(Plotted):
         Of log E' and log E'', with mean 1, where they were given.
     """
 
-    shift_factors: ShiftFactors
-    master_curve: MasterCurve
-    quality: OverlapQuality
-    notes: tuple[str, ...] = ()
-    isotherms: tuple[Isotherm, ...] = ()
-    vertical_shift: VerticalShift | None = None
-    cross_covariance: Array | None = None
-    offsets: IsothermOffsets | None = None
-    unidentified: tuple[tuple[float, float], ...] = ()
     shifted_by: ShiftBy = "both"
     weights: tuple[float, float] | None = None
 
     def _shown(self) -> Rows:
         return (
             ("isotherms", len(self.isotherms)),
-            ("temperature", self.shift_factors.temperatures, "°C"),
-            ("reference", self.shift_factors.reference, "°C"),
-            ("log10 α", self.shift_factors.log10_values),
-            ("overlap misfit", self.quality.joint, "decades"),
+            *super()._shown(),
             ("vertical shift", None if self.vertical_shift is None else type(self.vertical_shift).__name__),
             ("notes", self.notes),
         )
@@ -100,28 +79,15 @@ class Superposition(Plotted):
             for one, shift, factor in zip(self.isotherms, self.shift_factors.log10_values, b, strict=True)
         )
 
-    def to_dataset(self) -> xarray.Dataset:
-        """Return shift factors, vertical shift and overlap of the isotherms as a labelled data set.
-
-        Returns
-        -------
-        xarray.Dataset
-            ``log10_shift_factor`` and ``standard_error`` along ``temperature`` (K), and ``log10_vertical_shift`` and
-            ``vertical_standard_error`` where there is a vertical shift; rms misfits of the overlaps (decades) among
-            the attributes.
-        """
-        found = self.shift_factors.to_dataset()
+    def _attributes(self) -> dict[str, Any]:
         quality = self.quality
-        found.attrs |= {
-            "isotherms_used": len(self.shift_factors.temperatures),
+        return {
             "overlap_rms_log10_storage": quality.storage,
             "overlap_rms_log10_loss": quality.loss,
             **quality.attributes,
             "shifted_by": self.shifted_by,
+            **({} if self.weights is None else {"shift_weights": list(self.weights)}),
         }
-        if self.weights is not None:
-            found.attrs["shift_weights"] = list(self.weights)
-        return with_vertical_shift(found, self.vertical_shift, self.shift_factors.temperatures)
 
     @cached_property
     @one_blas_thread

@@ -6,18 +6,20 @@ import json
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
+from viscofric.data import MasterCurve
 from viscofric.datasets import dataset
 from viscofric.notes import Note
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
 from viscofric.rheology.superposition.consistency import LARGEST_FIGURE, ONE_PAIR, REPRODUCIBILITY, ROUGH_FIGURE
-from viscofric.rheology.superposition.joined_isotherms import ranges, shown
+from viscofric.rheology.superposition.joined_isotherms import Tested, ranges, shown
 from viscofric.rheology.superposition.overlap import LogSweep, join, own_shifts
 from viscofric.showing import Plotted, Shown
+from viscofric.step_tests import StepMasterCurve, StepTest
 from viscofric.threads import one_blas_thread
 from viscofric.units import shown_number
 
@@ -33,7 +35,6 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
     from viscofric.rheology.superposition.overlap import OverlapQuality
     from viscofric.showing import Rows
-    from viscofric.step_tests import StepMasterCurve, StepTest
 
 
 #: Points of a test are averaged over so many equal parts of each decade of time.
@@ -119,38 +120,19 @@ class StepCheck(Shown):
         )
 
 
-@dataclass(frozen=True, eq=False)
-class StepSuperposition(Plotted):
-    """The result of `superpose` of creep or relaxation tests.
+#: The master curve of one kind of tests.
+Curve = TypeVar("Curve", MasterCurve, StepMasterCurve)
 
-    Parameters
-    ----------
-    shift_factors : ShiftFactors
-        α at the temperatures that were joined, with standard errors.
-    master_curve : StepMasterCurve
-        Tensile, at the reference, free of vertical shift: b(T) J(t, T) or E(t, T)/b(T) against t/α(T).
-    quality : OverlapQuality
-        How well neighbours overlap: `joint` is the rms of log10 of the response.
-    notes : tuple of str
-        What the reader noted, and what was converted, left out or not identified here: one sentence each.
-    isotherms : tuple of StepTest
-        Those that were joined, tensile, averaged over twentieths of a decade of time, in ascending temperature: one for
-        each entry of `shift_factors.temperatures`.
-    vertical_shift : VerticalShift or None
-        b(T), where one was requested.
-    cross_covariance : (n, n) array or None
-        Of log10 α (rows) with log10 b (columns), where b was fitted.
-    offsets : IsothermOffsets or None
-        How far whole tests are off, found from their overlaps where shifts were fitted.
-    unidentified : tuple of (float, float)
-        Colder and warmer temperature (K) of the steps of α that the tests do not fix.
-    """
+
+@dataclass(frozen=True, eq=False)
+class Superposed(Plotted, Generic[Curve, Tested]):
+    """What superpositions of sweeps and of step tests have in common; `Superposition` describes the attributes."""
 
     shift_factors: ShiftFactors
-    master_curve: StepMasterCurve
+    master_curve: Curve
     quality: OverlapQuality
     notes: tuple[str, ...] = ()
-    isotherms: tuple[StepTest, ...] = ()
+    isotherms: tuple[Tested, ...] = ()
     vertical_shift: VerticalShift | None = None
     cross_covariance: Array | None = None
     offsets: IsothermOffsets | None = None
@@ -158,33 +140,56 @@ class StepSuperposition(Plotted):
 
     def _shown(self) -> Rows:
         return (
-            ("tests", f"{len(self.isotherms)} of {self.master_curve.kind}"),
             ("temperature", self.shift_factors.temperatures, "°C"),
             ("reference", self.shift_factors.reference, "°C"),
             ("log10 α", self.shift_factors.log10_values),
             ("overlap misfit", self.quality.joint, "decades"),
-            ("notes", self.notes),
         )
 
+    def _attributes(self) -> dict[str, Any]:
+        """Return what data sets say of the overlap."""
+        raise NotImplementedError
+
     def to_dataset(self) -> xarray.Dataset:
-        """Return shift factors, vertical shift and overlap of the tests as a labelled data set.
+        """Return shift factors, vertical shift and overlap of the isotherms as a labelled data set.
 
         Returns
         -------
         xarray.Dataset
             ``log10_shift_factor`` and ``standard_error`` along ``temperature`` (K), and ``log10_vertical_shift`` and
-            ``vertical_standard_error`` where there is a vertical shift; the rms misfit of the overlaps (decades) among
+            ``vertical_standard_error`` where there is a vertical shift; rms misfits of the overlaps (decades) among
             the attributes.
         """
         found = self.shift_factors.to_dataset()
-        quality = self.quality
-        found.attrs |= {
-            "isotherms_used": len(self.shift_factors.temperatures),
-            "kind": self.master_curve.kind,
-            "overlap_rms_log10": quality.joint,
-            **quality.attributes,
-        }
+        found.attrs |= {"isotherms_used": len(self.shift_factors.temperatures), **self._attributes()}
         return with_vertical_shift(found, self.vertical_shift, self.shift_factors.temperatures)
+
+
+@dataclass(frozen=True, eq=False)
+class StepSuperposition(Superposed[StepMasterCurve, StepTest]):
+    """The result of `superpose` of creep or relaxation tests; the attributes of `Superposition` but the last two.
+
+    Attributes
+    ----------
+    master_curve : StepMasterCurve
+        Tensile, at the reference, free of vertical shift: b(T) J(t, T) or E(t, T)/b(T) against t/α(T).
+    quality : OverlapQuality
+        How well neighbours overlap: `joint` is the rms of log10 of the response.
+    isotherms : tuple of StepTest
+        Those that were joined, tensile, averaged over twentieths of a decade of time, in ascending temperature: one for
+        each entry of `shift_factors.temperatures`.
+    """
+
+    def _shown(self) -> Rows:
+        return (
+            ("tests", f"{len(self.isotherms)} of {self.master_curve.kind}"),
+            *super()._shown(),
+            ("notes", self.notes),
+        )
+
+    def _attributes(self) -> dict[str, Any]:
+        quality = self.quality
+        return {"kind": self.master_curve.kind, "overlap_rms_log10": quality.joint, **quality.attributes}
 
     @cached_property
     @one_blas_thread
