@@ -14,6 +14,7 @@ from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note, Remedy, note_of
+from viscofric.rheology.uncertainty.residuals import prior_freedom
 from viscofric.units import positive, shown_celsius, shown_number, shown_speed
 
 if TYPE_CHECKING:
@@ -248,17 +249,15 @@ def moderated_variances(variances: Array, freedom: Array) -> Array:
 
     They are those of Student's distribution.
     """
-    from scipy.optimize import brentq
-    from scipy.special import digamma, polygamma
+    from scipy.special import digamma
 
     half = 0.5 * freedom
     logarithms = np.log(variances) - digamma(half) + np.log(half)
-    rest = float(np.var(logarithms, ddof=1) - np.mean(polygamma(1, half)))
+    prior = prior_freedom(logarithms, freedom)
     common = float(np.exp(np.mean(logarithms)))
-    if rest <= polygamma(1, 5e3):  # only chance: all have one variance
+    if np.isinf(prior):  # all have one variance
         total = float(np.sum(freedom))
         return np.full(len(variances), float(freedom @ variances) / max(total - 2.0, 0.5 * total))
-    prior_half = brentq(lambda value: float(polygamma(1, value)) - rest, 1e-3, 1e4)
-    common *= float(np.exp(digamma(prior_half)) / prior_half)
-    together = 2.0 * prior_half + freedom
-    return np.asarray((2.0 * prior_half * common + freedom * variances) / np.maximum(together - 2.0, 0.5 * together))
+    common *= float(np.exp(digamma(0.5 * prior)) / (0.5 * prior))
+    together = prior + freedom
+    return np.asarray((prior * common + freedom * variances) / np.maximum(together - 2.0, 0.5 * together))

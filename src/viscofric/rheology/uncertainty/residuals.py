@@ -69,24 +69,29 @@ class Residuals:
 
 
 def _moderated(squares: Array, counts: Integers) -> Array:
-    """Return the variance of each isotherm, shrunk towards the common one.
-
-    With ν0 the freedom of the common variance s0², that of an isotherm is (ν0 s0² + Σ r²)/(ν0 + n).  The scatter of
-    ln s² over the isotherms exceeds the ψ'(n/2) of pure chance by ψ'(ν0/2), which gives ν0.
-    """
-    from scipy.optimize import brentq
-    from scipy.special import polygamma
-
+    """Return variances of isotherms, shrunk towards the common one s0² of freedom ν0: (ν0 s0² + Σ r²)/(ν0 + n)."""
     common = float(squares.sum() / counts.sum())
     known = (counts >= LEAST_POINTS) & (squares > 0.0)
     if common <= 0.0 or known.sum() < LEAST_POINTS:
         return np.full(len(counts), common)
-    logarithms = np.log(squares[known] / counts[known])
-    rest = float(np.var(logarithms, ddof=1) - np.mean(polygamma(1, 0.5 * counts[known])))
-    if rest <= polygamma(1, 5e3):  # no more than chance
+    freedom = prior_freedom(np.log(squares[known] / counts[known]), counts[known])
+    if np.isinf(freedom):
         return np.full(len(counts), common)
-    freedom = 2.0 * brentq(lambda half: float(polygamma(1, half)) - rest, 1e-3, 1e4)
     return np.asarray((freedom * common + squares) / (freedom + counts))
+
+
+def prior_freedom(log_variances: Array, freedom: Array | Integers) -> float:
+    """Return the degrees of freedom ν0 of the common variance, infinite where sample variances differ by chance only.
+
+    The variance of ln s² (n,) is ψ'(ν/2) by chance, with ν degrees of freedom (n,), and ψ'(ν0/2) besides.
+    """
+    from scipy.optimize import brentq
+    from scipy.special import polygamma
+
+    rest = float(np.var(log_variances, ddof=1) - np.mean(polygamma(1, 0.5 * freedom)))
+    if rest <= polygamma(1, 5e3):
+        return np.inf
+    return 2.0 * float(brentq(lambda half: float(polygamma(1, half)) - rest, 1e-3, 1e4))
 
 
 #: Number of neighbours along an isotherm over which residuals are averaged: noise averages out, a misfit does not.

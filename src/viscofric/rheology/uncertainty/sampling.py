@@ -13,6 +13,7 @@ from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
+from viscofric.rheology.spectra.modulus_misfit import Modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
 from viscofric.rheology.spectra.step_misfit import (
@@ -142,18 +143,12 @@ def sample_materials(
     drawn = Resampled(random, fit, spectrum, moved, offsets - raised[..., None])
     refit = Refit(random.spawn(1)[0], spectrum, drawn.misfit, *drawn.ends)
     fitted = [refit(*drawn(number)) for number in range(samples)]
-    common_modes = [refit.on_lattice(modes) for modes in fitted]
-    materials = []
-    for modes, shift, vertical in zip(fitted, laws, verticals, strict=True):
-        material = Material(as_spectrum(modes), shift, poisson_ratio, name)
-        materials.append(material if vertical is None else replace(material, vertical_shift=vertical))
-    return MaterialSamples(
-        tuple(materials),
-        np.array([modes.C for modes in common_modes]),
-        np.array([modes.tau for modes in common_modes]),
-        frequencies_of(curve),
-        _misfit(curve, shifts, spectrum),
-    )
+    materials = [
+        Material(as_spectrum(modes), shift, poisson_ratio, name, vertical)
+        for modes, shift, vertical in zip(fitted, laws, verticals, strict=True)
+    ]
+    missed = _misfit(curve, shifts, spectrum)
+    return MaterialSamples(tuple(materials), *_on_lattice(refit, fitted), frequencies_of(curve), missed)
 
 
 def _of_several(
@@ -186,7 +181,6 @@ def _of_several(
     for number in range(samples):
         misfits, noise = zip(*(one(number) for one in drawn), strict=True)
         fitted.append(refit(JointMisfit(misfits, joint.free), np.concatenate(noise)))
-    common_modes = [refit.on_lattice(modes) for modes in fitted]
     tables = [ShiftFactors(common.temperatures, common.log10_values + row, common.reference) for row in moved]
     laws: Sequence[ShiftLaw] = tables if law is None else _laws(random, common, moved, common.law(law))
     materials = tuple(
@@ -194,12 +188,13 @@ def _of_several(
         for modes, shift in zip(fitted, laws, strict=True)
     )
     assert spectrum.fit is not None
-    return MaterialSamples(
-        materials,
-        np.array([modes.C for modes in common_modes]),
-        np.array([modes.tau for modes in common_modes]),
-        spectrum.fit.frequency_range,
-    )
+    return MaterialSamples(materials, *_on_lattice(refit, fitted), spectrum.fit.frequency_range)
+
+
+def _on_lattice(refit: Refit, fitted: Sequence[Modes]) -> tuple[Array, Array]:
+    """Return C and tau (samples, n) of modes at times that all samples have in common."""
+    modes = [refit.on_lattice(one) for one in fitted]
+    return np.array([one.C for one in modes]), np.array([one.tau for one in modes])
 
 
 def _insist_on_same_curve(spectrum: RetardationSpectrum, curve: Curve) -> None:
