@@ -29,6 +29,7 @@ from viscofric.rheology.superposition.common_curve import (
     roughness,
     splines,
 )
+from viscofric.rheology.superposition.shift_problem import inverse_curvature
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array, Indices, Mask
@@ -151,8 +152,6 @@ SHARED, DIFFERENT = 0.4, 0.05
 PASSES, STEPS = 12, 8
 #: Changes of the logarithms of the constants: the largest in one step, and where the search ends.
 LARGEST_STEP, CONVERGED = 0.3, 1e-6
-#: Second derivatives are taken for this part at least of what Gauss and Newton say.
-SMALLEST_PART = 0.2
 #: Step of the logarithm of a constant for differences of the gradient.
 DIFFERENCE = 1e-4
 
@@ -328,10 +327,6 @@ def _covariance(problem: _Problem, logs: Array, smoother: CorrelatedSmoother, st
         ahead, behind = (problem.state(logs + sign * DIFFERENCE * way, smoother).gradient for sign in (1.0, -1.0))
         curvature[place] = (behind - ahead) / (2.0 * DIFFERENCE)
     normal = state.normal + 1e-12 * np.trace(state.normal) * np.eye(count)
-    root = np.linalg.cholesky(normal)
-    whitened = np.linalg.solve(root, np.linalg.solve(root, 0.5 * (curvature + curvature.T)).T)
-    parts, modes = np.linalg.eigh(0.5 * (whitened + whitened.T))
-    back = np.linalg.solve(root.T, modes)
-    inverse = back / np.maximum(parts, SMALLEST_PART) @ back.T
+    inverse = inverse_curvature(normal, 0.5 * (curvature + curvature.T))
     left = max(state.freedom - count, 1.0)
     return np.asarray(state.freedom / left * inverse @ state.normal @ inverse)

@@ -18,7 +18,7 @@ from viscofric.rheology.superposition.gauge import Gauge, continued, continued_c
 from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermOffsets, Offsets, estimated
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, Join, LogSweep, join, parted
 from viscofric.rheology.superposition.quantity import BOTH, Quantities
-from viscofric.rheology.superposition.shift_problem import ShiftProblem
+from viscofric.rheology.superposition.shift_problem import ShiftProblem, inverse_curvature
 from viscofric.rheology.superposition.step_profiles import StepProfiles, most_likely
 
 OFFSET_PASSES = 3  # each smooths the curves again, with the offsets found
@@ -26,8 +26,6 @@ TEST_PASSES = 2  # of step tests; the second has the variance of correlated poin
 LARGEST_STEP = 0.3  # decades, in one iteration
 PASSES = 8  # each chooses knots and smoothing again
 CONVERGED = 1e-5  # decades
-#: Second derivatives are at least this part of those of Gauss and Newton.
-SMALLEST_PART = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,11 +274,7 @@ def _covariance(search: _Search, expected: Array | None = None) -> tuple[Array, 
     problem, ways = search.problem, search.problem.ways
     state = problem.state(search.parameters, search.smoothers, search.noise, expected, exact=True)
     normal, curvature, score = (ways.T @ matrix @ ways for matrix in (state.normal, state.curvature, state.score))
-    root = np.linalg.cholesky(normal)
-    whitened = np.linalg.solve(root, np.linalg.solve(root, curvature).T)
-    parts, modes = np.linalg.eigh(0.5 * (whitened + whitened.T))
-    back = np.linalg.solve(root.T, modes)
-    inverse = back / np.maximum(parts, SMALLEST_PART) @ back.T
+    inverse = inverse_curvature(normal, curvature)
     prior = ways.T @ problem.prior.T @ problem.prior @ ways
     # The shifts reduce the scatter by more than one degree of freedom each, as they follow noise in slopes.
     taken = float(np.trace(inverse @ (normal - prior)))

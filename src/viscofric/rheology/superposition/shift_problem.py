@@ -20,8 +20,8 @@ TREND = 1.0  # decades
 PRIOR = 3.0  # decades
 #: Standard deviation of the difference of neighbours' vertical shifts: three times the effect of ρT in 10 K.
 VERTICAL_PRIOR = 0.03  # decades
-#: The correlation of neighbouring errors, beside what curves follow of them, is found in so many passes; at most this.
-CORRELATION_PASSES, LARGEST_CORRELATION = 8, 0.9
+#: Second derivatives are at least this part of those of Gauss and Newton.
+SMALLEST_PART = 0.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -304,17 +304,17 @@ def _derivatives(
     return State(curves.cost(weights), moves @ gradient, normal, curvature, score, freedom)
 
 
-def inflation(residual: Array, same: Mask, smoothed: tuple[float, float] | None = None) -> float:
-    """Return the factor by which correlated residuals reduce the information of points.
+def inverse_curvature(normal: Array, curvature: Array) -> Array:
+    """Return the inverse of a curvature, at least a part of that of Gauss and Newton, `normal`, in every direction."""
+    root = np.linalg.cholesky(normal)
+    whitened = np.linalg.solve(root, np.linalg.solve(root, curvature).T)
+    parts, modes = np.linalg.eigh(0.5 * (whitened + whitened.T))
+    back = np.linalg.solve(root.T, modes)
+    return np.asarray(back / np.maximum(parts, SMALLEST_PART) @ back.T)
 
-    A curve follows part of what is correlated.  `smoothed` are the means of the diagonal of its hat matrix, and of the
-    entries of neighbouring points; with them the correlation of the errors is estimated from that of the residuals.
-    """
+
+def inflation(residual: Array, same: Mask) -> float:
+    """Return the factor by which correlated residuals reduce the information of points."""
     squares = float(residual @ residual)
-    seen = float(np.sum((residual[1:] * residual[:-1])[same])) / squares if squares > 0.0 else 0.0
-    alike = seen
-    for _ in range(CORRELATION_PASSES if smoothed else 0):
-        grown = (1.0 + alike) / (1.0 - alike)
-        own, next_to = smoothed  # type: ignore[misc]
-        alike = min(seen * (1.0 - min(grown * own, 1.0)) + grown * next_to, LARGEST_CORRELATION)
+    alike = float(np.sum((residual[1:] * residual[:-1])[same])) / squares if squares > 0.0 else 0.0
     return (1.0 + alike) / (1.0 - alike) if alike > 0.0 else 1.0

@@ -23,7 +23,7 @@ from viscofric.arrays import Array
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.common_curve import KNOT_SPACING, RIDGE, ROUGHNESS, Smoother
 from viscofric.rheology.superposition.overlap import LogSweep, allowed_half_width, steps_that_overlap
-from viscofric.rheology.superposition.shift_problem import Piece, ShiftProblem
+from viscofric.rheology.superposition.shift_problem import SMALLEST_PART, Piece, ShiftProblem
 
 #: A profile is followed from this many standard errors on, in distances that double, until it is excluded …
 NEAR = 3.0
@@ -248,8 +248,6 @@ def _third_differences(K: int) -> Array:
 
 #: Step of the finite differences, in standard errors.
 DIFFERENCE = 0.5
-#: Second derivatives are at least this fraction of the Gauss–Newton ones.
-SMALLEST_PART = 0.2
 PASSES = 4  # each computes the second derivatives again
 STEPS = 6  # of each pass
 LARGEST_STEP = 0.3  # decades, in one step
