@@ -76,7 +76,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     best = most_evident(fits)
     low, high = _frequencies(best)
     ratio, anchored = outcome.contacts.poisson_ratio, outcome.anchored
-    found = Findings.of(
+    found = Findings(
         fits, (low, high), shift=outcome.shift, poisson_ratio=ratio, name=outcome.name, samples=samples, seed=seed
     )
     middle, drawn, points = found.middle, found.drawn, best.problem.points
@@ -89,8 +89,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     ]
     family: tuple[LevelFit, ...] = ()
     if not anchored:
-        of_levels = found.material_of, middle, levels, outcome.iterations + 1, outcome.accuracy
-        family = level_family(best, outcome.contacts, *of_levels)
+        family = level_family(found, outcome.contacts, levels, outcome.iterations + 1, outcome.accuracy)
     of_anchors = _anchor_notes(best, drawn, middle, limit) if anchored else ()
     common = found.common()
     fitted, residuals = _fitted(outcome, found.posterior)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.friction.identification.iteration import Weighed
-    from viscofric.friction.identification.problem import Problem, SpectrumProblem
+    from viscofric.friction.identification.problem import Problem
     from viscofric.friction.identification.solving import Contacts
     from viscofric.rheology.shifts.shift_law import ShiftLaw
 
@@ -65,115 +65,19 @@ class Posterior(Generic[AnyProblem]):
         return cls(best, np.concatenate(drawn), covariance)
 
 
-@dataclass(frozen=True, eq=False)
-class MaterialOf:
-    """Makes materials of unknowns."""
-
-    problem: SpectrumProblem
-    # known exactly; None where the factors are among the unknowns, or there is one temperature only
-    shift: ShiftLaw | None
-    poisson_ratio: float
-    name: str
-
-    def __call__(self, unknowns: Array, covariance: Array | None = None) -> Material:
-        """Return the material of unknowns (p,); the shift factors carry a covariance (p, p) of the unknowns."""
-        problem = self.problem
-        compliances, log_alpha = problem.split(unknowns)
-        spectrum = spectrum_of(compliances, problem.smoothness.tau)
-        if self.shift is not None:
-            return Material(spectrum, self.shift, self.poisson_ratio, self.name)
-        if len(log_alpha) == 1:
-            return Material(spectrum, None, self.poisson_ratio, self.name)
-        size = len(log_alpha)
-        rows = slice(problem.modes, problem.modes + size)
-        spread = np.zeros((size, size)) if covariance is None else covariance[rows, rows]
-        return Material(spectrum, problem.shifts.table(log_alpha, spread), self.poisson_ratio, self.name)
-
-    def samples(self, drawn: Array, frequency_range: tuple[float, float]) -> MaterialSamples:
-        """Return drawn unknowns (samples, p) as materials."""
-        materials = tuple(self(row) for row in drawn)
-        C = np.array([material.modes_at().C for material in materials])
-        tau = np.array([material.modes_at().tau for material in materials])
-        return MaterialSamples(materials, C, tau, frequency_range)
-
-
-def prior_materials(
-    material_of: MaterialOf, best: Weighed[Any], samples: int, random: np.random.Generator
-) -> MaterialSamples:
-    """Draw materials from the prior of the spectrum."""
-    smoothness = best.problem.smoothness
-    drawn = np.linalg.solve(smoothness.matrix, random.standard_normal((len(smoothness.middle), samples)))
-    # About the result: another level only moves the frequencies.
-    compliances = best.minimum.place[: best.problem.modes] + drawn.T
-    spectra = [spectrum_of(row, smoothness.tau) for row in compliances]
-    return MaterialSamples(
-        tuple(Material(one, None, material_of.poisson_ratio) for one in spectra),
-        np.array([one.C for one in spectra]),
-        np.array([one.tau for one in spectra]),
-        (0.0, np.inf),
-    )
-
-
 def limits(drawn: Array) -> Array:
     """Return limits that include a further sample with 95 % probability: Weibull's plotting position."""
     return np.asarray(np.quantile(drawn, [0.025, 0.975], axis=0, method="weibull"))
 
 
-def band(
-    samples: MaterialSamples,
-    expected: MaterialSamples,
-    part: str,
-    middle: float,
-    reach: tuple[float, float],
-    limit: float,
-    relative: bool,
-) -> IdentifiedBand:
-    """Return the frequencies about the middle (rad/s) over which a modulus has a relative standard error below `limit`.
-
-    `samples` were drawn after, `expected` before anything was measured: the latter must scatter at least three times as
-    much.  `reach` are the lowest and highest frequency considered; `relative` means the modulus over |E| at the middle.
-    """
-    steps = BAND_STEPS * np.log10([middle / reach[0], reach[1] / middle])
-    places = np.arange(-np.floor(steps[0]), np.floor(steps[1]) + 1.0)
-    omega = middle * 10.0 ** (places / BAND_STEPS)
-    after, before = (_spread(one, omega, part, middle, relative) for one in (samples, expected))
-    known = (after <= limit) & (3.0 * after <= before)
-    centre = int(np.argmin(np.abs(places)))
-    if relative and part == "magnitude":
-        known[centre] = True  # one by definition
-    if not known[centre]:
-        return IdentifiedBand(middle, middle, limit, relative)
-    low = high = centre
-    while low > 0 and known[low - 1]:
-        low -= 1
-    while high < len(known) - 1 and known[high + 1]:
-        high += 1
-    return IdentifiedBand(float(omega[low]), float(omega[high]), limit, relative)
-
-
-def _spread(samples: MaterialSamples, omega: Array, part: str, middle: float, relative: bool) -> Array:
-    """Return the standard deviation of the logarithm of a modulus, (n,)."""
-    E = np.array([material.complex_modulus(omega) for material in samples.materials])
-    values = {"magnitude": np.abs(E), "storage": E.real, "loss": E.imag}[part]
-    rows = np.log(values)
-    if relative:
-        rows = rows - log_magnitudes(samples, middle)[:, None]
-    return np.asarray(rows.std(axis=0, ddof=1))
-
-
-@dataclass(frozen=True, eq=False)
 class Findings(Generic[AnyProblem]):
-    """What every identification concludes from its fits."""
+    """What every identification concludes from its fits: materials drawn after and before the measurement.
 
-    posterior: Posterior[AnyProblem]
-    material_of: MaterialOf
-    drawn: MaterialSamples
-    expected: MaterialSamples  # drawn before anything was measured
-    frequency_range: tuple[float, float]  # lowest and highest angular frequency measured, rad/s
+    `frequency_range` are the lowest and highest angular frequency measured, rad/s; `shift` is as given.
+    """
 
-    @classmethod
-    def of(
-        cls,
+    def __init__(
+        self,
         fits: Sequence[Weighed[AnyProblem]],
         frequency_range: tuple[float, float],
         *,
@@ -182,40 +86,88 @@ class Findings(Generic[AnyProblem]):
         name: str,
         samples: int,
         seed: int,
-    ) -> Findings[AnyProblem]:
-        """Draw materials after and before the measurement; `shift` is as given."""
+    ) -> None:
         random = np.random.default_rng(seed)
-        posterior = Posterior.of(fits, samples, random)
-        problem, shifts = posterior.best.problem, posterior.best.problem.shifts
-        law = shift.at_reference(shifts.reference) if shift is not None and shifts.exact else None
-        material_of = MaterialOf(problem, law, poisson_ratio, name)
-        drawn = material_of.samples(posterior.drawn, frequency_range)
-        expected = prior_materials(material_of, posterior.best, samples, random)
-        return cls(posterior, material_of, drawn, expected, frequency_range)
+        self.posterior = Posterior.of(fits, samples, random)
+        self.best = self.posterior.best
+        self.poisson_ratio, self.name, self.frequency_range = poisson_ratio, name, frequency_range
+        self.middle = float(np.sqrt(frequency_range[0] * frequency_range[1]))
+        shifts = self.best.problem.shifts
+        #: Known exactly; None where the factors are among the unknowns, or there is one temperature only.
+        self.shift = shift.at_reference(shifts.reference) if shift is not None and shifts.exact else None
+        self.drawn = _samples([self.material(row) for row in self.posterior.drawn], frequency_range)
+        self.expected = _samples(self._prior_materials(samples, random), (0.0, np.inf))
 
-    @property
-    def middle(self) -> float:
-        """Of the measured frequencies, rad/s."""
-        low, high = self.frequency_range
-        return float(np.sqrt(low * high))
+    def material(self, unknowns: Array, covariance: Array | None = None) -> Material:
+        """Return the material of unknowns (p,); the shift factors carry a covariance (p, p) of the unknowns."""
+        problem, shift = self.best.problem, self.shift
+        compliances, log_alpha = problem.split(unknowns)
+        if shift is None and len(log_alpha) > 1:
+            rows = slice(problem.modes, problem.modes + len(log_alpha))
+            spread = np.zeros((len(log_alpha),) * 2) if covariance is None else covariance[rows, rows]
+            shift = problem.shifts.table(log_alpha, spread)
+        return Material(spectrum_of(compliances, problem.smoothness.tau), shift, self.poisson_ratio, self.name)
+
+    def _prior_materials(self, samples: int, random: np.random.Generator) -> list[Material]:
+        """Draw materials from the prior of the spectrum, about the result: another level only moves the frequencies."""
+        problem = self.best.problem
+        smoothness = problem.smoothness
+        drawn = np.linalg.solve(smoothness.matrix, random.standard_normal((len(smoothness.middle), samples)))
+        compliances = self.best.minimum.place[: problem.modes] + drawn.T
+        return [Material(spectrum_of(row, smoothness.tau), None, self.poisson_ratio) for row in compliances]
 
     def band(self, part: str, reach: tuple[float, float], limit: float, *, relative: bool) -> IdentifiedBand:
-        """Return the frequencies over which a modulus is identified; see `band`."""
-        return band(self.drawn, self.expected, part, self.middle, reach, limit, relative)
+        """Return the frequencies about the middle over which a modulus has a relative standard error below `limit`.
+
+        Before anything was measured, it must scatter at least three times as much.  `reach` are the lowest and highest
+        frequency considered, rad/s; `relative` means the modulus over |E| at the middle.
+        """
+        middle = self.middle
+        steps = BAND_STEPS * np.log10([middle / reach[0], reach[1] / middle])
+        places = np.arange(-np.floor(steps[0]), np.floor(steps[1]) + 1.0)
+        omega = middle * 10.0 ** (places / BAND_STEPS)
+        about = middle if relative else None
+        after, before = (_spread(one, omega, part, about) for one in (self.drawn, self.expected))
+        known = (after <= limit) & (3.0 * after <= before)
+        centre = int(np.argmin(np.abs(places)))
+        if relative and part == "magnitude":
+            known[centre] = True  # one by definition
+        if not known[centre]:
+            return IdentifiedBand(middle, middle, limit, relative)
+        low = high = centre
+        while low > 0 and known[low - 1]:
+            low -= 1
+        while high < len(known) - 1 and known[high + 1]:
+            high += 1
+        return IdentifiedBand(float(omega[low]), float(omega[high]), limit, relative)
 
     def common(self) -> dict[str, Any]:
         """Return what the results of all identifications have in common, by its name in `Identified`."""
-        best = self.posterior.best
-        material = self.material_of(best.minimum.place, self.posterior.covariance)
+        material, problem = self.material(self.best.minimum.place, self.posterior.covariance), self.best.problem
         return {
             "material": material,
             "samples": self.drawn,
             "shift_factors": material.shift,
-            "shift_found": best.problem.shifts.found and material.shift is not None,
+            "shift_found": problem.shifts.found and material.shift is not None,
             "middle": self.middle,
             "frequency_range": self.frequency_range,
-            "roughness": best.problem.smoothness.roughness,
+            "roughness": problem.smoothness.roughness,
         }
+
+
+def _samples(materials: Sequence[Material], frequency_range: tuple[float, float]) -> MaterialSamples:
+    spectra = [material.modes_at() for material in materials]
+    C, tau = np.array([one.C for one in spectra]), np.array([one.tau for one in spectra])
+    return MaterialSamples(tuple(materials), C, tau, frequency_range)
+
+
+def _spread(samples: MaterialSamples, omega: Array, part: str, about: float | None) -> Array:
+    """Return the standard deviation of the logarithm of a modulus, (n,); of that over |E| at a frequency `about`."""
+    E = np.array([material.complex_modulus(omega) for material in samples.materials])
+    rows = np.log({"magnitude": np.abs(E), "storage": E.real, "loss": E.imag}[part])
+    if about is not None:
+        rows = rows - log_magnitudes(samples, about)[:, None]
+    return np.asarray(rows.std(axis=0, ddof=1))
 
 
 #: Relative error of a fixed level.
@@ -223,28 +175,22 @@ HELD = 1e-3
 
 
 def level_family(
-    best: Weighed[Problem],
-    contacts: Contacts,
-    material_of: MaterialOf,
-    middle: float,
-    factors: Sequence[float],
-    step: int,
-    accuracy: float,
+    findings: Findings[Problem], contacts: Contacts, factors: Sequence[float], step: int, accuracy: float
 ) -> tuple[LevelFit, ...]:
     """Fit the friction with |E| held at levels; contacts are solved once for each but the first.
 
-    `middle` is the frequency at the problem's reference, rad/s; `factors`, ascending, are the levels of |E| over that
-    of the identified material; `step` numbers the first step of solving contacts.  Levels at which the contacts are not
-    solved are left out.
+    `factors`, ascending, are the levels of |E| at the middle frequency over that of the identified material; `step`
+    numbers the first step of solving contacts.  Levels at which the contacts are not solved are left out.
     """
-    log_modulus = float(np.log(np.abs(material_of(best.minimum.place).complex_modulus(middle))))
+    best, middle = findings.best, findings.middle
+    log_modulus = float(np.log(np.abs(findings.material(best.minimum.place).complex_modulus(middle))))
     found: dict[float, LevelFit] = {}
     for way in (sorted(f for f in factors if f >= 1.0), sorted((f for f in factors if f < 1.0), reverse=True)):
         place, last = best.minimum.place, 1.0
         for factor in way:
             start = place.copy()
             start[: best.problem.modes] -= np.log(factor / last)
-            held = _held(best, middle, log_modulus + float(np.log(factor)))
+            held = _held(best.problem, middle, log_modulus + float(np.log(factor)))
             try:
                 problem, place = held, descend(held, start, metric=held.metric).place
                 if factor != 1.0:
@@ -259,7 +205,7 @@ def level_family(
             found[factor] = LevelFit(
                 factor=float(factor),
                 modulus=float(np.exp(log_modulus) * factor),
-                material=material_of(place),
+                material=findings.material(place),
                 chi2=float(np.sum((away / points.error) ** 2)),
                 rms=float(np.sqrt(np.mean(away**2))),
                 penalty=float(everything @ everything),
@@ -268,8 +214,7 @@ def level_family(
     return tuple(replace(found[factor], penalty=found[factor].penalty - least) for factor in sorted(found))
 
 
-def _held(best: Weighed[Problem], middle: float, log_modulus: float) -> Problem:
-    problem = best.problem
+def _held(problem: Problem, middle: float, log_modulus: float) -> Problem:
     level = ModulusObservation(
         np.array([np.log(middle)]), problem.shifts.reference, "magnitude", np.array([log_modulus])
     )

@@ -52,7 +52,7 @@ def conclude(
     best = most_evident(fits)
     problem = best.problem
     low, high, fastest = _ends(problem, best.minimum.place)
-    findings = Findings.of(
+    findings = Findings(
         fits, (low, high), shift=shift, poisson_ratio=poisson_ratio, name=name, samples=samples, seed=seed
     )
     middle, posterior = findings.middle, findings.posterior

@@ -96,8 +96,12 @@ class Contact(Points, ABC):
         """Ln of (1−ν²)/E of a similar elastic contact, 1/Pa; None where it does not show."""
 
     @abstractmethod
+    def answer(self, trial: Trial) -> Answer:
+        """Return the response to a material."""
+
     def functional(self, tau: Array) -> Callable[[Trial], Answer]:
-        """Return the response as a function of the material, for retardation times (m,) at the reference."""
+        """Return `answer` for materials of retardation times (m,) at the reference, on which some work may depend."""
+        return self.answer
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +124,7 @@ class Nearby:
         log_frequency = np.broadcast_to(np.log(highest), contact.response.shape) + trial.log_alpha
         _, parts, _ = compliance(trial.compliances, trial.tau, log_frequency)
         weights = parts.real / parts.real.sum(axis=1, keepdims=True)
-        return cls(trial, contact.functional(trial.tau)(trial), weights)
+        return cls(trial, contact.answer(trial), weights)
 
     def __call__(self, trial: Trial) -> Answer:
         """Return the response of a material."""
@@ -191,10 +195,6 @@ class Known(Contact):
             return None
         rows = self.response[self.parts[0][1]]
         return float(np.median(np.log(self.diameter / rows)))
-
-    def functional(self, tau: Array) -> Callable[[Trial], Answer]:
-        """Return the response as a function of the material."""
-        return self.answer
 
     def answer(self, trial: Trial) -> Answer:
         """Return the stiffness or the moduli of a material."""

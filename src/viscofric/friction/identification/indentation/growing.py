@@ -64,8 +64,12 @@ class Growing(RowsContact):
         elastic = float(np.median(np.log(self.response / of_elastic)))
         return elastic if self.creep else -elastic
 
+    def answer(self, trial: Trial) -> Answer:
+        """Return the response to a material."""
+        return Functional(self, trial.tau)(trial)
+
     def functional(self, tau: Array) -> Functional:
-        """Return the response as a function of the material, for retardation times (m,) at the reference."""
+        """Return the response, with the kernels of the retardation times made once."""
         return Functional(self, tau)
 
 

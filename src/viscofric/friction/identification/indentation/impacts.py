@@ -23,8 +23,6 @@ from viscofric.motion.springs import elastic_radius, impact_radius, profile
 from viscofric.motion.tangents import Falling, Followed, follow
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.identification.indentation.tables import ReboundRecord
@@ -91,10 +89,6 @@ class Impacts(Contact):
             inside = depth - profile(self.indenter, 0.5 * radius * (nodes + 1.0))
             found.append(radius * 0.5 * float(weights @ np.square(inside)) / (0.5 * self.record.mass * speed**2))
         return float(np.median(np.log(found)))
-
-    def functional(self, tau: Array) -> Callable[[Trial], Answer]:
-        """Return the response as a function of the material."""
-        return self.answer
 
     def answer(self, trial: Trial) -> Answer:
         """Return the measured quantities for a material, solved by springs."""

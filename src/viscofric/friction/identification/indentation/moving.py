@@ -19,8 +19,6 @@ from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.friction.identification.indentation.rows import Reduced
@@ -64,10 +62,6 @@ class Moving(RowsContact):
             return low, high, fastest
         shortest = np.pi / float(np.diff(turns).min())
         return low, max(high, shortest), max(fastest, shortest)
-
-    def functional(self, tau: Array) -> Callable[[Trial], Answer]:
-        """Return the response as a function of the material."""
-        return self.answer
 
     def answer(self, trial: Trial) -> Answer:
         """Return the response of a material, solved by springs."""
