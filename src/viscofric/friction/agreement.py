@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, overload
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers, Mask
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import error_freedom
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
@@ -16,14 +17,11 @@ from viscofric.friction.intervals import half_widths
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Remedy
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array, Integers, Mask
-    from viscofric.showing import Rows
 
 #: Probability of a normal error below twice its standard deviation.
 WITHIN = 0.9545

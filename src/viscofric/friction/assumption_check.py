@@ -4,28 +4,24 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from typing import TYPE_CHECKING, NamedTuple
 
+from viscofric.arrays import Array
 from viscofric.checks import Check
 from viscofric.contact.free.scale import Scale
-from viscofric.notes import Note, note_of
-from viscofric.showing import Shown
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.friction.curves import FrictionCurves
+from viscofric.notes import Note, Reader, note_of
+from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.showing import Rows, Shown
 from viscofric.units import plain, shown_celsius, shown_speed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.notes import Reader
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array
 from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
@@ -19,12 +18,7 @@ from viscofric.heat.result import HeatColumns
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.thermal import BODIES, FILLED_RUBBER, PTFE, ThermalProperties
-from viscofric.units import Quantity, plain, positive, to_si_array
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.units import Quantities
-
+from viscofric.units import Quantities, Quantity, plain, positive, to_si_array
 
 #: Representative strain under a ball over a/R (D. Tabor, The Hardness of Metals (1951); K. L. Johnson, Contact
 #: Mechanics (1985), section 6.3).

@@ -21,25 +21,20 @@ and the estimated standard errors were 0 to 17 % above the scatter of the predic
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from statistics import NormalDist
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError, brief
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note
+from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.sensitivity import ComplianceSensitivity
-    from viscofric.rheology.material import Material
-
 
 LEVEL = 0.95
 #: Width of the band, relative to friction, from which a note says that the first order is rough.

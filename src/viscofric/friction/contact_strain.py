@@ -10,19 +10,17 @@ import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError
 from viscofric.rheology.material import Material
 from viscofric.rheology.payne.at_strain import contact_strain, material_at_strain, on_strain
 from viscofric.rheology.payne.kraus import KrausLaw
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
+from viscofric.units import Quantity
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.showing import Rows
-    from viscofric.units import Quantity
 
 
 #: Contact and strain are found in turn, until the strain changes by less than this part …

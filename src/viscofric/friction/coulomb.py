@@ -6,28 +6,23 @@ For the latter see `viscofric.contact.coupling`.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.bodies import Layer
 from viscofric.contact.coupling import LARGEST, REMEDY, ShearedContact, coupling_notes, sheared_compliance
 from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, Place, modes_by_temperature, modes_of, verdict
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note
 from viscofric.rheology.interface.friction import insist_on_interface, interface_friction, interface_notes
-from viscofric.units import to_si_array
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.bodies import Layer
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.units import Quantities
+from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.units import Quantities, to_si_array
 
 
 def shear_notes(

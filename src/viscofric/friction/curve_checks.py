@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import wrong_argument
+from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.intervals import threshold
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
-from viscofric.units import number, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.units import Quantity
-
+from viscofric.units import Quantity, number, shown_celsius
 
 #: Fewer second differences do not give a scatter.
 FEWEST_DIFFERENCES = 6

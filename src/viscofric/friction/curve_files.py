@@ -6,33 +6,27 @@ import csv
 import io
 import json
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from os import PathLike
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError, short_notes
 from viscofric.files import file_path, read_text, write_atomically
 from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
 from viscofric.readers.given_files import bytes_of
-from viscofric.readers.headings import quantity_of
+from viscofric.readers.headings import Column, quantity_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.one_table import table_of
 from viscofric.readers.source import Source
+from viscofric.readers.table import Table
 from viscofric.readers.tables import find_tables, name_columns
 from viscofric.readers.workbook import is_workbook
 from viscofric.traction import notes_on_friction
 from viscofric.units import CELSIUS_ZERO
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from os import PathLike
-
-    from viscofric.arrays import Array
-    from viscofric.readers.headings import Column
-    from viscofric.readers.table import Table
-
 
 _TITLE = "viscofric friction curves"
 _REMARKS = ("source", "assumption", "note")

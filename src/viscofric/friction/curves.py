@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Literal, cast
+from typing import TYPE_CHECKING, Literal, Self, cast
 
 import numpy as np
 
 from viscofric.arguments import sentences, text
+from viscofric.arrays import Array, Integers, Mask
+from viscofric.checks import Check
+from viscofric.contact.solution import ContactSolution
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.datasets import dataset, on_grid
 from viscofric.errors import InputError, check_choice
@@ -17,19 +21,11 @@ from viscofric.friction.intervals import consistency_check, half_widths
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import note_attributes
 from viscofric.rheology.interface.friction import total_error
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity, positive, share, shown_celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-    from typing import Self
-
     import xarray
-
-    from viscofric.arrays import Array, Integers, Mask
-    from viscofric.checks import Check
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.showing import Rows
 
 
 _REQUIRED = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter")

@@ -22,27 +22,21 @@ alone matters, and decreases with the thickness as slowly as the loss of waves a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.bodies import Layer
-from viscofric.friction.assumption_check import AssumptionCheck, modes_by_temperature, verdict
+from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, modes_by_temperature, verdict
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, Remedy
-from viscofric.units import plain, positive
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.friction.assumption_check import ContactSize
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.units import Quantity
-
+from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.units import Quantity, plain, positive
 
 #: Thinnest layer that is estimated, in contact radii: a contact on a thinner one is unlike that on a half-space.
 THINNEST = 1.0

@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.contact.heated_curve import heat_columns, solve_states
+from viscofric.contact.heated import ThermalContact
+from viscofric.contact.heated_curve import States, heat_columns, solve_states
 from viscofric.contact.settings import ContactSettings
 from viscofric.contact.steady import thermal_contact
 from viscofric.friction.cases.record import Record, beyond_range, columns_of_records, indenter_record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.planning.shared import SharedContacts
+from viscofric.heat.heating import Heating
 from viscofric.heat.result import SolvedHeatColumns
-from viscofric.processes import at_work
+from viscofric.processes import Workers, at_work
+from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.showing import Rows
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import xarray
-
-    from viscofric.contact.heated import ThermalContact
-    from viscofric.contact.heated_curve import States
-    from viscofric.heat.heating import Heating
-    from viscofric.processes import Workers
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -9,6 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array, Mask
+from viscofric.contact.solution import ContactSolution
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.agreement import partner
 from viscofric.friction.curve_checks import shared_error
@@ -21,19 +24,13 @@ from viscofric.notes import Note, note_attributes
 from viscofric.rheology.interface.fitting import StressTable, compare_stress_laws, fit_stress
 from viscofric.rheology.interface.friction import OF_LIMIT
 from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity, positive
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     import xarray
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.rheology.shifts.law_comparison import LawComparison
-    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)

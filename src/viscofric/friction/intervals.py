@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.checks import Check
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
 
 #: Share of consistent points outside their 95 % interval.
 OUTSIDE = 0.05

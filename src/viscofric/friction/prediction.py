@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import fields, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from viscofric.arguments import exactly_one, flag, insist_on, insist_on_function
+from viscofric.arrays import Array
 from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.settings import ContactOptions
@@ -24,16 +26,10 @@ from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.heat.heating import Heating
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.interface.friction import check_interface_heat
-from viscofric.rheology.material import insist_on_material
+from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.rheology.material import Material, insist_on_material
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.units import Quantities, Quantity, number, positive, shown_number, to_si_array
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 
 def predict_friction(

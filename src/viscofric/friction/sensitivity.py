@@ -7,21 +7,18 @@ all τ.  It is smooth, approaches its glassy value for vτ far below the contact
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.free.scale import Scale
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_and_differentiate
+from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.rheology.material import Material
-
 
 #: Distance of modes without compliance in ln τ: g is that smooth.
 SPACING = 0.5

@@ -9,28 +9,24 @@ change of friction.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.fields.dissipation import Modes
 from viscofric.contact.heating import thermal_resistances
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
+from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
+from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_law import LN10
+from viscofric.thermal import ThermalProperties
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.thermal import ThermalProperties
-
 
 # Loads whose logarithms differ by less are equal; parts of the shift that are checked, as a maximum may lie within.
 _SAME_LOAD, _STEPS = 0.05, np.linspace(0.0, 1.0, 5)

@@ -6,23 +6,21 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
+from numpy.typing import ArrayLike
+
 from viscofric.arguments import text
+from viscofric.arrays import ComplexArray
 from viscofric.errors import InputError, wrong_argument
 from viscofric.notes import Remedy, without
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
-from viscofric.showing import Plotted
-from viscofric.units import checked_poisson_ratio, positive
+from viscofric.showing import Plotted, Rows
+from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import ComplexArray
-    from viscofric.showing import Rows
-    from viscofric.units import Quantity
 
 Spectrum = TypeVar("Spectrum", RetardationSpectrum, ModulusTable)
 

@@ -4,28 +4,24 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
+from viscofric.arrays import Mask
+from viscofric.contact.bodies import Layer
 from viscofric.contact.free.scale import Scale
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.periodic.solution import PeriodicSolution
+from viscofric.contact.solution import ContactSolution
 from viscofric.errors import InputError
-from viscofric.friction.cases.record import Failure
+from viscofric.friction.cases.interpolation import Between, Node
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.cases.solving import Task
+from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import shown_celsius, shown_number
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
-
-    from viscofric.arrays import Mask
-    from viscofric.contact.bodies import Layer
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.friction.cases.interpolation import Between, Node
-    from viscofric.friction.cases.record import Record
-    from viscofric.friction.cases.solving import Task
-    from viscofric.rheology.material import Material
 
 
 @dataclass(frozen=True)

@@ -9,37 +9,30 @@ all other numbers over their units (see `viscofric.contact.free.scale`).
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from viscofric.contact.bodies import indenter_compliance
+from viscofric.arrays import Array, Mask
+from viscofric.contact.bodies import Layer, indenter_compliance
 from viscofric.contact.free.geometry import LINE
 from viscofric.contact.free.grids import Extent
+from viscofric.contact.free.scale import Scale
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
-from viscofric.friction.cases.case import Case, Place
-from viscofric.friction.cases.interpolation import FRICTION, Between, Node, weights
+from viscofric.friction.cases.case import Case, Place, Rubbers, Settings
+from viscofric.friction.cases.interpolation import FRICTION, Between, Interpolated, Node, weights
 from viscofric.friction.cases.record import Failure, Record, indenter_record
 from viscofric.friction.cases.solving import Task, solve_indenter
 from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
-from viscofric.notes import note_of
+from viscofric.notes import Note, note_of
 from viscofric.rheology.material import Material
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.contact.bodies import Layer
-    from viscofric.contact.free.scale import Scale
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.friction.cases.case import Rubbers, Settings
-    from viscofric.friction.cases.interpolation import Interpolated
-    from viscofric.notes import Note
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 # Interpolated number, that of its error (the centre of pressure has none of its own), and whether it is interpolated by
 # its logarithm: front and rear may change their sign.

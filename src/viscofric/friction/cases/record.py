@@ -3,33 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.periodic.solution import NUMBERS as SURFACE
+from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.solution import LINE_NUMBERS as LINE
 from viscofric.contact.solution import NUMBERS as INDENTER
-from viscofric.contact.solution import ContactSolution
+from viscofric.contact.solution import ContactSolution, Meaning
 from viscofric.datasets import plain
-from viscofric.errors import InputError
+from viscofric.errors import InputError, ViscofricError
 from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note, counted, note_of, records
-from viscofric.rheology.spectra.quality import BEYOND
+from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.quality import BEYOND, SpectrumFit
 from viscofric.roughness.patches import contact_statistics
 from viscofric.units import shown_number
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.contact.solution import Meaning
-    from viscofric.errors import ViscofricError
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.spectra.quality import SpectrumFit
 
 
 class ContactFields(NamedTuple):

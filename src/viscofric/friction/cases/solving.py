@@ -5,29 +5,26 @@ from __future__ import annotations
 import functools
 import hashlib
 import json
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.solve import solve_periodic
+from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError
-from viscofric.friction.cases.record import indenter_record, surface_record
-from viscofric.friction.cases.surfaces import TOLERANCE, surface_of, unit_vector
+from viscofric.friction.cases.record import Record, indenter_record, surface_record
+from viscofric.friction.cases.surfaces import TOLERANCE, SurfaceSource, surface_of, unit_vector
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
     from importlib.resources.abc import Traversable
-
-    from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.contact.periodic.surface import PeriodicSurface
-    from viscofric.friction.cases.record import Record
-    from viscofric.friction.cases.surfaces import SurfaceSource
 
 
 @dataclass(frozen=True, eq=False)

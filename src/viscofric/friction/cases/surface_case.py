@@ -8,27 +8,22 @@ surfaces and pressures are not similar.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from viscofric.arrays import Mask
+from viscofric.contact.bodies import Layer
+from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.friction.cases.case import Case, Place
+from viscofric.friction.cases.case import Case, Place, Rubbers, Settings
 from viscofric.friction.cases.interpolation import FRICTION, SHARE, Between, Node
 from viscofric.friction.cases.record import Record, surface_record
 from viscofric.friction.cases.solving import Task, solve_surface, surface_solution
-from viscofric.friction.cases.surfaces import surface_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from viscofric.arrays import Mask
-    from viscofric.contact.bodies import Layer
-    from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.friction.cases.case import Rubbers, Settings
-    from viscofric.friction.cases.surfaces import SurfaceSource
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.friction.cases.surfaces import SurfaceSource, surface_of
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 # Number of a record, and whether it is interpolated by its logarithm: forces across the motion have either sign.
 _COLUMNS = (

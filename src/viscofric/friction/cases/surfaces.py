@@ -9,20 +9,16 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
 
+from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import DataFileError, InputError, brief
 from viscofric.notes import Note
 from viscofric.roughness.made import self_affine
 from viscofric.roughness.reading import read_topography
+from viscofric.roughness.topography import Topography
 from viscofric.units import positive, to_si
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from viscofric.contact.periodic.surface import PeriodicSurface
-    from viscofric.roughness.topography import Topography
-
 
 #: Complementarity of rough surfaces: far below the discretisation error of friction, at any accuracy.
 TOLERANCE = 1e-7

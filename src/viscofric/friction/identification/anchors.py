@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.rheology.material import Material
-from viscofric.showing import Shown
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.showing import Rows, Shown
 from viscofric.units import Quantity, positive, share
 from viscofric.units import angular_frequency as frequency_of
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.showing import Rows
-
 
 Part: TypeAlias = Literal["magnitude", "storage", "loss"]
 Size: TypeAlias = Literal["indentation", "contact_area", "half_width"]

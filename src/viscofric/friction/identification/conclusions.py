@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.friction.assumption_check import ContactSize
 from viscofric.friction.coulomb import check_coupling
 from viscofric.friction.curve_checks import implausible
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.identification.drawn_materials import Findings, level_family, limits
+from viscofric.friction.identification.drawn_materials import Findings, Posterior, level_family, limits
 from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
 from viscofric.friction.identification.posterior import correlation, too_small
+from viscofric.friction.identification.problem import Problem
 from viscofric.friction.identification.result import (
     NOTHING_IDENTIFIED,
     IdentifiedBand,
@@ -22,19 +24,11 @@ from viscofric.friction.identification.result import (
     log_magnitudes,
     with_origin,
 )
+from viscofric.friction.identification.solving import Contacts
 from viscofric.notes import Note, Remedy, codes
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.drawn_materials import Posterior
-    from viscofric.friction.identification.problem import Problem
-    from viscofric.friction.identification.solving import Contacts
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-
+from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 #: What to do where errors are shared.
 SHARED = Remedy(

@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic
+from typing import Any, Generic
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.friction.identification.iteration import AnyProblem, most_evident
+from viscofric.friction.identification.iteration import AnyProblem, Weighed, most_evident
 from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.posterior import descend, draws
+from viscofric.friction.identification.problem import Problem
 from viscofric.friction.identification.result import IdentifiedBand, LevelFit, log_magnitudes
-from viscofric.friction.identification.solving import spectrum_of
+from viscofric.friction.identification.solving import Contacts, spectrum_of
 from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.iteration import Weighed
-    from viscofric.friction.identification.problem import Problem
-    from viscofric.friction.identification.solving import Contacts
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-
 
 #: Smallest part of the evidence for a roughness to be included.
 LEAST_SHARE = 0.05

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import copy
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.free.scale import Scale
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-
+from viscofric.contact.indenters.indenter import Indenter
 
 # Spacing and ends of the tables, in natural logarithms: the kernels are power laws beyond them.
 _STEP = 0.1

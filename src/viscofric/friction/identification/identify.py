@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.arguments import insist_on_function, text, whole_number
+from viscofric.arrays import Array
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.errors import InputError, brief
@@ -17,28 +18,20 @@ from viscofric.friction.identification.anchors import Anchor, ContactAnchor, Mod
 from viscofric.friction.identification.conclusions import Outcome, conclude
 from viscofric.friction.identification.forward import CorrectedFriction, FirstOrder
 from viscofric.friction.identification.iteration import identify
-from viscofric.friction.identification.moduli import Known, ModulusObservation, anchored, known_part
-from viscofric.friction.identification.points import SharedErrors, usable_points
+from viscofric.friction.identification.moduli import Block, Known, ModulusObservation, anchored, known_part
+from viscofric.friction.identification.points import Points, SharedErrors, usable_points
 from viscofric.friction.identification.problem import OVERLAPPING, Problem, Shifts, Smoothness
+from viscofric.friction.identification.result import IdentifiedMaterial
 from viscofric.friction.identification.solving import Contacts
 from viscofric.friction.shifting.found_shifts import LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import codes
 from viscofric.processes import Workers
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.threads import one_blas_thread
-from viscofric.units import checked_poisson_ratio, positive, share, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.moduli import Block
-    from viscofric.friction.identification.points import Points
-    from viscofric.friction.identification.result import IdentifiedMaterial
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, checked_poisson_ratio, positive, share, shown_celsius
 
 #: Usual error of solved contacts, as a part of the requested accuracy.
 SOLVED_ERROR = 0.25

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.friction.identification.posterior import Minimum, descend, log_evidence
+from viscofric.friction.identification.posterior import Minimum, Residuals, descend, log_evidence
 from viscofric.friction.identification.problem import ROUGHNESS, SpectrumProblem
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.posterior import Residuals
-
 
 #: Largest number of materials for which contacts are solved.
 STEPS = 20

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
+from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
+from viscofric.friction.identification.anchors import ModulusAnchor
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.units import Quantity
 from viscofric.units import angular_frequency as frequency_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.friction.identification.anchors import ModulusAnchor
-    from viscofric.units import Quantity
-
 
 Known: TypeAlias = Material | MaterialSamples | MasterCurve
 

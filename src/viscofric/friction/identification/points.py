@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers, Mask
 from viscofric.contact.indenters.height_map import HeightMap, Profile
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import error_freedom, scatter_about_parabolas
+from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.uncertainty.residuals import prior_freedom
-from viscofric.units import positive, shown_celsius, shown_number, shown_speed
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Integers, Mask
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.units import Quantity
-
+from viscofric.units import Quantity, positive, shown_celsius, shown_number, shown_speed
 
 #: Fewer points do not determine a spectrum's shape.
 FEWEST_POINTS = 6

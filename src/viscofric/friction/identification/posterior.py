@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.notes import Note, Remedy
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-
-    #: Residuals (r,) of standard deviation one, and their derivatives (r, p).
-    Residuals = Callable[[Array], tuple[Array, Array]]
-
+#: Returns residuals (r,) at unknowns (p,), and their derivatives (r, p).
+Residuals: TypeAlias = Callable[[Array], tuple[Array, Array]]
 ITERATIONS = 100
 CONVERGED = 1e-5  # relative fall of the sum of squares, beside one
 LARGEST_DAMPING, LEAST_DAMPING = 1e12, 1e-9

@@ -5,24 +5,21 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
+from viscofric.friction.identification.anchors import SolvedContact
+from viscofric.friction.identification.forward import CorrectedFriction
+from viscofric.friction.identification.moduli import Block, ModulusObservation
+from viscofric.friction.identification.points import Points
 from viscofric.nominal import SAME_TEMPERATURE
+from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.anchors import SolvedContact
-    from viscofric.friction.identification.forward import CorrectedFriction
-    from viscofric.friction.identification.moduli import Block, ModulusObservation
-    from viscofric.friction.identification.points import Points
-    from viscofric.rheology.shifts.laws import ShiftLaw
-
 
 #: Standard deviation of the prior of found shifts, about those from the overlap of the curves alone, in their standard
 #: errors, and in ln α.  A free spectrum also fits curves without overlap.  The prior counts the data twice, by one part

@@ -8,27 +8,24 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import flag
+from viscofric.arrays import Array
 from viscofric.datasets import dataset
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, codes
+from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.shifts.shift_law import LN10
+from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
 from viscofric.rheology.spectra.quality import FROM_FRICTION, FROM_INDENTATION, SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.showing import Plotted
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.showing import Plotted, Rows
 from viscofric.units import in_si, shown_celsius
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-    from viscofric.showing import Rows
 
 
 #: Factor to which the modulus is given beyond the measured frequencies, and number of frequencies.

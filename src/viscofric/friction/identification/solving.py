@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Unpack
+from typing import Unpack
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import friction_and_derivatives
 from viscofric.errors import ConvergenceError
-from viscofric.friction.identification.anchors import SolvedContact
+from viscofric.friction.identification.anchors import ContactAnchor, SolvedContact
 from viscofric.friction.identification.forward import CorrectedFriction, Solved
+from viscofric.friction.identification.problem import Problem
 from viscofric.processes import Workers, call_all
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.settings import ContactOptions
-    from viscofric.friction.identification.anchors import ContactAnchor
-    from viscofric.friction.identification.problem import Problem
-
 
 #: Contacts solved per decade of reduced speed, and decades beyond the points.  The error of the closed form changes so
 #: slowly that four per decade interpolate it to 1e-4 of the friction.

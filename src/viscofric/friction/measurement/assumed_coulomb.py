@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.friction.measurement.conditions import Condition, where
+from viscofric.friction.measurement.fit import Entry
+from viscofric.friction.measurement.zeros import Zeros
 from viscofric.notes import Note, Remedy
 from viscofric.units import shown_number, to_si
-
-if TYPE_CHECKING:
-    from viscofric.friction.measurement.fit import Entry
-    from viscofric.friction.measurement.zeros import Zeros
-
 
 #: Code of the note on an assumed coefficient, whose values are `coulomb` and its standard error `error`.
 COULOMB_ASSUMED = "coulomb-assumed"

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers, Mask
 from viscofric.errors import InputError
 from viscofric.nominal import LONGEST_CHAIN, SAME_LOAD, clusters
 from viscofric.notes import Note, Remedy, setting
+from viscofric.traction import TractionRuns
 from viscofric.units import shown_celsius, shown_number
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array, Integers, Mask
-    from viscofric.traction import TractionRuns
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.friction.intervals import threshold
 from viscofric.friction.measurement.conditions import Condition, where
-from viscofric.friction.measurement.zeros import ROUNDING
+from viscofric.friction.measurement.fit import Entry
+from viscofric.friction.measurement.zeros import ROUNDING, Zeros
 from viscofric.notes import Note
+from viscofric.traction import TractionRuns
 from viscofric.units import shown_number
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from viscofric.arrays import Array
-    from viscofric.friction.measurement.fit import Entry
-    from viscofric.friction.measurement.zeros import Zeros
-    from viscofric.traction import TractionRuns
-
 
 #: Probability of a note on one kind of deviation in a sound test of any number of conditions: one in 370.  The
 #: threshold in standard errors is Student's t, larger with few replicates or many conditions.

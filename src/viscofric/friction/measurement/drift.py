@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.friction.intervals import threshold
 from viscofric.friction.measurement.doubts import CHANCE
-from viscofric.friction.measurement.fit import DRIFT, FORCE, ZERO_CHANGES, Fit
+from viscofric.friction.measurement.fit import DRIFT, FORCE, ZERO_CHANGES, Entry, Fit
 from viscofric.friction.measurement.zeros import ROUNDING, Zeros, wanders
 from viscofric.notes import Note
 from viscofric.units import shown_number
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array, Integers
-    from viscofric.friction.measurement.fit import Entry
-
 
 _FEWEST = 3  # degrees of freedom of a rate
 # The recorded zeros are followed where this reduces the sum of squares by more than chance.

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Integers, Mask
 from viscofric.friction.measurement.conditions import where
 from viscofric.friction.measurement.doubts import CHANCE
+from viscofric.friction.measurement.fit import Fit
 from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.notes import Note
 from viscofric.units import shown_number
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Indices, Integers, Mask
-    from viscofric.friction.measurement.fit import Fit
-
 
 #: Degrees of freedom from which the scatter of a condition is used alone: Student's t is then 2.8, not 12.7.
 _ENOUGH = 4.0

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Indices, Integers
-    from viscofric.friction.measurement.conditions import Condition
-    from viscofric.friction.measurement.growth import Growth
-    from viscofric.friction.measurement.zeros import Zeros
-    from viscofric.traction import TractionRuns
-
+from viscofric.arrays import Array, Indices, Integers
+from viscofric.friction.measurement.conditions import Condition
+from viscofric.friction.measurement.growth import Growth
+from viscofric.friction.measurement.zeros import Zeros
+from viscofric.traction import TractionRuns
 
 _OFFSET, _VISCOELASTIC, _COULOMB, _CONSISTENCY = range(4)
 #: Fewest degrees of freedom of steps of several configurations for errors from their sums.

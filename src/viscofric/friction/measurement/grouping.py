@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
+from viscofric.friction.measurement.assumed_coulomb import Assumed
 from viscofric.friction.measurement.conditions import (
     SPEED_TOLERANCE,
     Condition,
@@ -18,15 +20,10 @@ from viscofric.friction.measurement.conditions import (
     of_the_disc,
     where,
 )
+from viscofric.friction.measurement.zeros import Zeros
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
 from viscofric.notes import Note, Remedy, setting
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.friction.measurement.assumed_coulomb import Assumed
-    from viscofric.friction.measurement.zeros import Zeros
-    from viscofric.traction import TractionRuns
-
+from viscofric.traction import TractionRuns
 
 #: Normal numbers, split at their largest gap: how many, their rms distance from the means of both parts, and the
 #: distance of these means that one split in 10⁴ exceeds, both in standard deviations (of 10⁵ draws each).

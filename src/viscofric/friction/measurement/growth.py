@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-
+from viscofric.arrays import Array
 
 #: Largest derivatives of ln μ_v by ln v, first to fourth.  Loss is a sum of x/(1 + x²) over retardation times; 4000
 #: sums of up to four such terms, drawn at random, reached 1.0, 1.0, 1.54 and 3.3.  Rounded up, by half the last one:

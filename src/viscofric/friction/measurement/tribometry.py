@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
+from viscofric.friction.measurement.conditions import Condition
 from viscofric.friction.measurement.doubts import constant_force, doubts, outlier_notes, without_unnoticed_slip
 from viscofric.friction.measurement.doubts import outliers as far_readings
 from viscofric.friction.measurement.drift import Drift
 from viscofric.friction.measurement.errors import BetweenRuns
-from viscofric.friction.measurement.fit import Fit
+from viscofric.friction.measurement.fit import Entry, Fit
 from viscofric.friction.measurement.grouping import Grouping
 from viscofric.friction.measurement.uneven import Uneven
 from viscofric.friction.measurement.zeros import Zeros, another_zero
 from viscofric.notes import Note
 from viscofric.traction import TractionRuns
 from viscofric.units import Quantity, positive, share
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.friction.measurement.conditions import Condition
-    from viscofric.friction.measurement.fit import Entry
-
 
 # Iterations of friction and of its change with speed, which corrects it a little.
 _ROUNDS = 4

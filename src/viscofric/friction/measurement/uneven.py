@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.friction.measurement.conditions import Condition, where
+from viscofric.friction.measurement.fit import Entry
 from viscofric.friction.measurement.growth import Growth
 from viscofric.notes import Note
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
-    from viscofric.friction.measurement.fit import Entry
-    from viscofric.traction import TractionRuns
+from viscofric.traction import TractionRuns
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Integers
 from viscofric.errors import wrong_argument
+from viscofric.friction.measurement.conditions import Condition
 from viscofric.notes import Note
+from viscofric.traction import TractionRuns
 from viscofric.units import Quantity, shown_number, to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array, Indices, Integers
-    from viscofric.friction.measurement.conditions import Condition
-    from viscofric.traction import TractionRuns
-
 
 ROUNDING = 1e-9  # relative; smaller deviations come from rounding
 # Fewer recordings do not distinguish a drift from scatter.

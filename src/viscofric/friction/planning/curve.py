@@ -8,10 +8,12 @@ on whole waves only, so that timing and order do not matter.
 from __future__ import annotations
 
 import copy
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Integers, Mask
 from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.friction.cases.interpolation import (
     FRICTION,
@@ -23,12 +25,6 @@ from viscofric.friction.cases.interpolation import (
     interpolate,
     stencil,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from viscofric.arrays import Array, Indices, Integers, Mask
-
 
 #: Length in s of the smallest interval; others are multiples by powers of two.
 STEP = 1.0 / 32.0

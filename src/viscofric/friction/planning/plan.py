@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.friction.cases.case import Rubbers, Settings
+from viscofric.friction.cases.case import Case, Place, Rubbers, Settings
+from viscofric.friction.cases.interpolation import Node
 from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.cases.solving import Task
 from viscofric.friction.planning.curve import STEP, Curve, Interval
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-
-    from viscofric.friction.cases.case import Case, Place
-    from viscofric.friction.cases.interpolation import Node
-    from viscofric.friction.cases.solving import Task
-    from viscofric.rheology.material import Material
+from viscofric.rheology.material import Material
 
 Outcome: TypeAlias = Record | Failure
 

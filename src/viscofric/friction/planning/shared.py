@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.contact.settings import ContactSettings
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.cases.solving import solve
-from viscofric.friction.planning.plan import plan_cases
+from viscofric.friction.cases.solving import Task, solve
+from viscofric.friction.planning.plan import Plan, plan_cases
 from viscofric.processes import Workers, at_work, call_all
+from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import positive
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from viscofric.friction.cases.solving import Task
-    from viscofric.friction.planning.plan import Plan
-    from viscofric.rheology.material import Material
 
 # What is not a setting of a contact, and the settings that its place on a curve depends on.
 _OF_CONTACT = {"material", "indenter", "speed", "load", "temperature", "accuracy"}

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Indices
-
 
 # Rounding of log10(αv), so that the ends of a range belong to it.
 _ROUNDING = 1e-9

@@ -8,15 +8,24 @@ and their shift is off, always to the same side.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError, SuperpositionError
-from viscofric.friction.shifting.isotherms import scatter_scale
-from viscofric.friction.shifting.placement import CONTRADICTION, FEWEST_POINTS, arrange, groups, rivals, scan_pairs
+from viscofric.friction.shifting.isotherms import FrictionIsotherm, scatter_scale
+from viscofric.friction.shifting.placement import (
+    CONTRADICTION,
+    FEWEST_POINTS,
+    Pairs,
+    arrange,
+    groups,
+    rivals,
+    scan_pairs,
+)
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import NOMINAL
@@ -24,14 +33,6 @@ from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.overlap import Join
 from viscofric.units import kelvin_hint, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.friction.shifting.isotherms import FrictionIsotherm
-    from viscofric.friction.shifting.placement import Pairs
-
 
 #: Steps that the fit moves further from where a pair coincides are not that pair's, decades.
 _NEAR = 0.2

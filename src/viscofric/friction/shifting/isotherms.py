@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Integers
 from viscofric.friction.curve_checks import error_freedom
+from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import nominal_rows
 from viscofric.rheology.superposition.common_curve import Curves, Smoother
 from viscofric.rheology.superposition.overlap import LogSweep
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array, Indices, Integers
-    from viscofric.friction.curves import FrictionCurves
-
 
 #: Points of an isotherm whose speeds differ by less are one point.
 SAME_SPEED = 1e-3  # decades

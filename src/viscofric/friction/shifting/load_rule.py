@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.errors import InputError
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
-
+from viscofric.friction.curves import FrictionCurves
+from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
 # Exponents of the load in the size of the contact, and in its strain (load over modulus and size squared).
 _EXPONENTS: dict[type[Indenter], tuple[float, float]] = {

@@ -7,25 +7,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
 from viscofric.friction.curve_words import LABELS
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.shifting.collapse import Collapse
+from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.smoothing import SmoothedPoints
 from viscofric.lazy import renamed
 from viscofric.nominal import SAME_LOAD
+from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.showing import Plotted
+from viscofric.rheology.shifts.vertical_shift import VerticalShift
+from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantities, Quantity, positive, shown_celsius, shown_number, to_si_in_shape
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.shifting.collapse import Collapse
-    from viscofric.friction.shifting.load_rule import LoadRule
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
-    from viscofric.showing import Rows
 
 
 @renamed(friction="friction_coefficient", error="friction_error", scatter="friction_scatter")

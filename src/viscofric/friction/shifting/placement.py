@@ -8,18 +8,15 @@ without contradiction no overlap is known, and curves of constant friction can a
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.friction.shifting.isotherms import FrictionIsotherm
-
+from viscofric.arrays import Array
+from viscofric.friction.shifting.isotherms import FrictionIsotherm
 
 #: Curves are moved along each other in steps of this many decades …
 STEP = 0.02

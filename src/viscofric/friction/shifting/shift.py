@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import error_freedom, implausible, shared_error
-from viscofric.friction.curves import insist_on_curves
+from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.friction.shifting.collapse import collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
@@ -17,16 +20,9 @@ from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Note, Remedy
+from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.units import Quantity, positive
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 
 #: Probability of a note on negative friction where there is none.
 BY_CHANCE = 0.025

@@ -8,20 +8,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
+from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.showing import Plotted
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.showing import Plotted, Rows
 from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.rheology.superposition.result import Superposition
-    from viscofric.showing import Rows
 
 
 #: A temperature closer than this to the reference is the reference, K.

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Mask
-
+from viscofric.arrays import Array, Mask
 
 #: Half-width of the smoothing kernel, decades of reduced speed.
 BANDWIDTH = 0.25

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, get_args
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
@@ -16,19 +19,11 @@ from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
 from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing, card_law
 from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stored_content
-from viscofric.rheology.material import insist_on_material
+from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.shifts.law_comparison import LARGEST_SCATTER
+from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.units import checked_poisson_ratio, positive, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from os import PathLike
-    from pathlib import Path
-
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.laws import ParametricLaw
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, checked_poisson_ratio, positive, shown_celsius
 
 #: Formats of `write_card`.
 CardFormat: TypeAlias = Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"]

@@ -10,19 +10,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from viscofric.arguments import LARGEST, insist_on, numbers
+from viscofric.arrays import Array, Mask
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw, shown_constant
 from viscofric.rheology.shifts.shift_law import ShiftLaw, checked_covariance, in_kelvin, in_shape
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 from viscofric.units import Quantities, number, positive, share, shown_celsius, to_si_array, to_si_in_shape
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.showing import Rows
 
 
 #: Decades on either side of a law's speed, where it was not fitted, in a data set.

@@ -10,20 +10,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from viscofric.arrays import Array
 from viscofric.data import DEFORMATIONS
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.rheology.shifts.shift_law import checked_covariance
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.units import in_si, number, to_si
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
 
 
 #: Amplitudes that the law is drawn at.

@@ -10,21 +10,19 @@ import numpy as np
 
 from viscofric.amplitudes import AmplitudeSweep
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.payne.kraus import CONSTANTS, KrausLaw, kraus_moduli
 from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.shift_problem import inflation
-from viscofric.showing import Plotted, Shown
+from viscofric.showing import Plotted, Rows, Shown
 from viscofric.threads import one_blas_thread
 from viscofric.units import number
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
 
 
 #: Points that the constants of both moduli, six, need.

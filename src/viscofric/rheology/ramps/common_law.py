@@ -13,12 +13,13 @@ correlated ones, and the residuals do not show them (J. D. Opsomer, Y. Wang, Y. 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Mask
 from viscofric.errors import SuperpositionError
-from viscofric.rheology.shifts.law_families import family_of
+from viscofric.rheology.shifts.law_families import Family, family_of
+from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.rheology.superposition.common_curve import (
     KNOT_SPACING,
@@ -30,12 +31,6 @@ from viscofric.rheology.superposition.common_curve import (
     splines,
 )
 from viscofric.rheology.superposition.shift_problem import inverse_curvature
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Indices, Mask
-    from viscofric.rheology.shifts.law_families import Family
-    from viscofric.rheology.shifts.laws import ParametricLaw
-
 
 #: Points per knot.  Near the pole of a law neighbouring points of a ramp are up to a decade apart: with five points per
 #: knot, as for isotherms, curves cut the corner of E'' in the glass, and log10 α at the cold end was wrong by 1.6

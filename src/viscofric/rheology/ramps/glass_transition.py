@@ -8,18 +8,16 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array, Mask
 from viscofric.datasets import dataset
 from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamp
 from viscofric.rheology.superposition.shift_problem import inflation
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.showing import Rows
 
 
 PeakOf: TypeAlias = Literal["tan delta", "loss modulus"]

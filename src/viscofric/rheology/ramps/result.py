@@ -6,21 +6,19 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from viscofric.data import MasterCurve
 from viscofric.datasets import dataset
+from viscofric.ramps import TemperatureRamps
+from viscofric.rheology.ramps.glass_transition import GlassTransition
+from viscofric.rheology.shifts.laws import ShiftLaw
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.superposition.consistency import REPRODUCIBILITY
-from viscofric.showing import Plotted, Shown
+from viscofric.rheology.superposition.kramers_kronig import KramersKronig
+from viscofric.showing import Plotted, Rows, Shown
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.data import MasterCurve
-    from viscofric.ramps import TemperatureRamps
-    from viscofric.rheology.ramps.glass_transition import GlassTransition
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
-    from viscofric.rheology.superposition.kramers_kronig import KramersKronig
-    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True)

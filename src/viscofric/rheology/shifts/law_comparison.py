@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Generic, TypeVar
 
@@ -13,17 +14,12 @@ from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
-from viscofric.rheology.shifts.laws import WLF, InversePolynomial
-from viscofric.showing import Plotted
+from viscofric.rheology.shifts.law_fitting import FactorTable
+from viscofric.rheology.shifts.laws import WLF, InversePolynomial, ParametricLaw
+from viscofric.showing import Plotted, Rows
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     import xarray
-
-    from viscofric.rheology.shifts.law_fitting import FactorTable
-    from viscofric.rheology.shifts.laws import ParametricLaw
-    from viscofric.showing import Rows
 
 #: A kind of law: of shift factors, or of shear stress.
 Law = TypeVar("Law")

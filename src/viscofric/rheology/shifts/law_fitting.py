@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol, overload
+from typing import Literal, NamedTuple, Protocol, overload
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.law_families import LAWS, TITLES, family_of
+from viscofric.rheology.shifts.laws import WLF, ParametricLaw
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.laws import WLF, ParametricLaw
-
 
 #: Rounding of tabulated values; keeps exact tables from dividing by zero.
 SMALLEST_ERROR = 1e-7  # decades

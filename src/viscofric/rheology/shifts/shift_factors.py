@@ -4,31 +4,36 @@ from __future__ import annotations
 
 import csv
 import io
+import os
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
 from viscofric.arguments import sentences, whole_number
+from viscofric.arrays import Array, Mask
 from viscofric.errors import InputError
 from viscofric.files import file_path, write_atomically
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
 from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw, checked_columns
-from viscofric.showing import Items, rows_of
-from viscofric.units import CELSIUS_ZERO, kelvin_hint, positive, shown_celsius, shown_number, to_si
+from viscofric.showing import Items, Rows, rows_of
+from viscofric.units import (
+    CELSIUS_ZERO,
+    Quantities,
+    Quantity,
+    kelvin_hint,
+    positive,
+    shown_celsius,
+    shown_number,
+    to_si,
+)
 
 if TYPE_CHECKING:
-    import os
-    from collections.abc import Iterable, Sequence
-
     import xarray
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
-    from viscofric.showing import Rows
-    from viscofric.units import Quantities, Quantity
 
 
 #: Two temperatures closer than this are the same one, to rounding of °C.

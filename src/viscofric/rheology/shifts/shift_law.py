@@ -11,20 +11,16 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, overload
 import numpy as np
 
 from viscofric.arguments import numbers
+from viscofric.arrays import Array, Mask
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted
-from viscofric.units import kelvin_hint, to_si, to_si_array, to_si_in_shape
+from viscofric.units import Quantities, Quantity, kelvin_hint, to_si, to_si_array, to_si_in_shape
 
 if TYPE_CHECKING:
     import xarray
 
-    from viscofric.arrays import Array, Mask
-    from viscofric.units import Quantity
-
-    #: One temperature, or many: plain numbers in kelvin, or text with a unit.
-    Temperatures: TypeAlias = "Array | list[float] | list[str] | tuple[float, ...] | tuple[str, ...]"
-    from viscofric.units import Quantities
+Temperatures: TypeAlias = Array | list[float] | list[str] | tuple[float, ...] | tuple[str, ...]
 
 
 def checked_columns(

@@ -9,17 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.datasets import dataset, plain
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.shift_law import NOMINAL, Shift, as_record, checked_columns
-from viscofric.units import kelvin_hint, positive, shown_celsius, to_si, to_si_array
+from viscofric.showing import Rows
+from viscofric.units import Quantities, Quantity, kelvin_hint, positive, shown_celsius, to_si, to_si_array
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-    from viscofric.units import Quantities, Quantity
 
 
 #: Volume expansivity of a pure-gum vulcanizate of natural rubber at 25 °C, 1/K.

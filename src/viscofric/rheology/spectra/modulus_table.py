@@ -2,35 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on, sentences
+from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
 from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
 from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
 from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.sparse import joint_error, lattice, nonnegative_modes
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum
-from viscofric.showing import Items, rows_of
+from viscofric.showing import Items, Rows, rows_of
 from viscofric.threads import one_blas_thread
 from viscofric.units import in_si, to_si
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.showing import Rows
 
 
 #: Extrapolation of a table beyond its ends.

@@ -7,17 +7,15 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.datasets import dataset
 from viscofric.notes import Note
 from viscofric.rheology.spectra.response import shown_modulus
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.showing import Rows
 
 _EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
 _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"

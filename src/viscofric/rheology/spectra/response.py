@@ -7,7 +7,9 @@ from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from viscofric.arrays import Array, ComplexArray
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted
@@ -15,9 +17,6 @@ from viscofric.units import in_si, positive
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, ComplexArray
 
 
 class FrequencyResponse(Plotted, ABC):

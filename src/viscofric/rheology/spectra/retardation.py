@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
@@ -19,19 +22,12 @@ from viscofric.rheology.spectra.response import (
     checked_times,
     mode_column,
 )
-from viscofric.showing import Items, rows_of
+from viscofric.showing import Items, Rows, rows_of
 from viscofric.step_tests import StepMasterCurve, step_columns
-from viscofric.units import in_si, positive, to_si
+from viscofric.units import Quantity, in_si, positive, to_si
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.showing import Rows
-    from viscofric.units import Quantity
 
 
 #: Largest difference of 1/E_inf + ΣC from 1/E0, relative to 1/E0.

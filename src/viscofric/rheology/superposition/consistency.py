@@ -4,33 +4,29 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.data import Isotherm, MasterCurve
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
-from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.superposition.joined_isotherms import ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
-from viscofric.rheology.superposition.overlap import LogSweep, OwnShifts, own_shifts
+from viscofric.rheology.superposition.overlap import LogSweep, OverlapQuality, OwnShifts, own_shifts
 from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDistance, drift, neighbour_distances
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     import xarray
 
-    from viscofric.arrays import Array
-    from viscofric.data import Isotherm, MasterCurve
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
-    from viscofric.rheology.superposition.overlap import OverlapQuality
-    from viscofric.showing import Rows
-
-    Verdict = Literal["holds", "other factors", "not identified", "doubtful", "roughly", "fails", "untested"]
+Verdict: TypeAlias = Literal["holds", "other factors", "not identified", "doubtful", "roughly", "fails", "untested"]
 
 #: Two sweeps of one sample agree no better than this, noise apart: the moduli of one analyser, clamp and sample
 #: repeat to about 5 %.  Distances of neighbouring isotherms (rms): an acrylic 0.016 (a median of 0.002, one

@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.data import Isotherm
 from viscofric.errors import SuperpositionError
 from viscofric.notes import Note
+from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.superposition.overlap import Join, LogSweep, failures, join, join_at
-from viscofric.rheology.superposition.quantity import BOTH
+from viscofric.rheology.superposition.quantity import BOTH, Quantities
 from viscofric.step_tests import StepTest
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.rheology.superposition.quantity import Quantities
-
 
 #: A measurement at one temperature.
 Tested = TypeVar("Tested", Isotherm, StepTest)

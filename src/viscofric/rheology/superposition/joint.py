@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
+from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.step_tests import StepMasterCurve
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
-    from viscofric.showing import Rows
 
 Part: TypeAlias = Superposition | StepSuperposition
 

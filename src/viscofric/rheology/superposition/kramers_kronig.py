@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.arrays import non_negative_fit
+from viscofric.arrays import Array, Mask, non_negative_fit
+from viscofric.data import MasterCurve
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.data import MasterCurve
 
 
 #: Bins per decade in which points are averaged: the relations need no more, and noise averages out.

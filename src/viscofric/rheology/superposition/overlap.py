@@ -6,25 +6,22 @@ frequency (`van_gurp_palmen`) shows it; `own_shifts` compares with the best over
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Mask
+from viscofric.data import Isotherm
 from viscofric.datasets import dataset
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
+from viscofric.step_tests import StepKind, StepTest
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import xarray
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.data import Isotherm
-    from viscofric.showing import Rows
-    from viscofric.step_tests import StepKind, StepTest
 
 
 #: Sweeps are slid along each other in steps of this many decades …

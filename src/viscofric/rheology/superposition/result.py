@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.data import Isotherm, MasterCurve
 from viscofric.rheology.superposition import consistency
-from viscofric.rheology.superposition.step_result import StepSuperposition, Superposed
+from viscofric.rheology.superposition.consistency import SuperpositionCheck
+from viscofric.rheology.superposition.quantity import ShiftBy
+from viscofric.rheology.superposition.step_result import StepCheck, StepSuperposition, Superposed
+from viscofric.showing import Rows
 from viscofric.threads import one_blas_thread
-
-if TYPE_CHECKING:
-    from viscofric.rheology.superposition.consistency import SuperpositionCheck
-    from viscofric.rheology.superposition.quantity import ShiftBy
-    from viscofric.rheology.superposition.step_result import StepCheck
-    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Generic
+from typing import Any, Generic
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.data import Isotherm
 from viscofric.errors import InputError
 from viscofric.notes import Note
+from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.superposition.common_shifts import CommonShifts, common_shifts
 from viscofric.rheology.superposition.gauge import Gauge
+from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
 from viscofric.rheology.superposition.joined_isotherms import (
     JoinedIsotherms,
     Tested,
@@ -31,19 +35,10 @@ from viscofric.rheology.superposition.overlap import (
     overlap_quality,
     own_shifts,
 )
-from viscofric.rheology.superposition.quantity import BOTH
+from viscofric.rheology.superposition.quantity import BOTH, Quantities
 from viscofric.rheology.superposition.van_gurp_palmen import drift, neighbour_distances
+from viscofric.step_tests import StepTest
 from viscofric.units import kelvin_hint, positive, shown_celsius, to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
-    from viscofric.rheology.superposition.quantity import Quantities
-    from viscofric.step_tests import StepTest
-
 
 #: A temperature is that of an isotherm within this part of the distance to the next one.
 NEAR = 0.25

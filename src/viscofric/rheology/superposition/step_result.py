@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -10,31 +11,30 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.data import MasterCurve
 from viscofric.datasets import dataset
 from viscofric.notes import Note
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
-from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
-from viscofric.rheology.superposition.consistency import LARGEST_FIGURE, ONE_PAIR, REPRODUCIBILITY, ROUGH_FIGURE
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.vertical_shift import VerticalShift, with_vertical_shift
+from viscofric.rheology.superposition.consistency import (
+    LARGEST_FIGURE,
+    ONE_PAIR,
+    REPRODUCIBILITY,
+    ROUGH_FIGURE,
+    Verdict,
+)
+from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
 from viscofric.rheology.superposition.joined_isotherms import Tested, ranges, shown
-from viscofric.rheology.superposition.overlap import LogSweep, join, own_shifts
-from viscofric.showing import Plotted, Shown
+from viscofric.rheology.superposition.overlap import LogSweep, OverlapQuality, join, own_shifts
+from viscofric.showing import Plotted, Rows, Shown
 from viscofric.step_tests import StepMasterCurve, StepTest
 from viscofric.threads import one_blas_thread
 from viscofric.units import shown_number
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
-    from viscofric.rheology.superposition.consistency import Verdict
-    from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
-    from viscofric.rheology.superposition.overlap import OverlapQuality
-    from viscofric.showing import Rows
 
 
 #: Points of a test are averaged over so many equal parts of each decade of time.

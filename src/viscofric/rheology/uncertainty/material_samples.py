@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from statistics import NormalDist
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from viscofric.arguments import insist_on_function
+from viscofric.arrays import Array
 from viscofric.datasets import dataset
+from viscofric.notes import Note
+from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.quality import beyond_note, covers
-from viscofric.showing import Items, Plotted
-from viscofric.units import in_si, share
+from viscofric.rheology.uncertainty.residuals import SystematicMisfit
+from viscofric.showing import Items, Plotted, Rows
+from viscofric.units import Quantity, in_si, share
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
     import xarray
-    from numpy.typing import ArrayLike, NDArray
-
-    from viscofric.arrays import Array
-    from viscofric.notes import Note
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.uncertainty.residuals import SystematicMisfit
-    from viscofric.showing import Rows
-    from viscofric.units import Quantity
 
 
 class _Limits(NamedTuple):

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from viscofric.arguments import insist_on, text, whole_number
+from viscofric.arrays import Array
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
+from viscofric.rheology.spectra.fit_verdict import Curve
 from viscofric.rheology.spectra.modulus_misfit import Modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
@@ -31,13 +35,6 @@ from viscofric.rheology.uncertainty.resampled import Refit, Resampled, isotherm_
 from viscofric.rheology.uncertainty.residuals import SystematicMisfit, systematic_misfit
 from viscofric.threads import one_blas_thread
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
-    from viscofric.rheology.spectra.fit_verdict import Curve
 
 Fit: TypeAlias = Superposition | StepSuperposition
 

@@ -2,31 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.identification.drawn_materials import Findings, limits
+from viscofric.arrays import Array
+from viscofric.friction.identification.drawn_materials import Findings, Posterior, limits
+from viscofric.friction.identification.indentation.problem import IndentationProblem
 from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
-from viscofric.friction.identification.indentation.setting_up import LEAST_POINTS
+from viscofric.friction.identification.indentation.setting_up import LEAST_POINTS, Usable
 from viscofric.friction.identification.indentation.tables import ReboundRecord
-from viscofric.friction.identification.iteration import freedom_of, most_evident
+from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import ROUGHNESS
 from viscofric.friction.identification.result import IdentifiedBand, with_origin
 from viscofric.notes import Note
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.drawn_materials import Posterior
-    from viscofric.friction.identification.indentation.problem import IndentationProblem
-    from viscofric.friction.identification.indentation.setting_up import Usable
-    from viscofric.friction.identification.iteration import Weighed
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 #: Bands of moduli begin at this factor below the inverse of the longest time; they end at that of the shortest one.
 BEYOND = 3.0

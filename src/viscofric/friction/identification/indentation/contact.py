@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, FlatPunch
 from viscofric.friction.identification.moduli import compliance, log_modulus
 from viscofric.motion.bounce import Springs
 from viscofric.motion.springs import both_sides, disc_profile
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
 
 
 class Shared(NamedTuple):

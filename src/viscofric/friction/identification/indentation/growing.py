@@ -17,20 +17,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from viscofric.arrays import Array
 from viscofric.friction.identification.indentation.contact import EXACT, Answer, Shared, Trial
-from viscofric.friction.identification.indentation.rows import RowsContact, changes
+from viscofric.friction.identification.indentation.rows import Reduced, Rows, RowsContact, changes
 from viscofric.rheology.spectra.step_misfit import contour
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.indentation.rows import Reduced, Rows
-
 
 #: Points per decade of time at which J or E is evaluated; interpolation by cubics is then good to 1e-5 of it.
 GRID = 20

@@ -2,34 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, get_args
+from collections.abc import Sequence
+from typing import get_args
 
 import numpy as np
 
 from viscofric.arguments import insist_on, text
+from viscofric.arrays import Array, Mask
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.identification.identify import check_counts
 from viscofric.friction.identification.indentation.conclusions import conclude
 from viscofric.friction.identification.indentation.contact import Shared
-from viscofric.friction.identification.indentation.problem import fitted_by_springs
+from viscofric.friction.identification.indentation.problem import IndentationProblem, fitted_by_springs
+from viscofric.friction.identification.indentation.result import MaterialFromIndentation
 from viscofric.friction.identification.indentation.setting_up import Record, problem_of, shifts_of, usable_records
-from viscofric.friction.identification.iteration import freedom_of, most_evident, weighed
+from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
 from viscofric.friction.identification.posterior import descend
 from viscofric.motion.springs import is_body_of_revolution
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.threads import one_blas_thread
-from viscofric.units import checked_poisson_ratio, positive, share, to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.friction.identification.indentation.problem import IndentationProblem
-    from viscofric.friction.identification.indentation.result import MaterialFromIndentation
-    from viscofric.friction.identification.iteration import Weighed
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, checked_poisson_ratio, positive, share, to_si
 
 #: Errors are estimated again from the residuals while they change by more than this, up to this many times.
 SETTLED, PASSES = 0.05, 4

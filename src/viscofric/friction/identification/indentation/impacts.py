@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.friction.identification.indentation.contact import (
     EXACT,
@@ -18,14 +20,10 @@ from viscofric.friction.identification.indentation.contact import (
     logarithm,
     wider,
 )
+from viscofric.friction.identification.indentation.tables import ReboundRecord
 from viscofric.motion.bounce import Bounce
 from viscofric.motion.springs import elastic_radius, impact_radius, profile
 from viscofric.motion.tangents import Falling, Followed, follow
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.identification.indentation.tables import ReboundRecord
 
 #: Springs, and their margin beyond the radius on an elastic half-space of the compliance after the impact.
 _SPRINGS, _MARGIN = 64, 1.1

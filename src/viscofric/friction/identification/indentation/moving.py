@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.friction.identification.indentation.contact import EXACT, Answer, Shared, Trial, logarithm, wider
-from viscofric.friction.identification.indentation.rows import RowsContact
+from viscofric.friction.identification.indentation.rows import Reduced, RowsContact
 from viscofric.motion.march import march
 from viscofric.motion.normal import NormalMotion
 from viscofric.motion.problem import Problem
@@ -17,11 +19,6 @@ from viscofric.motion.schedule import make_schedule
 from viscofric.motion.tangents import follow
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.identification.indentation.rows import Reduced
 
 #: Springs, closer near the axis, and the margin beyond the largest contact radius: the load is then good to 4e-4 while
 #: the radius is a tenth of the largest one, and to 1e-4 at the end.

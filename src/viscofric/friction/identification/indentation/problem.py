@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Self
+from typing import Self
 
 import numpy as np
 
-from viscofric.friction.identification.indentation.contact import EXACT, Answer, Nearby, Shared, Trial
-from viscofric.friction.identification.iteration import identify
+from viscofric.arrays import Array
+from viscofric.friction.identification.indentation.contact import EXACT, Answer, Contact, Nearby, Shared, Trial
+from viscofric.friction.identification.iteration import Weighed, identify
 from viscofric.friction.identification.problem import SpectrumProblem
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.indentation.contact import Contact
-    from viscofric.friction.identification.iteration import Weighed
-
 
 #: Relative error of contacts by springs.
 ACCURACY = 1e-3

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping
+from os import PathLike
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.friction.identification.indentation.record import RESPONSE, Control, IndentationRecord
 from viscofric.friction.identification.indentation.tables import OscillationRecord, ReboundRecord
@@ -14,16 +17,9 @@ from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.one_table import HISTORY, history_columns, table_of
+from viscofric.readers.table import Table
 from viscofric.readers.tables import name_columns
-from viscofric.units import positive, to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from os import PathLike
-
-    from viscofric.arrays import Array
-    from viscofric.readers.table import Table
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, positive, to_si
 
 #: Quantity -> unit, and names of its column.
 _REBOUND = {

@@ -8,20 +8,17 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 
 from viscofric.arguments import text
+from viscofric.arrays import Array
 from viscofric.data import read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.motion.history import CONTROLS
 from viscofric.notes import Note
-from viscofric.showing import Plotted
-from viscofric.units import positive, to_si, to_si_array
+from viscofric.showing import Plotted, Rows
+from viscofric.units import Quantities, Quantity, positive, to_si, to_si_array
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-    from viscofric.units import Quantities, Quantity
 
 
 #: What was prescribed in a test; the other one is the response.

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.datasets import dataset
+from viscofric.friction.identification.indentation.setting_up import Record
 from viscofric.friction.identification.indentation.tables import OF_IMPACTS, STIFFNESSES
 from viscofric.friction.identification.result import Identified
 from viscofric.rheology.spectra.quality import FROM_INDENTATION
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.indentation.setting_up import Record
-    from viscofric.showing import Rows
 
 
 #: Quantity -> unit and long name.

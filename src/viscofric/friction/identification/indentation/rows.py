@@ -4,20 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.friction.identification.indentation.contact import Contact, Points
+from viscofric.arrays import Array, Integers
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.friction.identification.indentation.contact import Contact, Points, Trial
+from viscofric.friction.identification.indentation.record import IndentationRecord
 from viscofric.motion.springs import elastic_radius, profile
 from viscofric.rheology.spectra.step_misfit import REACH
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Integers
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.identification.indentation.contact import Trial
-    from viscofric.friction.identification.indentation.record import IndentationRecord
-
 
 #: Rows are averaged over so many equal parts of each decade of time since the last kink of the prescribed quantity.
 PARTS = 20

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.free.grids import Extent
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, FlatPunch
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.identification.anchors import ModulusAnchor
-from viscofric.friction.identification.indentation.contact import EXACT, Known, Shared
+from viscofric.friction.identification.indentation.contact import EXACT, Contact, Known, Shared
 from viscofric.friction.identification.indentation.growing import growing
 from viscofric.friction.identification.indentation.impacts import Impacts
 from viscofric.friction.identification.indentation.moving import Moving
@@ -26,18 +29,10 @@ from viscofric.friction.identification.solving import spectrum_of
 from viscofric.motion.springs import elastic_radius
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.notes import Note
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.rheology.superposition.superpose import superpose
 from viscofric.step_tests import StepTest, StepTests
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.identification.indentation.contact import Contact
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-
 
 Record: TypeAlias = IndentationRecord | ReboundRecord | OscillationRecord | ModulusAnchor
 

@@ -9,19 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import text
+from viscofric.arrays import Array
 from viscofric.data import read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
+from viscofric.units import Quantities, Quantity, positive, share, to_si, to_si_array
 from viscofric.units import angular_frequency as frequency_of
-from viscofric.units import positive, share, to_si, to_si_array
 
 if TYPE_CHECKING:
     import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-    from viscofric.units import Quantities, Quantity
 
 #: Quantity -> unit, and long name.
 OF_IMPACTS = {
