@@ -224,11 +224,7 @@ def _isothermal(
         heat = f"Coulomb heat is not included, as no {missing} is known; the viscoelastic loss warms"
     low, high = (plain(100 * one, 2) for one in (warming.least, warming.change))
     change = f"{high} %" if low == high else f"{low} to {high} %"
-    rest = {
-        True: None,
-        None: "; " + _HEAT,
-        False: "; reduce the slip or the speed, or " + _HEAT,
-    }[holds]
+    rest = {True: None, None: "; " + _HEAT, False: "; reduce the slip or the speed, or " + _HEAT}[holds]
     typical = [body.name for body in (rubber, counterbody) if body in BODIES.values()]
     assumed = f"; typical handbook values of {' and '.join(typical)} are assumed" if typical else ""
     sentence = Note(

@@ -26,10 +26,7 @@ from viscofric.units import Quantities, to_si_array
 
 
 def shear_notes(
-    curves: FrictionCurves,
-    coulomb: Array,
-    bodies: Sequence[tuple[Material, Layer | None]],
-    rise: Array | None = None,
+    curves: FrictionCurves, coulomb: Array, bodies: Sequence[tuple[Material, Layer | None]], rise: Array | None = None
 ) -> tuple[Note, ...]:
     """Return a note where Coulomb friction (n,) changes predicted friction, solved without it, by too much.
 
@@ -48,10 +45,7 @@ def shear_notes(
 
 
 def check_coupling(
-    curves: FrictionCurves,
-    material: Material,
-    layer: Layer | None,
-    radii: Sequence[tuple[float, float]],
+    curves: FrictionCurves, material: Material, layer: Layer | None, radii: Sequence[tuple[float, float]]
 ) -> AssumptionCheck | None:
     """Check the coupling at the worst point of friction curves of known Coulomb friction; None if none is known.
 
@@ -113,11 +107,7 @@ def check_interface(interface: object, slip: object) -> None:
 
 
 def with_interface(
-    curves: FrictionCurves,
-    interface: InterfaceLaw,
-    slip: Quantities | None = None,
-    *,
-    rise: Array | None = None,
+    curves: FrictionCurves, interface: InterfaceLaw, slip: Quantities | None = None, *, rise: Array | None = None
 ) -> FrictionCurves:
     """Put the friction of an interface into predicted curves, as their Coulomb friction.
 

@@ -188,11 +188,7 @@ _SMALLEST = 1e-3
 
 
 def check_half_space(
-    material: Material,
-    curves: FrictionCurves,
-    sizes: Sequence[ContactSize],
-    thickness: Quantity | None,
-    passes: float,
+    material: Material, curves: FrictionCurves, sizes: Sequence[ContactSize], thickness: Quantity | None, passes: float
 ) -> AssumptionCheck:
     """Check the half-space at all points of friction curves, of contacts of given sizes; return the worst case.
 

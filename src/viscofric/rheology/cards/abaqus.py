@@ -14,14 +14,7 @@ from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.cards.card import (
-    Reading,
-    Solid,
-    Writing,
-    number_text,
-    relative_series,
-    tensile,
-)
+from viscofric.rheology.cards.card import Reading, Solid, Writing, number_text, relative_series, tensile
 from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius

@@ -16,12 +16,7 @@ from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
 from viscofric.rheology.spectra.quality import SpectrumFit
-from viscofric.rheology.spectra.response import (
-    FrequencyResponse,
-    checked_shift,
-    checked_times,
-    mode_column,
-)
+from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times, mode_column
 from viscofric.showing import Items, Rows, rows_of
 from viscofric.step_tests import StepMasterCurve, step_columns
 from viscofric.units import Quantity, in_si, positive, to_si
@@ -294,12 +289,7 @@ class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         return rows_of(self.E, self.tau)
 
     def _shown(self) -> Rows:
-        return (
-            ("E0", self.E0, "Pa"),
-            ("E_inf", self.E_inf, "Pa"),
-            ("modes", len(self)),
-            ("τ", self.tau, "s"),
-        )
+        return (("E0", self.E0, "Pa"), ("E_inf", self.E_inf, "Pa"), ("modes", len(self)), ("τ", self.tau, "s"))
 
     @property
     def E_inf(self) -> float:
@@ -368,10 +358,7 @@ class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         """
         return dataset(
             "mode",
-            {
-                "relaxation_time": (self.tau, "s", "relaxation time"),
-                "modulus": (self.E, "Pa", "modulus of the mode"),
-            },
+            {"relaxation_time": (self.tau, "s", "relaxation time"), "modulus": (self.E, "Pa", "modulus of the mode")},
             attributes={"E0": self.E0, "E_inf": self.E_inf},
         )
 

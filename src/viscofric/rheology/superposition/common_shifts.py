@@ -171,8 +171,7 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
     profiles = StepProfiles(problem, search.smoothers, quantities.of(sweeps), levels)
     covariance = profiles.widened(search.parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
     return replace(
-        _result(search, covariance, freedom),
-        offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto),
+        _result(search, covariance, freedom), offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto)
     )
 
 

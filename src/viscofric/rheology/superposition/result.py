@@ -91,12 +91,7 @@ class Superposition(Superposed[MasterCurve, Isotherm]):
     def check(self) -> SuperpositionCheck:
         """Whether superposition holds, evaluated at first use; see `check_superposition`."""
         return consistency.check(
-            self.isotherms,
-            self.shift_factors,
-            self.vertical_shift,
-            self.unidentified,
-            self.quality,
-            self.master_curve,
+            self.isotherms, self.shift_factors, self.vertical_shift, self.unidentified, self.quality, self.master_curve
         )
 
 

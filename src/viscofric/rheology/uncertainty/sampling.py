@@ -20,13 +20,7 @@ from viscofric.rheology.spectra.fit_verdict import Curve
 from viscofric.rheology.spectra.modulus_misfit import Modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
-from viscofric.rheology.spectra.step_misfit import (
-    JointMisfit,
-    frequencies_of,
-    joint_misfit,
-    misfit_of,
-    moduli_of,
-)
+from viscofric.rheology.spectra.step_misfit import JointMisfit, frequencies_of, joint_misfit, misfit_of, moduli_of
 from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition

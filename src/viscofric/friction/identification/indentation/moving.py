@@ -82,10 +82,7 @@ class Moving(RowsContact):
         """Other indenters and prescribed values, with errors of one standard deviation."""
         found: dict[int, tuple[Indenter, Array]] = {}
         if self.shared.radius > 0.0:
-            found[0] = (
-                wider(self.indenter, self.shared.radius),
-                self.values,
-            )
+            found[0] = (wider(self.indenter, self.shared.radius), self.values)
         if self.creep and self.shared.gain > 0.0:
             found[1] = self.indenter, (1.0 + self.shared.gain) * self.values
         if not self.creep and self.shared.zero > 0.0:

@@ -95,10 +95,7 @@ class IndentationRecord(Plotted):
     ) -> None:
         check_choice(control, "control", *RESPONSE)
         seconds = to_si_array(time, "s", "time")
-        columns = {
-            "load": to_si_array(load, "N", "load"),
-            "indentation": to_si_array(indentation, "m", "indentation"),
-        }
+        columns = {"load": to_si_array(load, "N", "load"), "indentation": to_si_array(indentation, "m", "indentation")}
         if len(seconds) < LEAST_ROWS:
             raise InputError(
                 f"time: a record has {LEAST_ROWS} rows at least, not {len(seconds)}.", code="too-few-points"

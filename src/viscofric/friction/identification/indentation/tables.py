@@ -27,10 +27,7 @@ OF_IMPACTS = {
     "peak_force": ("N", "largest force"),
     "indentation": ("m", "largest indentation"),
 }
-STIFFNESSES = {
-    "storage_stiffness": ("N/m", "storage stiffness"),
-    "loss_stiffness": ("N/m", "loss stiffness"),
-}
+STIFFNESSES = {"storage_stiffness": ("N/m", "storage stiffness"), "loss_stiffness": ("N/m", "loss stiffness")}
 #: Largest amplitude over the mean depth: the edge of the contact follows the oscillation, which lowers the loss
 #: stiffness by 0.4 to 0.9 % at this amplitude, and by 1.4 to 2.7 % at a tenth of the depth (`solve_transient`).
 LARGEST_AMPLITUDE = 0.03
@@ -241,10 +238,7 @@ class OscillationRecord(Plotted):
             omega = [omega]
         if isinstance(omega, (list, tuple)):
             omega = np.array([frequency_of(one, "angular_frequency") for one in omega])
-        columns = {
-            "storage_stiffness": (storage_stiffness, "N/m"),
-            "loss_stiffness": (loss_stiffness, "N/m"),
-        }
+        columns = {"storage_stiffness": (storage_stiffness, "N/m"), "loss_stiffness": (loss_stiffness, "N/m")}
         _set_columns(self, {"angular_frequency": (omega, "rad/s"), **columns}, "angular_frequency")
         depth, size = positive(indentation, "m", "indentation"), positive(amplitude, "m", "amplitude")
         if size > LARGEST_AMPLITUDE * depth * (1.0 + 1e-9):  # rounding of units
