@@ -109,20 +109,30 @@ def fit_retardation_spectrum(
     tau_ratio = number(tau_ratio, "tau_ratio")
     if isinstance(master_curve, JointSuperposition):
         return _of_several(master_curve, method, tau_ratio, modes, regularisation, largest_error)
-    master_curve = _curve_of(master_curve)
-    _check(master_curve, method, tau_ratio, modes, regularisation, largest_error)
-    misfit = misfit_of(master_curve)
-    dense = solid_modes(misfit, lattice(misfit, min(tau_ratio, math.e)), master_curve)
+    curve = _curve_of(master_curve)
+    _check(curve, method, tau_ratio, modes, regularisation, largest_error)
+    fitted, strength, notes = _fitted(misfit_of(curve), curve, method, tau_ratio, modes, regularisation, largest_error)
+    ratio = None if method == "sparse" else tau_ratio
+    return judged(as_spectrum(fitted), curve, method=method, tau_ratio=ratio, regularisation=strength, notes=notes)
+
+
+def _fitted(
+    misfit: Misfit,
+    low: Curve,
+    method: Method,
+    tau_ratio: float,
+    modes: int | None,
+    regularisation: float | str | None,
+    largest_error: float | None,
+) -> tuple[Modes, float | None, tuple[str, ...]]:
+    """Return modes, the strength of regularisation, and notes; `low` is the curve that reaches the lowest rates."""
+    dense = solid_modes(misfit, lattice(misfit, min(tau_ratio, math.e)), low)
     if method == "sparse":
         fitted, notes = _sparse(misfit, tau_ratio, modes, largest_error)
-        return judged(as_spectrum(fitted), master_curve, method=method, notes=notes)
-    if method == "non-negative":
-        fitted = dense if tau_ratio <= math.e else nonnegative_modes(misfit, lattice(misfit, tau_ratio))
-        return judged(as_spectrum(fitted), master_curve, method=method, tau_ratio=tau_ratio)
-    fitted, strength, notes = _regularised(misfit, tau_ratio, master_curve, regularisation)
-    return judged(
-        as_spectrum(fitted), master_curve, method=method, tau_ratio=tau_ratio, regularisation=strength, notes=notes
-    )
+        return fitted, None, notes
+    if method == "regularised":
+        return _regularised(misfit, tau_ratio, low, regularisation)
+    return dense if tau_ratio <= math.e else nonnegative_modes(misfit, lattice(misfit, tau_ratio)), None, ()
 
 
 def _of_several(
@@ -140,16 +150,9 @@ def _of_several(
     misfit = joint_misfit(curves)
     low = curves[int(np.argmin([rates_of(curve)[0] for curve in curves]))]
     high = curves[int(np.argmax([frequencies_of(curve)[1] for curve in curves]))]
-    fitted = solid_modes(misfit, lattice(misfit, min(tau_ratio, math.e)), low)
-    strength: float | None = None
-    notes: tuple[str, ...] = ()
-    if method == "sparse":
-        fitted, notes = _sparse(misfit, tau_ratio, modes, largest_error)
-    elif method == "regularised":
-        corner = "l-curve" if regularisation in (None, "cross-validation") else regularisation
-        fitted, strength, notes = _regularised(misfit, tau_ratio, low, corner)
-    elif tau_ratio > math.e:
-        fitted = nonnegative_modes(misfit, lattice(misfit, tau_ratio))
+    # Cross-validation needs one curve.
+    corner = "l-curve" if method == "regularised" and regularisation in (None, "cross-validation") else regularisation
+    fitted, strength, notes = _fitted(misfit, low, method, tau_ratio, modes, corner, largest_error)
     spectrum = as_spectrum(fitted)
     levels = misfit.levels(misfit.compliance(spectrum))
     on_levels = [

@@ -8,6 +8,7 @@ from typing import Any, Literal, TypedDict, Unpack, overload
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import ShiftLaw
@@ -195,38 +196,21 @@ def superpose(
         tests = sweeps.in_tension(ratio).thinned(PER_DECADE)
         logs = [LogSweep.of_step(one, tests.kind) for one in tests.tests]
         steps = shifted_isotherms(tests.tests, logs, kelvin, known, vertical == "free", shift, fixed, STEP)
+        notes = (*tests.notes, *steps.notes, *(flowing(steps.joined.isotherms) if tests.kind == "creep" else []))
         curve = _step_master_curve(steps.joined, steps.factors, tests.kind)
-        remarks = flowing(steps.joined.isotherms) if tests.kind == "creep" else []
-        notes = (*tests.notes, *steps.notes, *remarks)
-        return StepSuperposition(
-            steps.factors,
-            curve,
-            steps.quality,
-            notes,
-            steps.joined.isotherms,
-            steps.vertical,
-            steps.cross,
-            steps.offsets,
-            steps.unidentified,
-        )
+        rest = steps.joined.isotherms, steps.vertical, steps.cross, steps.offsets, steps.unidentified
+        return StepSuperposition(steps.factors, curve, steps.quality, notes, *rest)
     tensile = sweeps.in_tension(ratio)
     quantities = Quantities.chosen(by, weights)
     quantities.insist_on_use(vertical, shift)
     logs = [LogSweep.of(isotherm) for isotherm in tensile.isotherms]
     found = shifted_isotherms(tensile.isotherms, logs, kelvin, known, vertical == "free", shift, fixed, quantities)
+    notes = (*tensile.notes, *quantities.notes, *found.notes)
     return Superposition(
-        found.factors,
-        _master_curve(found.joined, found.factors),
-        found.quality,
-        (*tensile.notes, *quantities.notes, *found.notes),
-        found.joined.isotherms,
-        found.vertical,
-        found.cross,
-        found.offsets,
-        found.unidentified,
-        quantities.by,
-        None if weights is None else (float(quantities.weights[0]), float(quantities.weights[1])),
-    )
+        found.factors, _master_curve(found.joined, found.factors), found.quality, notes,
+        found.joined.isotherms, found.vertical, found.cross, found.offsets, found.unidentified,
+        quantities.by, None if weights is None else (float(quantities.weights[0]), float(quantities.weights[1])),
+    )  # fmt: skip
 
 
 def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None, kelvin: float) -> VerticalShift | None:
@@ -242,26 +226,25 @@ def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None,
     return None
 
 
-def _master_curve(joined: JoinedIsotherms[Isotherm], shift_factors: ShiftFactors) -> MasterCurve:
+def _master_curve(joined: JoinedIsotherms[Isotherm], factors: ShiftFactors) -> MasterCurve:
     """Return all points, moved along both axes."""
-    shifts = zip(joined.logs, shift_factors.log10_values, strict=True)
-    frequency = np.concatenate([sweep.frequency + shift for sweep, shift in shifts])
+    frequency, logs, kelvin = _moved(joined, factors)
     order = np.argsort(frequency, kind="stable")
-    moduli = 10.0 ** np.concatenate([sweep.moduli for sweep in joined.logs])[order]
-    temperature = np.repeat([i.temperature for i in joined.isotherms], [len(i) for i in joined.isotherms])
-    return MasterCurve(
-        10.0 ** frequency[order], moduli[:, 0], moduli[:, 1], temperature[order], shift_factors.reference
-    )
+    moduli = 10.0 ** logs[order]
+    return MasterCurve(10.0 ** frequency[order], moduli[:, 0], moduli[:, 1], kelvin[order], factors.reference)
 
 
-def _step_master_curve(
-    joined: JoinedIsotherms[StepTest], shift_factors: ShiftFactors, kind: StepKind
-) -> StepMasterCurve:
+def _step_master_curve(joined: JoinedIsotherms[StepTest], factors: ShiftFactors, kind: StepKind) -> StepMasterCurve:
     """Return all points, moved along both axes."""
-    shifts = zip(joined.logs, shift_factors.log10_values, strict=True)
-    rate = np.concatenate([one.frequency + shift for one, shift in shifts])
+    rate, logs, kelvin = _moved(joined, factors)
     order = np.argsort(-rate, kind="stable")
-    modulus = np.concatenate([one.moduli[:, 0] for one in joined.logs])[order]
-    temperature = np.repeat([i.temperature for i in joined.isotherms], [len(i) for i in joined.isotherms])
-    response = 10.0 ** (-modulus if kind == "creep" else modulus)
-    return StepMasterCurve(10.0 ** -rate[order], response, temperature[order], shift_factors.reference, kind)
+    response = 10.0 ** (-logs[order, 0] if kind == "creep" else logs[order, 0])
+    return StepMasterCurve(10.0 ** -rate[order], response, kelvin[order], factors.reference, kind)
+
+
+def _moved(joined: JoinedIsotherms[Any], factors: ShiftFactors) -> tuple[Array, Array, Array]:
+    """Return log10 of the reduced frequency, logarithms of the moduli, and the temperature, of all points."""
+    shifts = zip(joined.logs, factors.log10_values, strict=True)
+    frequency = np.concatenate([sweep.frequency + shift for sweep, shift in shifts])
+    kelvin = np.repeat([i.temperature for i in joined.isotherms], [len(i) for i in joined.isotherms])
+    return frequency, np.concatenate([sweep.moduli for sweep in joined.logs]), kelvin
