@@ -338,10 +338,7 @@ def point_by_point(measured: FrictionCurves, predicted: FrictionCurves) -> Pairs
 
 
 def along_reduced_speed(measured: FrictionMasterCurve, predicted: FrictionMasterCurve) -> Pairs:
-    """Interpolate the predicted master curve at the reduced speeds of the measured points, where it is known.
-
-    Raises InputError if references or loads differ, or the curves do not overlap.
-    """
+    """Interpolate the predicted master curve at the reduced speeds of the measured points, where it is known."""
     if abs(measured.reference - predicted.reference) > _SAME_TEMPERATURE:
         raise InputError(
             f"master curves have different references, {shown_celsius(measured.reference, 'z.2f')} and "

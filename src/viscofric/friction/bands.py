@@ -42,10 +42,7 @@ LARGE_CHANGE = 0.3
 
 
 class DrawnMaterials:
-    """Modes of samples of a material in one column, and their shifts at any temperature.
-
-    Raises InputError if the samples are none, or not those of the material that is solved.
-    """
+    """Modes of samples of a material in one column, and their shifts at any temperature."""
 
     def __init__(self, samples: MaterialSamples, material: Material) -> None:
         if not isinstance(samples, MaterialSamples):

@@ -47,10 +47,7 @@ def shear_notes(
 def check_coupling(
     curves: FrictionCurves, material: Material, layer: Layer | None, radii: Sequence[tuple[float, float]]
 ) -> AssumptionCheck | None:
-    """Check the coupling at the worst point of friction curves of known Coulomb friction; None if none is known.
-
-    `radii` are the smallest and the largest possible radius of each contact, m.
-    """
+    """Check the coupling at the worst point, of a radius (m) between two; None if no Coulomb friction is known."""
     if curves.coulomb is None or not np.any(np.isfinite(curves.coulomb)):
         return None
     worst: list[ShearedContact] = []

@@ -94,10 +94,7 @@ def freedom_of_scatter(variance: float) -> float:
 
 
 def scatter_about_parabolas(curves: FrictionCurves) -> float | None:
-    """Return one relative error of points without errors, from those of each temperature about a parabola in ln v.
-
-    None if the temperatures have too few points, or friction is not above zero.
-    """
+    """Return the relative scatter about a parabola in ln v of each temperature; None if points are too few."""
     squares, freedom = 0.0, 0
     for rows in nominal_rows(curves.temperature):
         mine = curves.select(rows)

@@ -55,11 +55,7 @@ class ComplianceSensitivity:
 def solve_with_sensitivity(
     material: Material, indenter: Indenter, *, speed: float, load: float, temperature: float | None, **settings: Any
 ) -> tuple[ContactSolution, ComplianceSensitivity]:
-    """Solve a contact and return the sensitivity of its friction to compliance at any retardation time too.
-
-    Speed in m/s, load in N or N/m, temperature in K (None: that of the spectrum); settings and errors as of
-    `solve_steady`.
-    """
+    """Solve a contact, SI, as `solve_steady` does, with the sensitivity of its friction to compliance at any τ."""
     here = material.modes_at(temperature)
     counterface = indenter_compliance(settings.get("indenter_modulus"), settings.get("indenter_poisson_ratio", 0.3))
     relaxed = (1.0 - material.poisson_ratio**2) / here.E0 + counterface
@@ -89,11 +85,7 @@ def solve_with_sensitivity(
 
 
 def log_times(spectrum: RetardationSpectrum, time: float) -> Array:
-    """Return ln τ at which the sensitivity of a contact is given.
-
-    The spectrum is that at the temperature of the contact; `time` is the contact's unit of length (`Scale`) over its
-    speed, s.
-    """
+    """Return ln τ at which a contact's sensitivity is given; `time` is its unit of length (`Scale`) over speed, s."""
     log_tau = np.log(_with_empty_modes(spectrum, time).tau)
     return log_tau[_apart(log_tau)]
 

@@ -163,10 +163,7 @@ def _decades_per_kelvin(shift: ShiftLaw, kelvin: float) -> float:
 
 
 def _change(material: Material, indenter: Indenter, curves: FrictionCurves, decades: Array) -> Array:
-    """Return the largest relative change of friction as the speed falls by decades (n,), to first order in the loss.
-
-    At each point separately, from the material: a slope through points would depend on the others.
-    """
+    """Return the largest relative change of friction of a point as speed falls by decades (n,), to first order."""
     change = np.zeros(len(curves))
     same_load = np.round(np.log(curves.load) / _SAME_LOAD)
     plane_strain, under_load = 1.0 - material.poisson_ratio**2, {}

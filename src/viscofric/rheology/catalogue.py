@@ -203,10 +203,7 @@ def _synthetic_tread_rubber() -> Material:
 def _two_transitions(
     moduli: tuple[float, float, float], fast: dict[str, float], slow: dict[str, float]
 ) -> RetardationSpectrum:
-    """Return half-Gaussian pairs over log10 τ (s): the glass transition, and a relaxation below the rubber plateau.
-
-    `moduli` are those of the relaxed rubber, between the two, and of the glass, Pa.
-    """
+    """Return half-Gaussian pairs over log10 τ (s), of the moduli of the rubber, between the two, and of the glass."""
     rubber, between, glass = moduli
     ends = [(peak["centre"] - WIDTH * peak["short"], peak["centre"] + WIDTH * peak["long"]) for peak in (fast, slow)]
     first = math.ceil(min(low for low, _ in ends) * math.log(10.0))

@@ -102,10 +102,7 @@ class Case(ABC):
     def solution(
         self, rubbers: Rubbers, accuracy: float, most_points: int | None = None
     ) -> ContactSolution | PeriodicSolution:
-        """Solve the contact and return the whole solution, of which `record` keeps a part.
-
-        `most_points` limits the grid along the longer axis of a rough surface.
-        """
+        """Return the whole solution; `most_points` limits a rough surface's grid along its longer axis."""
 
     @abstractmethod
     def record(self, solution: Any) -> Record:
@@ -121,10 +118,7 @@ class Case(ABC):
 
     @abstractmethod
     def place(self, rubbers: Rubbers) -> Place:
-        """Return its place on the curve of its family.
-
-        InputError if its speed is not above zero, or its material is unknown at its temperature.
-        """
+        """Return its place on the curve of its family; InputError if it has none."""
 
     @abstractmethod
     def node_label(self, ratio: float) -> str:
@@ -138,10 +132,7 @@ class Case(ABC):
     def interpolated(
         self, between: Between, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
     ) -> Iterator[tuple[int, Record | Failure]]:
-        """Yield number and record of every case between two nodes of the family's curve, as if it had been solved.
-
-        `cases` and `places` are those of the whole family.
-        """
+        """Yield number and record of the family's cases between two nodes of its curve, as if they had been solved."""
 
 
 class Place(NamedTuple):

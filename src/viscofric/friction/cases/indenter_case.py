@@ -286,10 +286,7 @@ class Sensitivities:
     def between(
         cls, nodes: Sequence[tuple[float, Record]], places: Sequence[Place], modes: RetardationSpectrum, units: Scale
     ) -> Self | None:
-        """Interpolate between nodes, (s, record), of the polynomial; None if a node has no derivatives.
-
-        `modes` are those at the reference temperature, `units` those of the nodes.
-        """
+        """Interpolate between nodes, (s, record), in their `units`; None if a node has no derivatives."""
         known = [record.sensitivity for _, record in nodes]
         found = [one for one in known if one is not None]
         if len(found) < len(known):

@@ -128,10 +128,7 @@ SurfaceSource: TypeAlias = MadeSurface | ScannedSurface
 
 @functools.lru_cache(maxsize=_KEPT)
 def surface_of(source: SurfaceSource) -> PeriodicSurface:
-    """Return the surface that a contact is solved with; made once for many contacts on it.
-
-    InputError or DataFileError if it cannot be made, or does not repeat itself.
-    """
+    """Return the surface of contacts, made once for many; InputError or DataFileError if it cannot be made."""
     return source.topography().to_surface()
 
 

@@ -65,10 +65,7 @@ def limits(drawn: Array) -> Array:
 
 
 class Findings(Generic[AnyProblem]):
-    """What every identification concludes from its fits: materials drawn after and before the measurement.
-
-    `frequency_range` are the lowest and highest angular frequency measured, rad/s; `shift` is as given.
-    """
+    """What every identification concludes from its fits over measured angular frequencies `frequency_range`, rad/s."""
 
     def __init__(
         self,

@@ -25,15 +25,12 @@ _REACH = 16.0
 
 
 class Friction(NamedTuple):
-    """ln μ (n,), and its derivatives by ln(1/E_inf) and every ln C (n, 1 + m) and by ln v (n,); radius likewise.
+    """Friction and contact radius at n speeds."""
 
-    `log_radius` is the logarithm of the contact radius, `radius_change` and `radius_slope` its derivatives.
-    """
-
-    log_friction: Array
-    change: Array
-    slope: Array
-    log_radius: Array
+    log_friction: Array  # (n,), ln μ
+    change: Array  # (n, 1 + m), its derivatives by ln(1/E_inf) and every ln C
+    slope: Array  # (n,), that by ln v
+    log_radius: Array  # (n,), and its derivatives likewise
     radius_change: Array
     radius_slope: Array
 
@@ -151,18 +148,14 @@ class _Table:
 
 
 class Solved(NamedTuple):
-    """Results of solved contacts of one material, at k nodes.
+    """Results of solved contacts of one material, at k nodes."""
 
-    `compliances` is (1 + m,), ln(1/E_inf) and every ln C; `log_speed`, `log_friction` and `error` (relative) are (k,);
-    `change` (k, 1 + m) and `load_slope` (k,) are the derivatives of ln μ by the compliances and by ln F.
-    """
-
-    compliances: Array
-    log_speed: Array
-    log_friction: Array
-    error: Array
-    change: Array
-    load_slope: Array
+    compliances: Array  # (1 + m,), ln(1/E_inf) and every ln C
+    log_speed: Array  # (k,)
+    log_friction: Array  # (k,), ln μ
+    error: Array  # (k,), relative
+    change: Array  # (k, 1 + m), derivatives of ln μ by the compliances
+    load_slope: Array  # (k,), that by ln F
 
 
 class CorrectedFriction:

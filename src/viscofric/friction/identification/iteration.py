@@ -50,10 +50,7 @@ class Weighed(NamedTuple, Generic[AnyProblem]):
 
 
 def weighed(problem: AnyProblem, start: Array) -> list[Weighed[AnyProblem]]:
-    """Fit under every roughness of the prior, outward from that of the problem; the smoothest comes first.
-
-    Raises ConvergenceError if no fit converges.
-    """
+    """Fit under every roughness of the prior, the smoothest first; ConvergenceError if no fit converges."""
     middle = int(np.argmin(np.abs(np.log(ROUGHNESS / problem.smoothness.roughness))))
     found: dict[int, Weighed[AnyProblem]] = {}
     for way in (range(middle, len(ROUGHNESS)), range(middle - 1, -1, -1)):

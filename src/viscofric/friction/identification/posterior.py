@@ -23,15 +23,12 @@ TOO_GOOD, LEAST_RATIO = 1e-3, 1e-3
 
 
 class Minimum(NamedTuple):
-    """The point of the least sum of squares (p,), that sum, and the matrix of normal equations there (p, p).
+    """The point of the least sum of squares."""
 
-    `settled` says whether the search converged.
-    """
-
-    place: Array
-    squares: float
-    normal: Array
-    settled: bool
+    place: Array  # (p,)
+    squares: float  # that sum
+    normal: Array  # (p, p), matrix of the normal equations there
+    settled: bool  # whether the search converged
 
 
 def descend(residuals: Residuals, start: Array, converged: float = CONVERGED, metric: Array | None = None) -> Minimum:
@@ -68,10 +65,7 @@ def descend(residuals: Residuals, start: Array, converged: float = CONVERGED, me
 
 
 def log_evidence(minimum: Minimum, log_volume: float) -> float:
-    """Return the logarithm of the marginal likelihood by Laplace's approximation, up to a constant.
-
-    `log_volume` is that of the prior's normalisation, up to a constant common to all that are compared.
-    """
+    """Return ln of the marginal likelihood (Laplace), up to a constant; `log_volume` is that of the prior's norm."""
     return log_volume - 0.5 * minimum.squares - 0.5 * float(np.linalg.slogdet(minimum.normal)[1])
 
 

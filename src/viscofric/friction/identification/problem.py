@@ -64,10 +64,7 @@ class Shifts:
 
     @classmethod
     def unknown(cls, temperatures: Array, reference: float, overlap: ShiftFactors | None = None) -> Shifts:
-        """Return unknown shifts at temperatures (t,), one of which is the reference.
-
-        `overlap` are those from the overlap of the curves; None for one temperature.
-        """
+        """Return unknown shifts about those from the `overlap` of the curves, which is None for one temperature."""
         if overlap is None:
             return cls(temperatures, reference, np.zeros(1), np.eye(1) / EXACT, True)
         about = overlap.at_reference(reference)

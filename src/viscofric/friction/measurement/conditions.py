@@ -349,10 +349,7 @@ def where(some: list[Condition], total: int) -> str:
 
 
 def _slips(ratio: Array, tolerance: float, jittering: float) -> tuple[Array, Integers, bool]:
-    """Return the sense of sliding (along the disc's motion, ±1 or 0), indices of the magnitudes, and whether swept.
-
-    `jittering` is the largest slip of one reading that jitter can cause.
-    """
+    """Return the sense of sliding (±1 or 0), indices of the magnitudes above what jitter makes, and whether swept."""
     resolution = max(0.1 * tolerance, jittering)
 
     def numbered(values: Array) -> Integers:

@@ -75,10 +75,7 @@ _CAUSES = {
 
 
 def _why_viscoelastic(entry: Entry) -> tuple[tuple[str, ...], str]:
-    """Return possible causes of negative viscoelastic friction, and their words.
-
-    The sign of the force is one only where Coulomb friction is not positive.
-    """
+    """Return possible causes of negative viscoelastic friction, and their words."""
     fit = entry.fit
     measured = fit.slides and fit.coulomb is None
     reasons = []

@@ -40,13 +40,10 @@ class Scatter:
 
 @dataclass(frozen=True, eq=False)
 class BetweenRuns:
-    """Standard errors and degrees of freedom (k, 4) of zero (N), viscoelastic and Coulomb coefficient and consistency.
+    """Standard errors and degrees of freedom (k, 4) of the four values of an `Entry`."""
 
-    Where the error of a condition is not known it is infinite, with zero degrees of freedom.
-    """
-
-    error: Array
-    freedom: Array
+    error: Array  # infinite where it is not known
+    freedom: Array  # zero there
     notes: list[Note]
 
     @classmethod

@@ -23,17 +23,13 @@ FORCE, DRIFT, ZERO_CHANGES = range(3)
 
 @dataclass(frozen=True, eq=False)
 class Entry:
-    """Zero (N), viscoelastic and Coulomb coefficient and consistency of a condition (4,), in this order.
-
-    `freedom` is the number of degrees of freedom of each error, infinite where it is exact; an unknown value has an
-    infinite error.
-    """
+    """Zero (N), viscoelastic and Coulomb coefficient and consistency of a condition (4,), in this order."""
 
     fit: Fit
     value: Array
-    error: Array
+    error: Array  # infinite where the value is unknown
     scatter: Array
-    freedom: Array
+    freedom: Array  # degrees of freedom of each error, infinite where it is exact
 
     @property
     def group(self) -> Condition:
@@ -88,10 +84,7 @@ def residuals(design: Array, crossed: Array | None, operator: Array, target: Arr
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """Least squares on the readings of a condition, of the force and of its corrections.
-
-    The fit is linear in the force, so that a drift is removed from its coefficients as from the readings.
-    """
+    """Least squares on the readings of a condition, of the force and of its corrections."""
 
     group: Condition
     # (r, 4, 3): zero, viscoelastic and Coulomb coefficient and consistency of each replicate (of all readings where
@@ -209,10 +202,7 @@ class Fit:
         return np.asarray((self.each @ weights).mean(axis=0))
 
     def entry(self, weights: Array, zeros: Zeros, error: Array, freedom: Array) -> Entry:
-        """Return the result over all replicates; `weights` (3,) are those of force, drift and changes of the zero.
-
-        `error` and `freedom` (4,) are the standard errors of the fit and their degrees of freedom.
-        """
+        """Return the result over all replicates; `weights` (3,) are those of force, drift and changes of the zero."""
         value, freedom = self.mean(weights), freedom.copy()
         scatter = error * np.sqrt(self.replicates)
         unknown = np.array([False, False, not self.slides, not self.checks])

@@ -161,10 +161,7 @@ class Grouping:
     def of(
         cls, runs: TractionRuns, zeros: Zeros, assumed: Assumed, speed_tolerance: float, temperature_tolerance: float
     ) -> Grouping:
-        """Group the readings by the speed of the disc, or by that of disc and ball where this puts more together.
-
-        Raises InputError if no condition can be separated.
-        """
+        """Group the readings by the speed of the disc, or by that of disc and ball where this puts more together."""
 
         def grouped(course: Course) -> tuple[list[Condition], tuple[str, ...], list[Condition]]:
             groups, notes = conditions(runs, course, speed_tolerance, temperature_tolerance)

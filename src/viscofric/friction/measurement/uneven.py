@@ -98,10 +98,7 @@ def _apart(runs: TractionRuns, group: Condition) -> float:
 
 
 def _growth(own: Entry, others: list[Entry]) -> Growth:
-    """Return the change of friction about a condition's speed, from others at its temperature and load.
-
-    The error of `own` is without that of the change: it must not increase by its own consequences.
-    """
+    """Return the change of friction about a condition's speed, from others at its temperature and load."""
     here = own.group
     # Of several slips at one speed, the nearest.
     at_speed = {here.speed: own}

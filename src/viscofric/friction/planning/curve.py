@@ -129,10 +129,7 @@ class Curve:
             self._open.append(one)
 
     def _reopen(self) -> None:
-        """Check the errors of the cases themselves, and refine where one is above the accuracy.
-
-        The tests of an interval check its middle; elsewhere, and with the errors of the nodes, errors may be larger.
-        """
+        """Check the errors of the cases themselves, and refine where one is above the accuracy."""
         closed, self.closed = self.closed, []
         for one in closed:
             found = self.between(one).found
@@ -145,10 +142,7 @@ class Curve:
                 self.closed.append(one)
 
     def drafted(self, found: Mapping[int, Node | None]) -> Curve:
-        """Return the curve as known so far, with part of the nodes wanted now.
-
-        Intervals with known ends are closed, well enough known or not, the open ones last; nothing is wanted.
-        """
+        """Return the curve as known so far, with part of the nodes wanted now."""
         drafted = copy.copy(self)
         drafted._nodes = self._nodes | {place: node for place, node in found.items() if node is not None}
         drafted.closed = [*self.closed, *(one for one in self._open if {one.low, one.high} <= drafted._nodes.keys())]

@@ -21,11 +21,7 @@ Outcome: TypeAlias = Record | Failure
 
 
 class Plan:
-    """What is to be solved next, without clocks, files or processes; made by `plan_cases`.
-
-    The same results give the same plan, in any order.  Of `total` cases, `done` have a result, or lie in intervals that
-    need no refinement.
-    """
+    """What is to be solved next; of `total` cases, `done` have a result or lie in intervals fine enough."""
 
     def __init__(self, cases: Sequence[Case], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
         self.total, self.done = len(cases), 0

@@ -43,10 +43,7 @@ class Collapse:
 
 
 def collapse(temperature: Array, decades: Array, friction: Array, error: Array) -> Collapse:
-    """Compare the curves of each pair of neighbouring temperatures where they overlap.
-
-    All (n,): temperature in K, log10 of the reduced speed, friction coefficient and its standard error.
-    """
+    """Compare friction over log10 of the reduced speed of neighbouring temperatures where they overlap, (n,) each."""
     parts = [_isotherm(rows, decades, friction, error) for rows in nominal_rows(temperature)]
     differences: list[Array] = []
     expected: list[Array] = []

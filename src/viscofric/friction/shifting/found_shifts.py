@@ -66,10 +66,7 @@ def widening(margin: float) -> float:
 
 
 def widenings(members: Sequence[int], values: Array, pairs: Pairs) -> Array:
-    """Return the factor of the variance of each step between neighbouring members, (members − 1,).
-
-    The clearest overlap of two members on either side of a step decides.
-    """
+    """Return the factors of variances of steps between members, (members − 1,), by the clearest overlap across each."""
     clearest = np.full(len(members) - 1, math.sqrt(CONTRADICTION))
     for one, colder in enumerate(members):
         for other in range(one + 1, len(members)):

@@ -97,10 +97,7 @@ def nominal_temperatures(temperature: Array) -> Array:
 
 
 def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
-    """Return the factor of the variances, from the scatter about the isotherms' own curves.
-
-    None without a degree of freedom.
-    """
+    """Return the factor of the variances, from the scatter about own curves; None without a degree of freedom."""
     several = [isotherm.curves for isotherm in isotherms if len(isotherm) > 3]
     freedom = sum(curves.freedom for curves in several)
     if freedom < 1.0:

@@ -105,10 +105,7 @@ def _chi2(colder: FrictionIsotherm, warmer: FrictionIsotherm, steps: Array, scal
 
 
 def _bounded(steps: Array, chi2: Array) -> list[tuple[float, float, float]]:
-    """Return the steps of least χ² that contradiction bounds on both sides, best first.
-
-    Each with its upper bound, and by how many standard deviations it is bounded.
-    """
+    """Return the steps of least χ² that contradiction bounds on both sides, upper bound and clearness; best first."""
     found = []
     free = np.full(steps.shape, True)
     for place in np.argsort(chi2, kind="stable"):

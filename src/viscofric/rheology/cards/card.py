@@ -57,10 +57,7 @@ class Writing:
 
 @dataclass(frozen=True)
 class Reading:
-    """Units of a card that does not state them.
-
-    By default Pa and s are assumed, with a note, and temperatures judged by their size.
-    """
+    """Units of a card; Pa and s by default, with a note, and temperatures judged by their size."""
 
     modulus_unit: str | None = None
     time_unit: str | None = None

@@ -48,10 +48,7 @@ class Contents(NamedTuple):
 def contents_of(
     material: Material, writing: Writing, program: str, incompressible: str | None = None, *, with_shift: bool = True
 ) -> Contents:
-    """Return what a program's card is to hold, without a shift law if it takes none.
-
-    `incompressible` is None if the program takes ν = 0.5, else the reason why it does not.
-    """
+    """Return what a card is to hold; `incompressible` is why the program takes no ν = 0.5, None if it does."""
     spectrum: Any = material.spectrum
     if not isinstance(spectrum, RetardationSpectrum):
         raise InputError(

@@ -99,10 +99,7 @@ def interface_notes(law: InterfaceLaw, speed: Array, kelvin: Array | None, press
 
 
 def friction_on_area(law: InterfaceLaw, speed: Array, kelvin: Array, pressure: float, area: Array) -> dict[str, Any]:
-    """Return friction, standard error (m, n, k) and notes of an interface on parts (m, n, k) of the nominal area.
-
-    At temperatures (m, n, k), NaN where none was given, n speeds of sliding and a nominal pressure.
-    """
+    """Return friction, standard error and notes on parts (m, n, k) of the area at n speeds, NaN without temperature."""
     v = np.broadcast_to(speed[None, :, None], area.shape)
     T = kelvin if np.all(np.isfinite(kelvin)) else None
     local = pressure / area

@@ -54,10 +54,7 @@ class CorrelatedSmoother:
 
     @classmethod
     def fitted(cls, frequency: Array, moduli: Array, same: Mask) -> CorrelatedSmoother:
-        """Place knots for n points, ramp by ramp, and choose smoothing and correlation of each quantity.
-
-        `frequency` (n,) is log10 of the reduced angular frequency; `moduli` (n, m).
-        """
+        """Place knots for points, ramp by ramp, and choose smoothing and correlation of each quantity."""
         knots, degree = knots_for(frequency, POINTS_PER_KNOT)
         penalty = roughness(knots, degree)
         basis = splines(knots, degree, frequency)[0]

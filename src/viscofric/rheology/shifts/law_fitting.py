@@ -222,10 +222,7 @@ def _linear(matrix: Array, target: Array) -> Solution:
 
 
 def _positive(family: Model, whiten: Array, target: Array, start: Array) -> Solution:
-    """Minimise by damped Gauss–Newton steps in the logarithms of the constants.
-
-    That keeps them positive and free of units.
-    """
+    """Minimise by damped Gauss–Newton steps in the logarithms of the constants, which keep them positive."""
 
     def misfit(logarithm: Array) -> Array:
         try:

@@ -111,10 +111,7 @@ class CurveMisfit(Misfit):
 
 
 class ModulusMisfit(CurveMisfit):
-    """Differences of ln E' and ln E'' between modes and a measurement.
-
-    `angular_frequency` (N,) ascends, in rad/s; `measured` (N,) is E' + iE'' in Pa.
-    """
+    """Differences of ln E' and ln E'' between modes and a measurement (N,), Pa, at ascending rad/s."""
 
     def __init__(self, angular_frequency: Array, measured: ComplexArray) -> None:
         self.rates = self.angular_frequency = angular_frequency

@@ -85,10 +85,7 @@ def joint_error(misfit: Misfit, modes: Modes) -> float:
 
 
 def few_modes(misfit: Misfit, number: int) -> Modes:
-    """Fit a number of modes whose retardation times are free.
-
-    They start evenly spaced over the measured frequencies, and stay within the limits of `Misfit.ends`.
-    """
+    """Fit a number of modes of free retardation times, from evenly spaced ones over the measured frequencies."""
     low, high = -math.log(misfit.rates[-1]), -math.log(misfit.rates[0])
     ends = np.linspace(low, high, number + 1)
     start = nonnegative_modes(misfit, np.exp(0.5 * (ends[1:] + ends[:-1])))

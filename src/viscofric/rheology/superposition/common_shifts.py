@@ -30,21 +30,16 @@ CONVERGED = 1e-5  # decades
 
 @dataclass(frozen=True, eq=False)
 class CommonShifts:
-    """Shifts log10 α (n,) and log10 b (n,), zero at the reference, and their covariances (n, n); in decades.
+    """Shifts of n isotherms, zero at the reference, and their covariances (n, n), in decades."""
 
-    The cross covariance has log10 α in its rows and log10 b in its columns.  `parted` are the indices of neighbours
-    that were joined pair by pair because a common curve moved them past each other; `freedom` are the degrees of
-    freedom of the scatter of the points; `offsets` are those of whole isotherms, where fitted.
-    """
-
-    values: Array
+    values: Array  # (n,), log10 α
     covariance: Array
-    vertical: Array
+    vertical: Array  # (n,), log10 b
     vertical_covariance: Array
-    cross_covariance: Array
-    parted: tuple[int, ...] = ()
-    freedom: float = np.inf
-    offsets: IsothermOffsets | None = None
+    cross_covariance: Array  # of log10 α (rows) with log10 b (columns)
+    parted: tuple[int, ...] = ()  # neighbours joined pair by pair because a common curve moved them past each other
+    freedom: float = np.inf  # of the scatter of the points
+    offsets: IsothermOffsets | None = None  # of whole isotherms, where fitted
 
 
 def common_shifts(

@@ -172,10 +172,7 @@ def _likelihood_of_sums(left: Array, wish: Array) -> Array:
 
 
 def _likelihood(left: Array, wish: Array) -> Array:
-    """Return the log of the likelihood of sizes of sums (rows) and of differences (columns) over that of none.
-
-    `left` (2n, 2n) is the information on sums and then on differences of offsets, `wish` (2n,) its score.
-    """
+    """Return ln of the likelihood of sizes of sums (rows) and differences (columns) over that of none."""
     size = len(wish) // 2
     variance = SIZES[:, None] ** 2
     known, modes = np.linalg.eigh(left[:size, :size])

@@ -45,15 +45,11 @@ LOPSIDED = 1.5
 
 @dataclass(frozen=True, eq=False)
 class LogSweep:
-    """One isotherm in logarithms: frequency (n,), and moduli (n, 2), storage and loss.
+    """One isotherm in logarithms."""
 
-    Fits also accept quantities other than moduli, in any number of columns (one for friction, over the speed), and
-    weights (n,), the inverse variances of the points relative to each other.
-    """
-
-    frequency: Array
-    moduli: Array
-    weights: Array | None = None
+    frequency: Array  # (n,), or speed
+    moduli: Array  # (n, 2), storage and loss; of fits other quantities too, in any number of columns
+    weights: Array | None = None  # (n,), inverse variances of the points relative to each other
 
     @classmethod
     def of_step(cls, test: StepTest, kind: StepKind) -> LogSweep:
@@ -173,10 +169,7 @@ def failures(joins: list[Join]) -> list[int]:
 
 
 def parted(sweeps: list[LogSweep], log10_shifts: Array) -> list[int]:
-    """Return the indices of neighbours that shifts move past each other although their storage moduli overlap.
-
-    E' would fall with rising frequency from one to the other, which no material does.
-    """
+    """Return neighbours whose E' would fall with frequency, since shifts move them past each other."""
     found = []
     for place, (colder, warmer) in enumerate(pairwise(sweeps)):
         step = log10_shifts[place] - log10_shifts[place + 1]
@@ -325,10 +318,7 @@ class OwnShifts:
 
 
 def own_shifts(sweeps: Sequence[LogSweep], log10_shifts: Array) -> OwnShifts:
-    """Compare the misfit of isotherms, shifted by log10 α (n,), with that of the best overlap of each pair.
-
-    `sweeps` ascend in temperature, without vertical shifts.
-    """
+    """Compare the misfit of sweeps, shifted by log10 α (n,), with that of the best overlap of each pair."""
     shifted, best = [], []
     for place, (colder, warmer) in enumerate(pairwise(sweeps)):
         there = join_at(colder, warmer, float(log10_shifts[place] - log10_shifts[place + 1]))

@@ -232,10 +232,7 @@ class ShiftProblem:
         *,
         exact: bool = False,
     ) -> State:
-        """Fit the curves at these shifts and return the objective and its derivatives.
-
-        With offsets (m n) of the isotherms given, `score` is that of the scatter without them.
-        """
+        """Return the objective of fitted curves and its derivatives; the score is of the scatter without offsets."""
         less = self._of_isotherms(offsets)
         away = self.wanted - self.prior @ parameters
         cost, gradient = float(away @ away), self.prior.T @ away

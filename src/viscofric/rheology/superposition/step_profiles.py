@@ -222,10 +222,7 @@ def _reduced(piece: Piece, frequency: Array, values: Array) -> tuple[Array, Arra
 
 
 def _eliminated(known: Array, square: Array, smoothing: float) -> tuple[Array, Array]:
-    """Integrate over the curves: known A⁻¹ knownᵀ and log |A| − log |λP|, with A = square + λP.
-
-    Splines without points add equally to both logarithms.
-    """
+    """Integrate over the curves: known A⁻¹ knownᵀ and log |A| − log |λP|, with A = square + λP."""
     from scipy.linalg.lapack import dpbtrf, dpbtrs
 
     K = square.shape[2]

@@ -109,10 +109,7 @@ def _legendre(x: Array, degree: int) -> Array:
 
 
 def neighbour_distances(isotherms: Sequence[Isotherm], log10_b: Array) -> tuple[NeighbourDistance, ...]:
-    """Compare every isotherm (at least two points, ascending in temperature) with its next warmer neighbour.
-
-    `log10_b` (n,) are their vertical shifts, by which moduli are divided.  Pairs without a common range are left out.
-    """
+    """Compare each isotherm, moduli over b, with its next warmer neighbour where they have a common range."""
     curves = [_Curve.of(isotherm, float(b)) for isotherm, b in zip(isotherms, log10_b, strict=True)]
     found = []
     for colder, warmer in pairwise(curves):

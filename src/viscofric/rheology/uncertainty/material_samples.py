@@ -32,13 +32,9 @@ class _Limits(NamedTuple):
 
 
 class Band(_Limits):
-    """Lower limit, middle (the median) and upper limit, each an array of one shape.
+    """Lower limit, median and upper limit, arrays of one shape; of complex moduli those of E' and of E'' apart."""
 
-    Limits of complex moduli hold for E' (their real part) and for E'' (their imaginary part) separately.  `notes` are
-    sentences on doubts about them.
-    """
-
-    notes: tuple[Note, ...] = ()
+    notes: tuple[Note, ...] = ()  # on doubts about them
 
 
 class StandardErrors(NamedTuple):

@@ -76,10 +76,7 @@ class Resampled:
 
 
 def _without_offsets(residual: Array, isotherm: Integers, offset: Array) -> Array:
-    """Return residuals (N, m) minus the part of each isotherm's mean that is its offset, of standard deviation (m,).
-
-    Offsets are drawn separately; in the residuals they would be taken for noise that is correlated along isotherms.
-    """
+    """Return residuals (N, m) less each isotherm's offset, of standard deviation (m,), which is drawn apart."""
     number = np.unique(isotherm, return_inverse=True)[1]
     count = np.bincount(number)[:, None]
     mean = np.stack([np.bincount(number, weights=column) for column in residual.T], axis=1) / count

@@ -217,10 +217,7 @@ def _misfit(curve: Curve, shifts: ShiftFactors, spectrum: RetardationSpectrum) -
 
 
 def normal_deviates(random: np.random.Generator, covariance: Array, samples: int) -> Array:
-    """Draw rows of normal deviates with a covariance, which may be singular.
-
-    By its symmetric root: eigenvectors of equal eigenvalues differ between machines, and samples drawn with them.
-    """
+    """Draw normal deviates by the symmetric root of a covariance, which is the same on every machine."""
     values, vectors = np.linalg.eigh(0.5 * (covariance + covariance.T))
     root = (vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T
     return np.asarray(random.standard_normal((samples, len(values))) @ root)
@@ -229,10 +226,7 @@ def normal_deviates(random: np.random.Generator, covariance: Array, samples: int
 def _tables(
     random: np.random.Generator, fit: Fit, samples: int
 ) -> tuple[list[ShiftFactors], Sequence[VerticalShift | None], Array]:
-    """Draw shift factors, vertical shifts where they were measured, and offsets together: their errors are correlated.
-
-    Offsets are those of log10 E' and log10 E'', or of log10 of a step response, (samples, isotherms, m).
-    """
+    """Draw shift factors, vertical shifts and offsets (samples, isotherms, m) together, as they are correlated."""
     shifts, vertical = fit.shift_factors, fit.vertical_shift
     size = len(shifts.temperatures)
     covariance = shifts.covariance

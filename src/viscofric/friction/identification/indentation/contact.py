@@ -164,10 +164,7 @@ class Known(Contact):
 
     @classmethod
     def of(cls, frequency: Array, values: Mapping[str, tuple[Array, float]], **contact: Any) -> Known:
-        """Return values over angular frequency (k,), rad/s, N/m or Pa, with their relative standard errors, by name.
-
-        Names begin with "storage", "loss" or "magnitude".
-        """
+        """Return values over ω (k,), N/m or Pa, and their relative errors, by names such as "storage_modulus"."""
         size = len(frequency)
         along = np.tile(frequency, len(values))
         return cls(

@@ -102,10 +102,7 @@ class Functional:
         return Answer(log_value, changes / value[:, None], moved / value, shared)
 
     def _response(self, glass: float, C: Array, log_alpha: float, extra: float) -> tuple[Array, Array, Array]:
-        """Return ∫ J dI, or ∫ E dI, (n,), with its changes by ln of the compliances (n, 1 + m) and by ln α (n,).
-
-        `glass` and `C` (m,) are compliances at the reference, `extra` that of an elastic indenter, 1/Pa.
-        """
+        """Return ∫ J dI, or ∫ E dI, (n,), with its changes by ln of the compliances (n, 1 + m) and by ln α (n,)."""
         kernel = self._at(log_alpha)
         if self.contact.creep:
             changes = np.concatenate([(self._total * glass)[:, None], kernel.creep * C], axis=1)

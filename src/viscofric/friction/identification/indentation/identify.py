@@ -192,10 +192,7 @@ def _checked(records: object, indenter: object, shift: object) -> tuple[Record, 
 
 
 def _fitted(problem: IndentationProblem) -> tuple[list[Weighed[IndentationProblem]], float]:
-    """Fit at every roughness.  Errors not given are estimated from the residuals; too small ones are enlarged.
-
-    The factor by which given errors were enlarged is returned too.
-    """
+    """Fit at every roughness, with errors found from the residuals or enlarged; return the factor of the latter too."""
     fits = _settled(problem, problem.start)
     unknown = np.repeat([one.error is None for one in problem.contacts], [len(one) for one in problem.contacts])
     for _ in range(PASSES if np.any(unknown) else 0):
