@@ -122,12 +122,7 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         return True
 
     def to_dataset(self, temperatures: Any = None) -> xarray.Dataset:
-        """Return the factors as a labelled data set.
-
-        Parameters
-        ----------
-        temperatures : (n,) array or list of float, str or quantity, optional
-            Plain numbers are in K; None: those of the table.
+        """Return the factors, at other temperatures than the table's if given, as a labelled data set.
 
         Returns
         -------
@@ -260,15 +255,7 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the factors with their covariance to a CSV file that `read_shift_factors` reads back unchanged.
 
-        Parameters
-        ----------
-        path : str or path
-            An existing file is overwritten.
-
-        Raises
-        ------
-        DataFileError
-            If the file cannot be written.
+        An existing file is overwritten; DataFileError if it cannot be written.
         """
         text = io.StringIO()
         text.write(f"# viscofric shift factors\n# reference (degC): {_in_celsius(self.reference)}\n")
@@ -332,15 +319,7 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
     def compare_laws(self, *, above: Quantity | None = None) -> LawComparison[ParametricLaw]:
         """Fit every law and choose the one that the table supports best; see `LawComparison`.
 
-        Parameters
-        ----------
-        above : float or quantity, optional
-            Leave out measured temperatures below this one.
-
-        Raises
-        ------
-        InputError
-            If no law describes the table.
+        Measured temperatures below `above` are left out; InputError if no law describes the table.
         """
         return compare_laws(self._table(above))
 

@@ -44,12 +44,7 @@ class FrequencyResponse(Plotted, ABC):
         return np.asarray(modulus.imag / modulus.real)
 
     def modulus_dataset(self, angular_frequency: ArrayLike) -> xarray.Dataset:
-        """Return the complex modulus over frequency as a labelled data set.
-
-        Parameters
-        ----------
-        angular_frequency : (n,) array_like
-            rad/s.
+        """Return E' and E'' (Pa) over angular frequencies (n,), rad/s, as a labelled data set.
 
         Returns
         -------
