@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     import xarray
 
+#: For annotations; xarray itself takes long to import.
+Dataset: TypeAlias = "xarray.Dataset"
 #: Above this power of ten, powers of ten are not exact floats.
 _EXACT = 22
 
@@ -20,7 +22,7 @@ def dataset(
     *,
     coordinates: Mapping[str, tuple[Any, str, str]] | None = None,
     attributes: Mapping[str, Any] | None = None,
-) -> xarray.Dataset:
+) -> Dataset:
     """Return columns along one dimension (or several) as a data set with units and long names.
 
     A column is (values, unit, long name), or None to be left out.  Values with fewer axes than there are dimensions lie
@@ -45,7 +47,7 @@ def dataset(
     )
 
 
-def on_grid(points: xarray.Dataset, *names: str) -> xarray.Dataset | None:
+def on_grid(points: Dataset, *names: str) -> Dataset | None:
     """Return points along one dimension on the grid of some of their coordinates; None if they do not fill one."""
     import numpy as np
 
@@ -66,7 +68,7 @@ def on_grid(points: xarray.Dataset, *names: str) -> xarray.Dataset | None:
     return type(points)(variables, kept | found, points.attrs)
 
 
-def record(data: xarray.Dataset, digits: int | None = None) -> dict[str, Any]:
+def record(data: Dataset, digits: int | None = None) -> dict[str, Any]:
     """Return a data set as JSON can hold it: its attributes, each variable as a list, and ``units`` by name.
 
     Floats have so many significant `digits`, or all; what is not finite becomes None.

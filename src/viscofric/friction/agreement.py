@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, overload
+from typing import NamedTuple, overload
 
 import numpy as np
 
 from viscofric.arrays import Array, Integers, Mask
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import error_freedom
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
@@ -19,9 +20,6 @@ from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Remedy
 from viscofric.showing import Plotted, Rows
 from viscofric.units import shown_celsius, shown_number
-
-if TYPE_CHECKING:
-    import xarray
 
 #: Probability of a normal error below twice its standard deviation.
 WITHIN = 0.9545
@@ -110,14 +108,12 @@ class Agreement(Plotted):
             ("temperature", self.temperature, "°C"),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the numbers of each temperature as a labelled data set along ``temperature``.
 
         Those over all points are attributes of the same names; ``sentences`` is a JSON list with the agreement in
         words.
         """
-        from viscofric.datasets import dataset
-
         words = {
             "bias": "mean relative difference of prediction and measurement",
             "rms": "root mean square relative difference",

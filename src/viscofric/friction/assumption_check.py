@@ -7,21 +7,19 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from viscofric.arrays import Array
 from viscofric.checks import Check
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import Indenter
+from viscofric.datasets import Dataset, dataset
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, Reader, note_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.showing import Rows, Shown
 from viscofric.units import plain, shown_celsius, shown_speed
-
-if TYPE_CHECKING:
-    import xarray
 
 
 @dataclass(frozen=True)
@@ -56,17 +54,17 @@ class AssumptionCheck(Shown, Check):
             ("limit", self.limit),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the check as a labelled data set along ``assumption``; see `assumptions_dataset`."""
         return assumptions_dataset((self,))
 
 
-def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "python") -> xarray.Dataset:
+def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "python") -> Dataset:
     """Return checks as a labelled data set along ``assumption``, with sentences for one kind of reader.
 
     `value` is NaN where it is not known; `holds` is 1, 0, or −1 where it cannot be judged.
     """
-    from viscofric.datasets import dataset, plain
+    from viscofric.datasets import plain
 
     return dataset(
         "assumption",
@@ -94,7 +92,7 @@ def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "pyt
     )
 
 
-def assumption_checks_of(data: xarray.Dataset) -> list[AssumptionCheck]:
+def assumption_checks_of(data: Dataset) -> list[AssumptionCheck]:
     """Return the checks that `assumptions_dataset` put into a data set."""
     columns = (data[name].values.tolist() for name in ("assumption_name", "holds", "value", "limit"))
     sentences = data["sentence"].values.tolist()

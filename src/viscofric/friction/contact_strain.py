@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,16 +12,13 @@ from viscofric.arguments import insist_on
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
+from viscofric.datasets import Dataset
 from viscofric.errors import ConvergenceError
 from viscofric.rheology.material import Material
 from viscofric.rheology.payne.at_strain import contact_strain, material_at_strain, on_strain
 from viscofric.rheology.payne.kraus import KrausLaw
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Contact and strain are found in turn, until the strain changes by less than this part …
 CONVERGED = 0.02
@@ -61,7 +58,7 @@ class ContactAtStrain(Plotted):
             ("notes", self.notes),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the numbers of both contacts along the dimension ``moduli``.
 
         Returns

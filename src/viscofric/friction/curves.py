@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Literal, Self, cast
+from typing import Literal, Self, cast
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from viscofric.arrays import Array, Integers, Mask
 from viscofric.checks import Check
 from viscofric.contact.solution import ContactSolution
 from viscofric.data import picked, read_only, whole_numbers
-from viscofric.datasets import dataset, on_grid
+from viscofric.datasets import Dataset, dataset, on_grid
 from viscofric.errors import InputError, check_choice
 from viscofric.friction.cases.record import columns_of
 from viscofric.friction.curve_words import LABELS, LOADS
@@ -23,10 +23,6 @@ from viscofric.notes import note_attributes
 from viscofric.rheology.interface.friction import total_error
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity, positive, share, shown_celsius
-
-if TYPE_CHECKING:
-    import xarray
-
 
 _REQUIRED = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter")
 _COORDINATES = ("speed", "temperature", "load", "slip")
@@ -336,7 +332,7 @@ class FrictionCurves(Plotted):
         """Return some of the entries: ``curves[0]``, ``curves[:5]``, ``curves[curves.speed > 0.05]``; see `select`."""
         return cast("Self", self.select(np.atleast_1d(np.arange(len(self))[keep])))
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the curves as a labelled data set, with units and long names.
 
         Returns
@@ -352,7 +348,7 @@ class FrictionCurves(Plotted):
         found = on_grid(points, "load", "temperature", "speed") if found is None else found
         return points if found is None else found
 
-    def points_dataset(self) -> xarray.Dataset:
+    def points_dataset(self) -> Dataset:
         """Return the curves as a labelled data set along ``point``, one for each entry, in their order."""
         labels = LABELS | {"load": (self.load_unit, LOADS[self.load_unit])}
         columns = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from viscofric.contact.heated import ThermalContact
 from viscofric.contact.heated_curve import States, heat_columns, solve_states
 from viscofric.contact.settings import ContactSettings
 from viscofric.contact.steady import thermal_contact
+from viscofric.datasets import Dataset
 from viscofric.friction.cases.record import Record, beyond_range, columns_of_records, indenter_record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.planning.shared import SharedContacts
@@ -20,9 +21,6 @@ from viscofric.heat.result import SolvedHeatColumns
 from viscofric.processes import Workers, at_work
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.showing import Rows
-
-if TYPE_CHECKING:
-    import xarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +60,7 @@ class HeatedFrictionCurves(SolvedHeatColumns, FrictionCurves):
             ("rise of temperature", self.temperature_rise, "K"),
         )
 
-    def points_dataset(self) -> xarray.Dataset:
+    def points_dataset(self) -> Dataset:
         """Return the curves as `FrictionCurves` do, with the columns of the heat."""
         return super().points_dataset().assign(self.heat_variables("point"))
 

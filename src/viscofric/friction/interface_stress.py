@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array, Mask
 from viscofric.contact.solution import ContactSolution
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.agreement import partner
 from viscofric.friction.curve_checks import shared_error
@@ -28,9 +28,6 @@ from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity, positive
-
-if TYPE_CHECKING:
-    import xarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +158,7 @@ class ShearStress(Plotted):
             np.diag(variance) + shared,
         )
 
-    def to_dataset(self, law: InterfaceLaw | None = None) -> xarray.Dataset:
+    def to_dataset(self, law: InterfaceLaw | None = None) -> Dataset:
         """Return the points as a labelled data set along ``point``, with units and long names.
 
         Parameters
@@ -180,8 +177,6 @@ class ShearStress(Plotted):
         InputError
             If the law is none.
         """
-        from viscofric.datasets import dataset
-
         reduced, reference, described = self.reduced_speed, self.reference, {}
         if law is not None:
             insist_on(law, "law", InterfaceLaw)

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from viscofric.arguments import text
 from viscofric.arrays import ComplexArray
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError, wrong_argument
 from viscofric.notes import Remedy, without
 from viscofric.rheology.shifts.laws import ShiftLaw
@@ -18,9 +19,6 @@ from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_tabl
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity, checked_poisson_ratio, positive
-
-if TYPE_CHECKING:
-    import xarray
 
 Spectrum = TypeVar("Spectrum", RetardationSpectrum, ModulusTable)
 
@@ -173,7 +171,7 @@ class Material(Plotted):
         """
         return self._moved(self.spectrum, temperature)  # type: ignore[type-var]
 
-    def to_dataset(self, temperature: Quantity | None = None) -> xarray.Dataset:
+    def to_dataset(self, temperature: Quantity | None = None) -> Dataset:
         """Return the modes, or the table of moduli, at a temperature as a labelled data set; see `at`."""
         return self.at(temperature).to_dataset()
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arguments import flag
 from viscofric.arrays import Array
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, codes
 from viscofric.rheology.material import Material
@@ -23,10 +23,6 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.showing import Plotted, Rows
 from viscofric.units import in_si, shown_celsius
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Factor to which the modulus is given beyond the measured frequencies, and number of frequencies.
 _BEYOND = 10.0
@@ -148,7 +144,7 @@ class Identified(Plotted):
         (first, last), band = self.frequency_range, self.identified
         return np.geomspace(min(first, band.low) / _BEYOND, max(last, band.high) * _BEYOND, _FREQUENCIES)
 
-    def to_dataset(self, angular_frequency: ArrayLike | None = None) -> xarray.Dataset:
+    def to_dataset(self, angular_frequency: ArrayLike | None = None) -> Dataset:
         """Return the modulus at the reference with its 95 % limits as a labelled data set.
 
         Parameters
@@ -279,12 +275,12 @@ class IdentifiedMaterial(Identified):
         low, high = self.level_range
         return super()._attributes() | {"level_lower": low, "level_upper": high}
 
-    def friction_dataset(self) -> xarray.Dataset:
+    def friction_dataset(self) -> Dataset:
         """Return `friction` as a labelled data set along ``point``, with the residuals as ``residual``."""
         label = {"units": "1", "long_name": "measured less fitted friction over the standard error"}
         return self.friction.points_dataset().assign(residual=("point", self.residuals, label))
 
-    def shift_dataset(self) -> xarray.Dataset | None:
+    def shift_dataset(self) -> Dataset | None:
         """Return α(T) at the temperatures of the friction as a labelled data set; None for one temperature."""
         law = self.shift_factors
         if law is None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.arrays import Array
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.friction.curve_words import LABELS
 from viscofric.friction.curves import FrictionCurves
@@ -21,9 +22,6 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantities, Quantity, positive, shown_celsius, shown_number, to_si_in_shape
-
-if TYPE_CHECKING:
-    import xarray
 
 
 @renamed(friction="friction_coefficient", error="friction_error", scatter="friction_scatter")
@@ -127,14 +125,12 @@ class FrictionMasterCurve(Plotted):
         kelvin = self.curves.temperatures
         return ShiftFactors(kelvin, self.shift.log10(kelvin), self.reference, self.shift.covariance_at(kelvin))
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the points as a labelled data set along ``point``, with units and long names.
 
         The friction is that at the load of the curve; the attributes are ``reference_temperature`` (K) and ``load`` (in
         the curves' `load_unit`).
         """
-        from viscofric.datasets import dataset
-
         return dataset(
             "point",
             {

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.arrays import Array
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.rheology.material import Material
@@ -17,10 +18,6 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.showing import Plotted, Rows
 from viscofric.units import shown_celsius, shown_number
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: A temperature closer than this to the reference is the reference, K.
 AT_REFERENCE = 1e-6
@@ -90,14 +87,12 @@ class ShiftAgreement(Plotted):
             ("reference", self.reference, "°C"),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return both sets of shift factors as a labelled data set along ``temperature``.
 
         The other ones are NaN where they are not known, their error zero where they are exact.  The agreement is in the
         attributes.
         """
-        from viscofric.datasets import dataset
-
         factors = self.found
         known, known_error = self.other.values_at(factors.temperatures)
         return dataset(

@@ -5,23 +5,19 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from viscofric.arguments import LARGEST, insist_on, numbers
 from viscofric.arrays import Array, Mask
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, brief
 from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw, shown_constant
 from viscofric.rheology.shifts.shift_law import ShiftLaw, checked_covariance, in_kelvin, in_shape
 from viscofric.showing import Rows, Shown
 from viscofric.units import Quantities, number, positive, share, shown_celsius, to_si_array, to_si_in_shape
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Decades on either side of a law's speed, where it was not fitted, in a data set.
 _DRAWN = 3.0
@@ -205,7 +201,7 @@ class InterfaceLaw(Shown, ABC):
             outside |= (kelvin < low - SAME_TEMPERATURE) | (kelvin > high + SAME_TEMPERATURE)
         return bool(outside) if outside.ndim == 0 else outside
 
-    def to_dataset(self, speeds: Quantities | None = None, temperatures: Quantities | None = None) -> xarray.Dataset:
+    def to_dataset(self, speeds: Quantities | None = None, temperatures: Quantities | None = None) -> Dataset:
         """Return τ_s over temperature and slip speed as a labelled data set.
 
         Parameters

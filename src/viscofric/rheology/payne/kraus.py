@@ -7,22 +7,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arrays import Array
 from viscofric.data import DEFORMATIONS
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.rheology.shifts.shift_law import checked_covariance
 from viscofric.showing import Plotted, Rows
 from viscofric.units import in_si, number, to_si
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Amplitudes that the law is drawn at.
 _DRAWN = 101
@@ -150,7 +146,7 @@ class KrausLaw(Plotted):
         value = number(strain, "strain")
         return math.sqrt(3.0) * value if self.deformation == "shear" else value
 
-    def to_dataset(self, strain: ArrayLike | None = None) -> xarray.Dataset:
+    def to_dataset(self, strain: ArrayLike | None = None) -> Dataset:
         """Return the moduli along ``strain_amplitude``, and the constants.
 
         Parameters

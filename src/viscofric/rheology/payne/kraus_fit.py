@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.amplitudes import AmplitudeSweep
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.payne.kraus import CONSTANTS, KrausLaw, kraus_moduli
@@ -20,10 +19,6 @@ from viscofric.rheology.superposition.shift_problem import inflation
 from viscofric.showing import Plotted, Rows, Shown
 from viscofric.threads import one_blas_thread
 from viscofric.units import number
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Points that the constants of both moduli, six, need.
 FEWEST = 6
@@ -70,7 +65,7 @@ class LinearRange(Shown):
             f"{100 * self.standard_error:.1g} %"
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return ``drop``, ``strain`` and ``standard_error``, fractions, as single numbers."""
         return dataset(
             (),
@@ -117,7 +112,7 @@ class PayneFit(Plotted):
             ("notes", self.notes),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the sweep as `AmplitudeSweep.to_dataset` does, with the law at its amplitudes.
 
         Returns

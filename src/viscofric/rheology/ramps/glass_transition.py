@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array, Mask
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamp
 from viscofric.rheology.superposition.shift_problem import inflation
 from viscofric.showing import Rows, Shown
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    import xarray
-
 
 PeakOf: TypeAlias = Literal["tan delta", "loss modulus"]
 #: The peak is drawn through points that are higher than this part of the highest one …
@@ -69,7 +65,7 @@ class GlassTransition(Shown):
         name = "tan δ" if self.by == "tan delta" else "loss modulus"
         return f"{name} at {hertz:.3g} Hz: {shown_celsius(self.temperature)} ± {self.standard_error:.2g} °C"
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the peak as single numbers.
 
         Returns

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.data import MasterCurve
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.ramps import TemperatureRamps
 from viscofric.rheology.ramps.glass_transition import GlassTransition
 from viscofric.rheology.shifts.laws import ShiftLaw
@@ -16,9 +16,6 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.superposition.consistency import REPRODUCIBILITY
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig
 from viscofric.showing import Plotted, Rows, Shown
-
-if TYPE_CHECKING:
-    import xarray
 
 
 @dataclass(frozen=True)
@@ -63,7 +60,7 @@ class RampCheck(Shown):
             f"common curves of E' and E''{own} (good up to {REPRODUCIBILITY:g} on top of their own)."
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the distances along the dimension ``ramp``, with the verdict as attributes.
 
         Returns
@@ -135,7 +132,7 @@ class RampSuperposition(Plotted):
             ("notes", self.notes),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the points along ``reading`` as `TemperatureRamps.to_dataset` does, with α(T).
 
         Returns

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts import law_fitting
@@ -17,9 +17,6 @@ from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
 from viscofric.rheology.shifts.law_fitting import FactorTable
 from viscofric.rheology.shifts.laws import WLF, InversePolynomial, ParametricLaw
 from viscofric.showing import Plotted, Rows
-
-if TYPE_CHECKING:
-    import xarray
 
 #: A kind of law: of shift factors, or of shear stress.
 Law = TypeVar("Law")
@@ -118,7 +115,7 @@ class LawComparison(Plotted, Generic[Law]):
         """The notes as one text."""
         return " ".join(self.notes)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the laws that could be fitted as a labelled data set.
 
         Returns

@@ -7,12 +7,13 @@ import io
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import Any, Literal, overload
 
 import numpy as np
 
 from viscofric.arguments import sentences, whole_number
 from viscofric.arrays import Array, Mask
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.files import file_path, write_atomically
 from viscofric.notes import Note, Remedy
@@ -31,10 +32,6 @@ from viscofric.units import (
     shown_number,
     to_si,
 )
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Two temperatures closer than this are the same one, to rounding of °C.
 _SAME_TEMPERATURE = 1e-9  # relative
@@ -121,7 +118,7 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         """True: a table without a covariance is treated as exact."""
         return True
 
-    def to_dataset(self, temperatures: Any = None) -> xarray.Dataset:
+    def to_dataset(self, temperatures: Any = None) -> Dataset:
         """Return the factors, at other temperatures than the table's if given, as a labelled data set.
 
         Returns

@@ -6,19 +6,16 @@ import inspect
 import math
 from abc import ABC, abstractmethod
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any, Self, TypeAlias, overload
+from typing import Any, Self, TypeAlias, overload
 
 import numpy as np
 
 from viscofric.arguments import numbers
 from viscofric.arrays import Array, Mask
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted
 from viscofric.units import Quantities, Quantity, kelvin_hint, to_si, to_si_array, to_si_in_shape
-
-if TYPE_CHECKING:
-    import xarray
 
 Temperatures: TypeAlias = Array | list[float] | list[str] | tuple[float, ...] | tuple[str, ...]
 
@@ -230,7 +227,7 @@ class ShiftLaw(Shift):
     def _covariance(self, kelvin: Array) -> Array:
         return np.zeros((kelvin.size, kelvin.size))
 
-    def to_dataset(self, temperatures: Any) -> xarray.Dataset:
+    def to_dataset(self, temperatures: Any) -> Dataset:
         """Return log10 α over temperatures (n,), K if plain numbers, as a labelled data set.
 
         Returns
@@ -243,7 +240,7 @@ class ShiftLaw(Shift):
         values, errors = self.values_at(kelvin)
         return self._dataset(kelvin, values, errors if self.has_standard_error else None)
 
-    def _dataset(self, kelvin: Array, values: Array, errors: Array | None) -> xarray.Dataset:
+    def _dataset(self, kelvin: Array, values: Array, errors: Array | None) -> Dataset:
         return dataset(
             "temperature",
             {

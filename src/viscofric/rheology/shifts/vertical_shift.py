@@ -5,20 +5,16 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.datasets import dataset, plain
+from viscofric.datasets import Dataset, dataset, plain
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.shift_law import NOMINAL, Shift, as_record, checked_columns
 from viscofric.showing import Rows
 from viscofric.units import Quantities, Quantity, kelvin_hint, positive, shown_celsius, to_si, to_si_array
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Volume expansivity of a pure-gum vulcanizate of natural rubber at 25 °C, 1/K.
 NATURAL_RUBBER_EXPANSION = 6.6e-4
@@ -34,7 +30,7 @@ class VerticalShift(Shift):
         """Return the standard error of log10 b at temperatures that `_refuse` accepts; None where it is not known."""
         return None
 
-    def to_dataset(self, temperatures: Any) -> xarray.Dataset:
+    def to_dataset(self, temperatures: Any) -> Dataset:
         """Return log10 b over temperatures (n,), K if plain numbers, as a labelled data set; errors as of `log10`.
 
         Returns
@@ -189,7 +185,7 @@ class VerticalShiftFactors(VerticalShift):
                 code="outside-measured",
             )
 
-    def to_dataset(self, temperatures: Any = None) -> xarray.Dataset:
+    def to_dataset(self, temperatures: Any = None) -> Dataset:
         """Return log10 b as a labelled data set, at the temperatures of the table unless others are given."""
         return super().to_dataset(self.temperatures if temperatures is None else temperatures)
 
@@ -212,7 +208,7 @@ class VerticalShiftFactors(VerticalShift):
         return VerticalShiftFactors(self.temperatures, self.log10_values, kelvin, change @ self.covariance @ change.T)
 
 
-def with_vertical_shift(factors: xarray.Dataset, vertical: VerticalShift | None, temperatures: Array) -> xarray.Dataset:
+def with_vertical_shift(factors: Dataset, vertical: VerticalShift | None, temperatures: Array) -> Dataset:
     """Return a data set of shift factors with b(T) at the same temperatures (K), where there is a vertical shift."""
     if vertical is None:
         return factors

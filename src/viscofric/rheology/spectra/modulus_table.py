@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from viscofric.arguments import insist_on, sentences
 from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
 from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
@@ -25,10 +26,6 @@ from viscofric.rheology.spectra.spectrum_fit import as_spectrum
 from viscofric.showing import Items, Rows, rows_of
 from viscofric.threads import one_blas_thread
 from viscofric.units import in_si, to_si
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Extrapolation of a table beyond its ends.
 Extrapolation: TypeAlias = Literal["refuse", "plateau"]
@@ -164,7 +161,7 @@ class ModulusTable(FrequencyResponse, Items[tuple[float, float, float]]):
     def _items(self) -> Sequence[tuple[float, float, float]]:
         return rows_of(self.angular_frequency, self.storage_modulus_values, self.loss_modulus_values)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return ``storage_modulus`` and ``loss_modulus`` (Pa) along ``angular_frequency`` (rad/s), as tabulated."""
         return self.modulus_dataset(self.angular_frequency)
 

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.notes import Note
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.showing import Rows, Shown
-
-if TYPE_CHECKING:
-    import xarray
 
 _EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
 _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
@@ -186,7 +183,7 @@ class SpectrumFit(Shown):
             "statements": json.dumps(list(self.notes), ensure_ascii=False),
         }
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the numbers of the fit.
 
         Returns

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arrays import Array, ComplexArray
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted
 from viscofric.units import in_si, positive
-
-if TYPE_CHECKING:
-    import xarray
 
 
 class FrequencyResponse(Plotted, ABC):
@@ -43,7 +39,7 @@ class FrequencyResponse(Plotted, ABC):
         modulus = self.complex_modulus(angular_frequency)
         return np.asarray(modulus.imag / modulus.real)
 
-    def modulus_dataset(self, angular_frequency: ArrayLike) -> xarray.Dataset:
+    def modulus_dataset(self, angular_frequency: ArrayLike) -> Dataset:
         """Return E' and E'' (Pa) over angular frequencies (n,), rad/s, as a labelled data set.
 
         Returns

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
 from viscofric.rheology.spectra.quality import SpectrumFit
@@ -20,10 +19,6 @@ from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift
 from viscofric.showing import Items, Rows, rows_of
 from viscofric.step_tests import StepMasterCurve, step_columns
 from viscofric.units import Quantity, in_si, positive, to_si
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Largest difference of 1/E_inf + ΣC from 1/E0, relative to 1/E0.
 BALANCE = 1e-6
@@ -148,7 +143,7 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         rubber = 1.0 / (1.0 / self.E_inf + float(np.sum(self.C)))
         return RelaxationSpectrum(rubber, E[::-1], 1.0 / rates[::-1])
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the modes as a labelled data set; `modulus_dataset` returns the moduli over frequency.
 
         Returns
@@ -166,7 +161,7 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
             attributes={"E0": self.E0, "E_inf": self.E_inf} | ({} if self.fit is None else self.fit.attributes),
         )
 
-    def master_curve_dataset(self, master_curve: MasterCurve) -> xarray.Dataset:
+    def master_curve_dataset(self, master_curve: MasterCurve) -> Dataset:
         """Return a master curve with this spectrum at the same points as a labelled data set.
 
         Parameters
@@ -193,7 +188,7 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         )
         return master_curve.to_dataset().assign(columns.data_vars).assign_attrs(columns.attrs)
 
-    def step_curve_dataset(self, curve: StepMasterCurve) -> xarray.Dataset:
+    def step_curve_dataset(self, curve: StepMasterCurve) -> Dataset:
         """Return a creep or relaxation master curve with this spectrum at the same points as a labelled data set.
 
         Parameters
@@ -348,7 +343,7 @@ class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         C, tau = reciprocal_modes(self.E0, self.E, self.tau)
         return RetardationSpectrum(self.E0, self.E_inf, C, tau)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the modes as a labelled data set; `modulus_dataset` returns the moduli over frequency.
 
         Returns

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.data import Isotherm, MasterCurve
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
@@ -22,9 +22,6 @@ from viscofric.rheology.superposition.overlap import LogSweep, OverlapQuality, O
 from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDistance, drift, neighbour_distances
 from viscofric.showing import Plotted, Rows
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    import xarray
 
 Verdict: TypeAlias = Literal["holds", "other factors", "not identified", "doubtful", "roughly", "fails", "untested"]
 
@@ -141,7 +138,7 @@ class SuperpositionCheck(Plotted):
         """Whether E' and E'' belong to each other; True where that was not tested."""
         return self.kramers_kronig is None or self.kramers_kronig.holds
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the temperatures (K) of the isotherms as a labelled data set, with the verdict as attributes."""
         *holding, causality = self.sentences
         return dataset(

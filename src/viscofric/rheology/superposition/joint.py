@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.data import MasterCurve
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
@@ -19,9 +20,6 @@ from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.showing import Plotted, Rows
 from viscofric.step_tests import StepMasterCurve
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    import xarray
 
 Part: TypeAlias = Superposition | StepSuperposition
 
@@ -70,7 +68,7 @@ class JointSuperposition(Plotted):
         """The vertical shift b(T), where one was requested; the same for all kinds."""
         return self.parts[0].vertical_shift
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the common shift factors as a labelled data set; see `ShiftFactors.to_dataset`."""
         return self.shift_factors.to_dataset()
 

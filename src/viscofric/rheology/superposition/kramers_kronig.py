@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.arrays import Array, Mask, non_negative_fit
 from viscofric.data import MasterCurve
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Bins per decade in which points are averaged: the relations need no more, and noise averages out.
 BINS = 8
@@ -67,7 +62,7 @@ class KramersKronig:
     def __repr__(self) -> str:
         return f"KramersKronig(loss scale {self.loss_scale:.2f} ± {self.loss_scale_error:.2f})"
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the deviations as a labelled data set along ``angular_frequency`` (reduced, rad/s)."""
         return dataset(
             "angular_frequency",

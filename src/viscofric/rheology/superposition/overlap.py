@@ -9,20 +9,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.arrays import Array, Mask
 from viscofric.data import Isotherm
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.showing import Rows, Shown
 from viscofric.step_tests import StepKind, StepTest
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Sweeps are slid along each other in steps of this many decades …
 STEP = 0.02
@@ -247,7 +242,7 @@ class OverlapQuality(Shown):
             "overlap_limit": LARGEST_OVERLAP,
         }
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the misfits as single numbers.
 
         Returns

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.data import MasterCurve
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.notes import Note
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -32,10 +32,6 @@ from viscofric.showing import Plotted, Rows, Shown
 from viscofric.step_tests import StepMasterCurve, StepTest
 from viscofric.threads import one_blas_thread
 from viscofric.units import shown_number
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Points of a test are averaged over so many equal parts of each decade of time.
 PER_DECADE = 20
@@ -105,7 +101,7 @@ class StepCheck(Shown):
         """True: one curve has no second one to contradict it."""
         return True
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the temperatures (K) of the tests as a labelled data set, with the verdict as attributes."""
         return dataset(
             "isotherm",
@@ -150,7 +146,7 @@ class Superposed(Plotted, Generic[Curve, Tested]):
         """Return what data sets say of the overlap."""
         raise NotImplementedError
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return shift factors, vertical shift and overlap of the isotherms as a labelled data set.
 
         Returns

@@ -6,23 +6,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from viscofric.arguments import insist_on_function
 from viscofric.arrays import Array
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.notes import Note
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.quality import beyond_note, covers
 from viscofric.rheology.uncertainty.residuals import SystematicMisfit
 from viscofric.showing import Items, Plotted, Rows
 from viscofric.units import Quantity, in_si, share
-
-if TYPE_CHECKING:
-    import xarray
 
 
 class _Limits(NamedTuple):
@@ -163,7 +160,7 @@ class MaterialSamples(Plotted, Items["Material"]):
 
     def to_dataset(
         self, angular_frequency: ArrayLike, temperature: Quantity | None = None, level: float = 0.95
-    ) -> xarray.Dataset:
+    ) -> Dataset:
         """Return the limits of `modulus_band` as a labelled data set.
 
         Parameters

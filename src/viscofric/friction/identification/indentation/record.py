@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.arguments import text
 from viscofric.arrays import Array
 from viscofric.data import read_only
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.motion.history import CONTROLS
 from viscofric.notes import Note
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantities, Quantity, positive, to_si, to_si_array
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: What was prescribed in a test; the other one is the response.
 Control: TypeAlias = Literal["load", "indentation"]
@@ -144,7 +140,7 @@ class IndentationRecord(Plotted):
             ("source", self.source or None),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the record as a labelled data set along ``row``.
 
         Returns

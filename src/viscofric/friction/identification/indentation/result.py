@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.friction.identification.indentation.setting_up import Record
 from viscofric.friction.identification.indentation.tables import OF_IMPACTS, STIFFNESSES
 from viscofric.friction.identification.result import Identified
 from viscofric.rheology.spectra.quality import FROM_INDENTATION
 from viscofric.showing import Plotted, Rows
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Quantity -> unit and long name.
 _FITTED = {
@@ -88,7 +84,7 @@ class FittedRecord(Plotted):
         """The quantity in words."""
         return _FITTED[self.quantity][1]
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the measured values and their fit as a labelled data set along ``point``.
 
         Returns

@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.arguments import text
 from viscofric.arrays import Array
 from viscofric.data import read_only
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, brief
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantities, Quantity, positive, share, to_si, to_si_array
 from viscofric.units import angular_frequency as frequency_of
-
-if TYPE_CHECKING:
-    import xarray
 
 #: Quantity -> unit, and long name.
 OF_IMPACTS = {
@@ -149,7 +145,7 @@ class ReboundRecord(Plotted):
     def __len__(self) -> int:
         return len(self.speed)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the record as a labelled data set along ``speed`` (m/s).
 
         Returns
@@ -268,7 +264,7 @@ class OscillationRecord(Plotted):
             ("source", self.source or None),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the record as a labelled data set along ``angular_frequency`` (rad/s).
 
         Returns
