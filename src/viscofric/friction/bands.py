@@ -107,14 +107,12 @@ class DrawnMaterials:
 def with_material_band(
     curves: FrictionCurves, sensitivities: Sequence[ComplianceSensitivity], drawn: DrawnMaterials
 ) -> FrictionCurves:
-    """Put the material's standard error and the limits of the 95 % band into predicted curves.
-
-    Limits are quantiles over the samples (Weibull's plotting position, as in `MaterialSamples`).  The misfit of the
-    spectrum to the measured moduli beyond noise (`MaterialSamples.misfit`) is not sampled; it counts as an independent
-    error of ln μ, taken at the frequency of the contact, speed over half its length.  Relative errors of E' and of E''
-    that are the same at all frequencies change friction as tan δ and the load rule do where the loss is small: Δln μ =
-    Δln E'' − (1 + ∂ln μ/∂ln F) Δln E', the two taken to be independent.
-    """
+    """Put the material's standard error and the limits of the 95 % band into predicted curves."""
+    # Limits are quantiles over the samples (Weibull's plotting position, as in `MaterialSamples`). The misfit of the
+    # spectrum to the measured moduli beyond noise (`MaterialSamples.misfit`) is not sampled; it counts as an
+    # independent error of ln μ, taken at the frequency of the contact, speed over half its length. Relative errors of
+    # E' and of E'' that are the same at all frequencies change friction as tan δ and the load rule do where the loss is
+    # small: Δln μ = Δln E'' − (1 + ∂ln μ/∂ln F) Δln E', the two taken to be independent.
     temperatures = [float(one) for one in curves.temperature]
     friction = np.array([drawn.friction(*pair) for pair in zip(sensitivities, temperatures, strict=True)])
     missed = np.array([drawn.missed(*pair) for pair in zip(sensitivities, temperatures, strict=True)])

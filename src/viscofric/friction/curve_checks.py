@@ -47,12 +47,10 @@ def shared_error(value: Quantity, name: str) -> float:
 
 
 def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
-    """Return the degrees of freedom of the standard errors of viscoelastic friction, (n,), and a note if inferred.
-
-    As given; else the replicates minus one; and where neither is given, from the scatter of the errors over
-    neighbouring speeds: ln s² of f degrees of freedom has the variance ψ′(f/2), and a smooth trend of the errors has no
-    second differences.  Infinite where the errors are known, or do not appear to scatter.
-    """
+    """Return the degrees of freedom of the standard errors of viscoelastic friction, (n,), and a note if inferred."""
+    # As given; else the replicates minus one; and where neither is given, from the scatter of the errors over
+    # neighbouring speeds: ln s² of f degrees of freedom has the variance ψ′(f/2), and a smooth trend of the errors has
+    # no second differences. Infinite where the errors are known, or do not appear to scatter.
     if curves.viscoelastic_freedom is not None:
         return np.maximum(curves.viscoelastic_freedom, 1.0), ()
     freedom = np.where(curves.replicates > 1, curves.replicates - 1.0, np.inf)
@@ -113,10 +111,8 @@ def scatter_about_parabolas(curves: FrictionCurves) -> float | None:
 
 
 def implausible(curves: FrictionCurves) -> tuple[Note, ...]:
-    """Return notes on friction that no rubber has, "too-steep" and "constant-friction".
-
-    The curves are at one load; points not above zero are ignored, and those of unknown error if others have one.
-    """
+    """Return notes on friction that no rubber has, "too-steep" and "constant-friction"."""
+    # The curves are at one load; points not above zero are ignored, and those of unknown error if others have one.
     curves = curves.select(curves.viscoelastic > 0.0)
     known = np.isfinite(curves.viscoelastic_error)
     if np.any(curves.viscoelastic_error[known] > 0.0):

@@ -126,10 +126,8 @@ class _Contact(NamedTuple):
         return np.asarray(peak * np.sqrt(np.maximum(square, 0.0)))
 
     def rough_rise(self) -> float:
-        """Return a rise of the right order, K, to find the points that matter.
-
-        The loss is on the face or, where that is less, spread over the half circle of the contact's radius below it.
-        """
+        """Return a rise of the right order, K, to find the points that matter."""
+        # The loss is on the face or, where that is less, spread over the half circle of the contact's radius below it.
         rubber, other = self.heating.face_resistances(self.speed, self.radius, self.is_line)
         resistances = ThermalResistances(rubber, rubber, rubber, rubber, 0.0, other)
         section = self.radius if self.is_line else 0.5 * math.pi * self.radius**2

@@ -63,11 +63,9 @@ def solve_indenter(
     fields: bool = False,
     **contact: Any,
 ) -> Record:
-    """Solve the contact of an indenter, with further arguments of `solve_steady`, SI.
-
-    The temperature (K) is only recorded, as the modes are those at this temperature.  If the derivatives of friction
-    by the material's compliance cannot be found, the record has none.
-    """
+    """Solve the contact of an indenter, with further arguments of `solve_steady`, SI."""
+    # The temperature (K) is only recorded, as the modes are those at this temperature. If the derivatives of friction
+    # by the material's compliance cannot be found, the record has none.
     rubber = Material(modes, poisson_ratio=poisson_ratio)
     if sensitive:
         try:

@@ -153,11 +153,9 @@ class SurfaceCase(Case):
         return f"friction curve at αv = {ratio:.3g} m/s{self.body_label}"
 
     def node(self, record: Record, rubbers: Rubbers, accuracy: float) -> Node:
-        """Return a solved contact of a family as a node of its curve.
-
-        The discretisation error is nearly the same in all contacts on the surface, apart from a ripple as points come
-        into contact one by one.  If the ripple exceeds what the accuracy allows, the curve is still refined.
-        """
+        """Return a solved contact of a family as a node of its curve."""
+        # The discretisation error is nearly the same in all contacts on the surface, apart from a ripple as points come
+        # into contact one by one. If the ripple exceeds what the accuracy allows, the curve is still refined.
         values, errors = np.array([getattr(record, name) for name in _NAMES]), np.zeros(len(_NAMES))
         errors[FRICTION] = min(_RIPPLE * record.friction_error, SHARE * accuracy * abs(values[FRICTION]))
         return Node(record, values, errors)

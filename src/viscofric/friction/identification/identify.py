@@ -295,11 +295,9 @@ def shifts_of(
 
 
 def with_shared_errors(points: Points, shifts: Shifts, shared: Array) -> tuple[Points, Shifts]:
-    """Return points with more errors in common (n, k), and shifts that may differ as these allow from the overlap's.
-
-    An error moves the curve of a temperature along a slope by as much as it differs there from a line over all points:
-    a line in the reduced speed tilts the master curve and moves no curve along it.
-    """
+    """Return points with more errors in common (n, k), and shifts that may differ as these allow from the overlap's."""
+    # An error moves the curve of a temperature along a slope by as much as it differs there from a line over all
+    # points: a line in the reduced speed tilts the master curve and moves no curve along it.
     shared = np.hstack([points.shared, shared])
     points = replace(points, shared=shared)
     if not shared.shape[1] or not shifts.found or len(shifts.middle) == 1:

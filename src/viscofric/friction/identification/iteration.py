@@ -202,11 +202,9 @@ def _first_solved(problem: AnyProblem, solver: Solver[AnyProblem], start: Array,
 
 
 def first_fit(problem: SpectrumProblem, start: Array) -> Array:
-    """Return unknowns that fit roughly, found with errors that are large at first and then smaller.
-
-    A fit with small errors from a distant start would end in a local minimum, where some points fit and others do not,
-    with shifts far apart; so shifts are held near their first guess meanwhile.
-    """
+    """Return unknowns that fit roughly, found with errors that are large at first and then smaller."""
+    # A fit with small errors from a distant start would end in a local minimum, where some points fit and others do
+    # not, with shifts far apart; so shifts are held near their first guess meanwhile.
     shifts = problem.shifts
     if shifts.found:
         held = np.concatenate([shifts.whitening, np.eye(len(shifts.middle)) / HELD])

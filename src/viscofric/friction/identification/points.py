@@ -223,14 +223,12 @@ class SharedErrors(NamedTuple):
 
 
 def relative_errors(curves: FrictionCurves) -> Array:
-    """Return standard errors of ln μ, moderated towards the common one.
-
-    The scatter of few replicates is a poor estimate, with an error of a quarter for eight; weights by it would make the
-    fit worse than its errors.  With ν0 the freedom of the common variance s0², that of a point is
-    (ν0 s0² + ν s²)/(ν0 + ν); ν0 follows from the scatter of ln s² beyond chance.  The error of a mean then has
-    Student's distribution of ν0 + ν degrees of freedom, whose variance is larger by (ν0 + ν)/(ν0 + ν − 2) (G. K.
-    Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) 3).
-    """
+    """Return standard errors of ln μ, moderated towards the common one."""
+    # The scatter of few replicates is a poor estimate, with an error of a quarter for eight; weights by it would make
+    # the fit worse than its errors. With ν0 the freedom of the common variance s0², that of a point is (ν0 s0² + ν
+    # s²)/(ν0 + ν); ν0 follows from the scatter of ln s² beyond chance. The error of a mean then has Student's
+    # distribution of ν0 + ν degrees of freedom, whose variance is larger by (ν0 + ν)/(ν0 + ν − 2) (G. K. Smyth, Stat.
+    # Appl. Genet. Mol. Biol. 3 (2004) 3).
     errors = curves.viscoelastic_error / curves.viscoelastic
     freedom, _ = error_freedom(curves)
     known = np.isfinite(freedom) & (errors > 0.0)
@@ -241,10 +239,8 @@ def relative_errors(curves: FrictionCurves) -> Array:
 
 
 def moderated_variances(variances: Array, freedom: Array) -> Array:
-    """Return sample variances (n,) with their degrees of freedom (n,), shrunk towards the common one.
-
-    They are those of Student's distribution.
-    """
+    """Return sample variances (n,) with their degrees of freedom (n,), shrunk towards the common one."""
+    # They are those of Student's distribution.
     from scipy.special import digamma
 
     half = 0.5 * freedom

@@ -96,10 +96,8 @@ def draws(
 
 
 def correlation(residuals: Array) -> float:
-    """Return by how many standard deviations successive residuals are more alike than independent ones.
-
-    J. von Neumann et al., Annals of Mathematical Statistics 12 (1941) 153.
-    """
+    """Return by how many standard deviations successive residuals are more alike than independent ones."""
+    # J. von Neumann et al., Annals of Mathematical Statistics 12 (1941) 153.
     n = len(residuals)
     ratio = float(np.sum(np.diff(residuals) ** 2) / (residuals @ residuals))
     return float((1.0 - 0.5 * ratio) * np.sqrt((n**2 - 1.0) / (n - 2.0)))

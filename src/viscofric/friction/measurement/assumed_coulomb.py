@@ -73,11 +73,9 @@ class Assumed:
         return not self.constant or np.unique(group.disc_sign * group.slip_sign).size == 1
 
     def completed(self, entries: list[Entry]) -> list[Entry]:
-        """Separate the friction of one direction of slip where Coulomb friction is constant.
-
-        Its forces along the disc's motion are μ_v ± μ_c, + where the disc is faster than the ball.  Neither is
-        negative, so that μ_c is at most the lowest of them with +, and at least the highest of −(μ_v − μ_c) with −.
-        """
+        """Separate the friction of one direction of slip where Coulomb friction is constant."""
+        # Its forces along the disc's motion are μ_v ± μ_c, + where the disc is faster than the ball. Neither is
+        # negative, so that μ_c is at most the lowest of them with +, and at least the highest of −(μ_v − μ_c) with −.
         entries = list(entries)
         remaining = [place for place, one in enumerate(entries) if self.constant and one.fit.coulomb is not None]
         while remaining:

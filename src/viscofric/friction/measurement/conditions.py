@@ -29,12 +29,10 @@ class Course:
 
 
 def of_the_disc(runs: TractionRuns) -> Course:
-    """Return the disc's speed of each reading; for those of one point of a test, the mean.
-
-    A machine that reverses slip at a constant mean speed of disc and ball moves its disc faster with one
-    direction of slip than with the other; readings of one step and time are nevertheless one point.  Where such a
-    machine fails to reverse the slip, the slip is below its error and is taken as zero.
-    """
+    """Return the disc's speed of each reading; for those of one point of a test, the mean."""
+    # A machine that reverses slip at a constant mean speed of disc and ball moves its disc faster with one direction of
+    # slip than with the other; readings of one step and time are nevertheless one point. Where such a machine fails to
+    # reverse the slip, the slip is below its error and is taken as zero.
     speed = np.abs(runs.disc_speed)
     sense = np.sign(runs.disc_speed)
     slip = sense * (runs.disc_speed - runs.ball_speed)
@@ -322,11 +320,9 @@ def conditions(
 
 
 def _jitter(speed: Array, senses: Integers) -> float:
-    """Return the standard deviation of relative speeds, apart from their difference between the senses of slip.
-
-    Where a ball rolls, the sense of its slip is jitter too, and the speeds of one sense scatter less than all do,
-    by a factor of √(1 − 2/π) = 0.603 where the disc alone jitters and all is normal.
-    """
+    """Return the standard deviation of relative speeds, apart from their difference between the senses of slip."""
+    # Where a ball rolls, the sense of its slip is jitter too, and the speeds of one sense scatter less than all do, by
+    # a factor of √(1 − 2/π) = 0.603 where the disc alone jitters and all is normal.
     apart = speed.copy()
     for rows in _equal_rows(senses):
         apart[rows] -= speed[rows].mean()

@@ -199,11 +199,9 @@ def constant_force(runs: TractionRuns) -> Iterator[Note]:
 
 
 def without_unnoticed_slip(entries: list[Entry]) -> tuple[list[Entry], list[Note]]:
-    """Compare viscoelastic friction in pure rolling with that of the largest slip at the same speed.
-
-    Slip too small to be measured can still transmit much of Coulomb friction, with one sign.  Returns the conditions
-    where it does not, and notes on the others.
-    """
+    """Compare viscoelastic friction in pure rolling with that of the largest slip at the same speed."""
+    # Slip too small to be measured can still transmit much of Coulomb friction, with one sign. Returns the conditions
+    # where it does not, and notes on the others.
     sliding = defaultdict(list)
     for entry in entries:
         if entry.fit.slides and entry.fit.coulomb is None:
@@ -297,11 +295,9 @@ def _deviations(runs: TractionRuns, group: Condition, zero: float) -> Array:
 
 
 def _of_few(n: int) -> float:
-    """Return the factor by which a reading may be farther from a median of few.
-
-    The median of n readings has a variance of π/2n, and the median absolute deviation of n is too small by a factor of
-    about (n − 0.8)/n (C. Croux, P. J. Rousseeuw, Computational Statistics 1, 411–428, 1992).
-    """
+    """Return the factor by which a reading may be farther from a median of few."""
+    # The median of n readings has a variance of π/2n, and the median absolute deviation of n is too small by a factor
+    # of about (n − 0.8)/n (C. Croux, P. J. Rousseeuw, Computational Statistics 1, 411–428, 1992).
     return float(np.sqrt(1.0 + 0.5 * np.pi / n)) * n / (n - 0.8)
 
 

@@ -42,11 +42,9 @@ class Drift:
 
     @classmethod
     def of(cls, fits: list[Fit]) -> Drift:
-        """Estimate the drift from the fitted zeros.
-
-        Each replicate's zero is fitted at the mean time of its readings.  The rate is that of one straight line for
-        each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
-        """
+        """Estimate the drift from the fitted zeros."""
+        # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
+        # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
         fitted = [fit for fit in fits if fit.fits_offset]
         follows = _follows(fitted)
         plain = cls(follows=follows).weights

@@ -116,12 +116,10 @@ class Pool:
 
     @classmethod
     def of(cls, some: list[Scatter], sizes: Array, isotherms: Array) -> Pool:
-        """Analyse the variance, in which the speeds of one run may share a part.
-
-        Sums of squares of the means of runs over speeds, and of the rest, each have their own degrees of freedom;
-        those of their sum follow from F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110.  They are few where all
-        speeds of a run deviate together, and those of all conditions where they deviate independently.
-        """
+        """Analyse the variance, in which the speeds of one run may share a part."""
+        # Sums of squares of the means of runs over speeds, and of the rest, each have their own degrees of freedom;
+        # those of their sum follow from F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110. They are few where all
+        # speeds of a run deviate together, and those of all conditions where they deviate independently.
         between, within = np.zeros((0, 2)), np.zeros((0, 2))
         speeds = 1.0
         for kelvin in np.unique(isotherms):

@@ -240,11 +240,9 @@ def _times(runs: TractionRuns, group: Condition) -> Array:
 
 
 def _replicates(runs: TractionRuns, group: Condition) -> tuple[Indices, Indices]:
-    """Return the indices of the replicates, and of the steps, of a condition's readings.
-
-    Readings of one step are no repetitions of the test.  Where their replicate numbers differ, the steps are the
-    replicates if each has all configurations; else the first step of each configuration is in the first replicate.
-    """
+    """Return the indices of the replicates, and of the steps, of a condition's readings."""
+    # Readings of one step are no repetitions of the test. Where their replicate numbers differ, the steps are the
+    # replicates if each has all configurations; else the first step of each configuration is in the first replicate.
     _, replicate = np.unique(runs.replicate[group.rows], return_inverse=True)
     if runs.step is None:
         return replicate, replicate

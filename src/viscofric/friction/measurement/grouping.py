@@ -100,10 +100,8 @@ def _splits(runs: TractionRuns, group: Condition, zeros: Zeros) -> list[_Split]:
 
 
 def _two_groups(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> dict[int, _Split]:
-    """Return, by the place of their condition, the forces of a configuration that fall into two groups.
-
-    The scatter is that of all conditions, as a few readings are far apart for their own scatter by chance.
-    """
+    """Return, by the place of their condition, the forces of a configuration that fall into two groups."""
+    # The scatter is that of all conditions, as a few readings are far apart for their own scatter by chance.
     every = [_splits(runs, group, zeros) for group in groups]
     expected = sum(one.size * float(np.interp(one.size, *_SPLITS[:2])) ** 2 for splits in every for one in splits)
     noise = math.sqrt(sum(one.squares for splits in every for one in splits) / expected) if expected > 0.0 else 0.0

@@ -54,12 +54,10 @@ class Zeros:
 
     @classmethod
     def _recorded(cls, runs: TractionRuns, zero: Array) -> Zeros:
-        """Collect the recordings in the order of the test; equal ones in succession are one.
-
-        A single recording's error is √(½ mean (z_{k+1} − z_k)²), which includes its scatter and the drift until the
-        next recording, but no slow drift.  For k recordings that only scatter it has 2(k−1)²/(3k−4)
-        degrees of freedom (J. von Neumann et al., Annals of Mathematical Statistics 12, 153–162, 1941).
-        """
+        """Collect the recordings in the order of the test; equal ones in succession are one."""
+        # A single recording's error is √(½ mean (z_{k+1} − z_k)²), which includes its scatter and the drift until the
+        # next recording, but no slow drift. For k recordings that only scatter it has 2(k−1)²/(3k−4) degrees of freedom
+        # (J. von Neumann et al., Annals of Mathematical Statistics 12, 153–162, 1941).
         key = runs.step if runs.step is not None else runs.time
         order = np.arange(len(runs)) if key is None else np.argsort(key, kind="stable")
         order = order[np.isfinite(zero[order])]
@@ -143,11 +141,9 @@ class Zeros:
 
 
 def wanders(values: Array) -> bool:
-    """Whether successive values are closer than by chance, so that they drift.
-
-    The mean square of their successive differences over their variance is about 2 for independent ones, with variance
-    4(n−2)/(n²−1) (von Neumann, Annals of Mathematical Statistics 12, 367–395, 1941).
-    """
+    """Whether successive values are closer than by chance, so that they drift."""
+    # The mean square of their successive differences over their variance is about 2 for independent ones, with variance
+    # 4(n−2)/(n²−1) (von Neumann, Annals of Mathematical Statistics 12, 367–395, 1941).
     count = values.size
     if count < _FEWEST_FOR_DRIFT or np.ptp(values) <= ROUNDING * np.abs(values).max():
         return False

@@ -51,11 +51,10 @@ MOST_LISTED = 9
 
 
 def widening(margin: float) -> float:
-    """Return the factor by which the variance of a shift grows because its overlap was selected.
-
-    With D standard errors between the shift and the end where curves no longer overlap, found if D > 3, the true
-    distance δ has the likelihood φ(D − δ)/Φ(δ − 3); with any δ ≥ 0 as likely as another, this is the mean of (D − δ)².
-    """
+    """Return the factor by which the variance of a shift grows because its overlap was selected."""
+    # With D standard errors between the shift and the end where curves no longer overlap, found if D > 3, the true
+    # distance δ has the likelihood φ(D − δ)/Φ(δ − 3); with any δ ≥ 0 as likely as another, this is the mean of (D −
+    # δ)².
     from scipy.special import log_ndtr
 
     threshold = math.sqrt(CONTRADICTION)

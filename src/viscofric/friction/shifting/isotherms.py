@@ -106,12 +106,11 @@ def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
 
 
 def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[Indices]) -> Array:
-    """Pool the squared errors of each temperature; a point without an error gets the typical one.
-
-    A standard error of few replicates is itself uncertain, and scattering weights cost precision that the fit does not
-    account for.  So squares are pooled with the typical one of their temperature, which counts for as many replicates
-    as their scatter over the points allows (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) article 3).
-    """
+    """Pool the squared errors of each temperature; a point without an error gets the typical one."""
+    # A standard error of few replicates is itself uncertain, and scattering weights cost precision that the fit does
+    # not account for. So squares are pooled with the typical one of their temperature, which counts for as many
+    # replicates as their scatter over the points allows (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) article
+    # 3).
     known = np.isfinite(error)
     if not np.any(error[known] > 0.0):
         return np.full(error.shape, UNKNOWN_ERROR**2)

@@ -146,11 +146,9 @@ def scan_pairs(isotherms: Sequence[FrictionIsotherm], scale: float) -> dict[tupl
 
 
 def _with_those_between(places: tuple[int, int], pair: Pair, pairs: Pairs) -> Pair:
-    """Drop the steps that most temperatures between the two contradict.
-
-    α falls with temperature, so that a curve between two others lies between them.  Similar stretches of a curve, such
-    as the flanks of two maxima, may coincide at a step that leaves no position for the temperatures between.
-    """
+    """Drop the steps that most temperatures between the two contradict."""
+    # α falls with temperature, so that a curve between two others lies between them. Similar stretches of a curve, such
+    # as the flanks of two maxima, may coincide at a step that leaves no position for the temperatures between.
     between = range(places[0] + 1, places[1])
     if not pair.candidates or not between:
         return pair

@@ -155,11 +155,9 @@ def shift_friction(
 
 
 def _below_zero(curves: FrictionCurves) -> Iterator[Note]:
-    """Yield the number of points of negative friction, which is impossible for rubber.
-
-    As many as chance does not explain, of all points together (Y. Benjamini and Y. Hochberg, J. R. Stat. Soc. B 57
-    (1995) 289).
-    """
+    """Yield the number of points of negative friction, which is impossible for rubber."""
+    # As many as chance does not explain, of all points together (Y. Benjamini and Y. Hochberg, J. R. Stat. Soc. B 57
+    # (1995) 289).
     from scipy.special import ndtr, stdtr
 
     # Separated from Coulomb friction without an error, it has that of rounding.

@@ -219,10 +219,8 @@ def compare_shift_factors(
 
 
 def _independent(spread: Array) -> Array:
-    """Return the independent combinations (m, n) of values.
-
-    With a reference between temperatures the values around it are related by interpolation, and there is one less.
-    """
+    """Return the independent combinations (m, n) of values."""
+    # With a reference between temperatures the values around it are related by interpolation, and there is one less.
     variance, axes = np.linalg.eigh(spread)
     keep = variance > INTERPOLATED * variance[-1]
     return np.asarray(axes[:, keep].T if keep.any() else np.eye(len(spread)))

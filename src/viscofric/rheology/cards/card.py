@@ -137,11 +137,9 @@ class Solid:
 
 
 def number_text(value: float, longest: int) -> str:
-    """Return a finite number as text of at most `longest` (≥ 19) characters, with a decimal point.
-
-    All digits are kept where they fit: 20 characters hold 16 of the 17 digits, 19 hold 15 (two fewer where the exponent
-    has three digits).
-    """
+    """Return a finite number as text of at most `longest` (≥ 19) characters, with a decimal point."""
+    # All digits are kept where they fit: 20 characters hold 16 of the 17 digits, 19 hold 15 (two fewer where the
+    # exponent has three digits).
     for text in (repr(float(value)), *(f"{value:.{digits}g}" for digits in (17, 16, 15, 14, 13, 12))):
         mantissa, _, exponent = text.partition("e")
         mantissa += "" if "." in mantissa else ".0"

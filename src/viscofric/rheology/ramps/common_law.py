@@ -120,11 +120,9 @@ def _likelihood(basis: Array, penalty: Array, moduli: Array, same: Mask, alike: 
 
 
 def _expected(criterion: Array) -> float:
-    """Return the correlation, given −2 log of the likelihood at `CORRELATIONS`.
-
-    The variance of fitted parameters grows by (1 + ρ)/(1 − ρ), so ρ is chosen by the mean of this factor over the
-    likelihood: for 250 points with ρ = 0.7, the most likely ρ is 0.68, which made standard errors 4 % too small.
-    """
+    """Return the correlation, given −2 log of the likelihood at `CORRELATIONS`."""
+    # The variance of fitted parameters grows by (1 + ρ)/(1 − ρ), so ρ is chosen by the mean of this factor over the
+    # likelihood: for 250 points with ρ = 0.7, the most likely ρ is 0.68, which made standard errors 4 % too small.
     weight = np.exp(0.5 * (criterion.min() - criterion))
     weight[[0, -1]] *= 0.5
     growth = float(np.average((1.0 + CORRELATIONS) / (1.0 - CORRELATIONS), weights=weight))
@@ -163,10 +161,8 @@ class RampPoints:
         return np.asarray(self.ramp[1:] == self.ramp[:-1])
 
     def shared(self, reduced: Array) -> float:
-        """Return the part of the points that lie over others of another temperature and another ramp.
-
-        Points that are pulled apart, each on a piece of curve of its own, would have no scatter.
-        """
+        """Return the part of the points that lie over others of another temperature and another ramp."""
+        # Points that are pulled apart, each on a piece of curve of its own, would have no scatter.
         place = np.unique(np.floor(reduced / KNOT_SPACING), return_inverse=True)[1]
         size = int(place.max()) + 1
         spans = []

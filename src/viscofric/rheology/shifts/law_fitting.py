@@ -151,14 +151,12 @@ def criterion(law: ParametricLaw, table: FactorTable) -> float:
 
 
 def criterion_of(family: Model, table: Table, parameters: Array) -> float:
-    """Return Akaike's criterion, −2 ln L + 2k, of a fitted law, at constants of greatest likelihood.
-
-    k is the number of constants, a glass transition between two laws counting for three.
-    L is the Gaussian likelihood of the n − 1 differences of neighbouring values, whose covariance is the measured one
-    plus that of an independent scatter s in every value.  No law is exact, and few factors do not show how large s is:
-    L is averaged over s, from `SMALLEST_MISFIT` on, with the density 1/(1 + (s/m)²) of m = `USUAL_MISFIT`.
-    So L stays finite where a law passes through all factors.
-    """
+    """Return Akaike's criterion, −2 ln L + 2k, of a fitted law, at constants of greatest likelihood."""
+    # k is the number of constants, a glass transition between two laws counting for three. L is the Gaussian likelihood
+    # of the n − 1 differences of neighbouring values, whose covariance is the measured one plus that of an independent
+    # scatter s in every value. No law is exact, and few factors do not show how large s is: L is averaged over s, from
+    # `SMALLEST_MISFIT` on, with the density 1/(1 + (s/m)²) of m = `USUAL_MISFIT`. So L stays finite where a law passes
+    # through all factors.
     scatter = np.geomspace(SMALLEST_MISFIT, LARGEST_SCATTER, 25)
     weight = scatter / (1.0 + (scatter / USUAL_MISFIT) ** 2)  # of equal steps of ln s
     logarithms = np.array([_log_density(family, table, parameters, float(one) ** 2) for one in scatter])
@@ -183,12 +181,10 @@ def _not_described(table: FactorTable, kind: str) -> InputError:
 
 
 def with_misfit(family: Model, table: Table, bare: Solution) -> tuple[Solution, float]:
-    """Fit with the least independent scatter per temperature (decades) that makes the misfit plausible.
-
-    The scatter σ² solves χ²(σ²) = degrees of freedom (R. C. Paule, J. Mandel, J. Res. Natl. Bur. Stand. 87 (1982)
-    377); it is zero where the uncertainties explain the misfit of the fit without it, and where no degree of freedom
-    is left to find it.
-    """
+    """Fit with the least independent scatter per temperature (decades) that makes the misfit plausible."""
+    # The scatter σ² solves χ²(σ²) = degrees of freedom (R. C. Paule, J. Mandel, J. Res. Natl. Bur. Stand. 87 (1982)
+    # 377); it is zero where the uncertainties explain the misfit of the fit without it, and where no degree of freedom
+    # is left to find it.
     freedom = len(table) - family.size
     if freedom == 0 or bare.chi2 <= freedom:
         return bare, 0.0

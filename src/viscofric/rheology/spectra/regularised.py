@@ -95,13 +95,11 @@ def corner(misfit: Misfit, fits: list[Modes]) -> int:
 
 
 def cross_validated(misfit: CurveMisfit, tau: Array, isotherm: Array) -> int:
-    """Return the index of the strength that best predicts isotherms left out of the fit.
-
-    The isotherms, identified by the temperature (N,) of each point, are distributed over `FOLDS` folds in turn; single
-    points, if there are fewer isotherms.  Points of one isotherm have common errors, so that leaving out single ones
-    would choose too weak a strength.  Points beyond the frequencies of those that remain do not count: a fit
-    extrapolates there, whatever its strength.
-    """
+    """Return the index of the strength that best predicts isotherms left out of the fit."""
+    # The isotherms, identified by the temperature (N,) of each point, are distributed over `FOLDS` folds in turn;
+    # single points, if there are fewer isotherms. Points of one isotherm have common errors, so that leaving out single
+    # ones would choose too weak a strength. Points beyond the frequencies of those that remain do not count: a fit
+    # extrapolates there, whatever its strength.
     names, number = np.unique(isotherm, return_inverse=True)
     fold = (number if len(names) >= FOLDS else np.arange(len(isotherm))) % FOLDS
     logarithms = misfit.target.reshape(-1, len(misfit.rates)).T

@@ -139,11 +139,9 @@ def _tidied(misfit: Misfit, modes: Modes) -> Modes:
 
 
 def fewest_modes(misfit: Misfit, largest_error: float, most: int) -> Modes:
-    """Return the fit of fewest modes whose joint error is not above a given one, or of `most` modes if none is.
-
-    The error falls with the number of modes.  The search begins at one mode per decade, where it falls most steeply,
-    steps up or down until the answer is enclosed, and bisects.
-    """
+    """Return the fit of fewest modes whose joint error is not above a given one, or of `most` modes if none is."""
+    # The error falls with the number of modes. The search begins at one mode per decade, where it falls most steeply,
+    # steps up or down until the answer is enclosed, and bisects.
     fits: dict[int, Modes] = {}
 
     def meets(number: int) -> bool:

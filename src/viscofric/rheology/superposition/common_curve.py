@@ -124,10 +124,8 @@ def knots_for(frequency: Array, points: int = POINTS_PER_KNOT) -> tuple[Array, i
 
 
 def splines(knots: Array, degree: int, at: Array) -> Array:
-    """Return basis functions at points (n,), and their first and second derivatives: (3, n, K).
-
-    Beyond the ends the outermost polynomials continue.  C. de Boor, J. Approx. Theory 6 (1972) 50.
-    """
+    """Return basis functions at points (n,), and their first and second derivatives: (3, n, K)."""
+    # Beyond the ends the outermost polynomials continue. C. de Boor, J. Approx. Theory 6 (1972) 50.
     size, count = len(knots) - degree - 1, len(at)
     interval = np.clip(np.searchsorted(knots, at, side="right") - 1, degree, size - 1)
     around = knots[interval + np.arange(1 - degree, degree + 1)[:, None]]  # from `degree` before to as many after

@@ -143,11 +143,9 @@ def _search(problem: ShiftProblem, joins: list[Join]) -> _Search:
 
 
 def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantities) -> CommonShifts:
-    """Continue with offsets of whole isotherms; errors include these, and the profiles of the steps.
-
-    A curve of one modulus hardly shows offsets, since a shift takes most of each.  Where one quantity is shifted, both
-    moduli, with shifts of their own, show the offsets that its errors include; the shifts found depend on it alone.
-    """
+    """Continue with offsets of whole isotherms; errors include these, and the profiles of the steps."""
+    # A curve of one modulus hardly shows offsets, since a shift takes most of each. Where one quantity is shifted, both
+    # moduli, with shifts of their own, show the offsets that its errors include; the shifts found depend on it alone.
     search, own, gradient = _beside_offsets(search)
     if search.problem.moduli == 1 and not quantities.alone and np.any(own.covariance):
         return _with_offsets_of_tests(search, own, sweeps, quantities)
@@ -173,11 +171,9 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
 def _with_offsets_of_tests(
     search: _Search, offsets: Offsets, sweeps: list[LogSweep], quantities: Quantities
 ) -> CommonShifts:
-    """Continue to the most likely shifts of step tests, with offsets of the size found.
-
-    Where residuals are correlated even without the offsets, the variance of the points is increased, and the search is
-    repeated.
-    """
+    """Continue to the most likely shifts of step tests, with offsets of the size found."""
+    # Where residuals are correlated even without the offsets, the variance of the points is increased, and the search
+    # is repeated.
     problem, ways, size = search.problem, search.problem.ways, search.problem.size
     spread: Array = np.asarray(np.kron(offsets.covariance, np.eye(size)), dtype=float)
     free = slice(size)
@@ -259,12 +255,10 @@ def _descend(problem: ShiftProblem, parameters: Array, smoothers: list[Smoother]
 
 
 def _covariance(search: _Search, expected: Array | None = None) -> tuple[Array, float, Array]:
-    """Return the covariance of the shifts, the degrees of freedom of the scatter, and the inverse of the curvature.
-
-    The exact second derivatives are taken, not those of Gauss and Newton, which take the noise in the slope of the
-    curves for information.  Where they are small or negative (a plateau, far from quadratic), a part of the latter is
-    kept.
-    """
+    """Return the covariance of the shifts, the degrees of freedom of the scatter, and the inverse of the curvature."""
+    # The exact second derivatives are taken, not those of Gauss and Newton, which take the noise in the slope of the
+    # curves for information. Where they are small or negative (a plateau, far from quadratic), a part of the latter is
+    # kept.
     problem, ways = search.problem, search.problem.ways
     state = problem.state(search.parameters, search.smoothers, search.noise, expected, exact=True)
     normal, curvature, score = (ways.T @ matrix @ ways for matrix in (state.normal, state.curvature, state.score))

@@ -102,10 +102,8 @@ def continued(values: Array, gauge: Gauge, first: int, last: int) -> Array:
 
 
 def continued_covariance(covariance: Array, gauge: Gauge, first: int, last: int) -> Array:
-    """Return the covariance (n, n) of continued shifts from that of the fitted ones (m, m).
-
-    It grows: from step to step the rate of change with 1/T may change by `BEND`.
-    """
+    """Return the covariance (n, n) of continued shifts from that of the fitted ones (m, m)."""
+    # It grows: from step to step the rate of change with 1/T may change by `BEND`.
     inverse = gauge.inverse_temperatures
     size = len(inverse)
     spread = np.zeros((size, size))

@@ -185,10 +185,8 @@ def _non_negative(basis: Array, size: Array, weight: Array, target: Array | None
 
 
 def _scale(rise: Array, storage: Array, weight: Array) -> tuple[float, float]:
-    """Return the factor by which the rise that E'' requires exceeds that of E', and its relative standard error.
-
-    E' = E0 + rise/factor by least squares of relative errors, E0 not below zero.
-    """
+    """Return the factor by which the rise that E'' requires exceeds that of E', and its relative standard error."""
+    # E' = E0 + rise/factor by least squares of relative errors, E0 not below zero.
     rows = weight / storage
     matrix = np.stack([rows, rows * rise], axis=1)
     size = np.linalg.norm(matrix, axis=0)

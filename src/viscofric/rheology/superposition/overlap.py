@@ -84,11 +84,9 @@ class Join:
 
 
 def join(colder: LogSweep, warmer: LogSweep) -> Join:
-    """Slide one sweep along the other and find where their quantities (E' and E'') overlap best, jointly.
-
-    The colder one is compared at its own points, as in `OverlapQuality`.  Where the data do not fix the step (a
-    plateau), the smallest of the equally good steps is taken.
-    """
+    """Slide one sweep along the other and find where their quantities (E' and E'') overlap best, jointly."""
+    # The colder one is compared at its own points, as in `OverlapQuality`. Where the data do not fix the step (a
+    # plateau), the smallest of the equally good steps is taken.
     lowest, highest = steps_that_overlap(colder, warmer)
     steps = np.linspace(lowest, highest, max(3, int((highest - lowest) / STEP)))
     frequency = colder.frequency + steps[:, None]
@@ -128,11 +126,9 @@ def steps_that_overlap(colder: LogSweep, warmer: LogSweep) -> tuple[float, float
 
 
 def allowed_half_width(moves: Array, rise: Array, threshold: float) -> float:
-    """Return half of the interval about zero of moves, ascending, whose rise is below a threshold.
-
-    It is the root mean square of the two sides where these differ by no more than noise explains, else the wider side.
-    Between moves the root of the rise is interpolated linearly, which is exact for a parabola about zero.
-    """
+    """Return half of the interval about zero of moves, ascending, whose rise is below a threshold."""
+    # It is the root mean square of the two sides where these differ by no more than noise explains, else the wider
+    # side. Between moves the root of the rise is interpolated linearly, which is exact for a parabola about zero.
     allowed = np.flatnonzero(rise <= threshold)
     ends = []
     for last, beyond in ((allowed[0], allowed[0] - 1), (allowed[-1], allowed[-1] + 1)):

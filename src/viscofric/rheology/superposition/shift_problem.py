@@ -62,10 +62,8 @@ class Piece:
         return self.last - self.first
 
     def reduced(self, shifts: Array, vertical: Array) -> tuple[Array, Array, Array]:
-        """Return frequencies and moduli of all points at one temperature, that of the mean shift, and weights.
-
-        So moving all isotherms together changes nothing, whatever the knots.
-        """
+        """Return frequencies and moduli of all points at one temperature, that of the mean shift, and weights."""
+        # So moving all isotherms together changes nothing, whatever the knots.
         inside = slice(self.first, self.last)
         return (
             self.frequency + (shifts[inside] - shifts[inside].mean())[self.isotherm],
@@ -266,11 +264,9 @@ def _derivatives(
     weights: Array,
     exact: bool,
 ) -> State:
-    """Return cost, gradient and curvature of one piece, with the curves refitted at all shifts.
-
-    With M = 1 − B (BᵀB + λP)⁻¹ Bᵀ, y a modulus, w its weight and s a shift, the cost is the sum of w yᵀMy.  Both its
-    derivatives are exact.
-    """
+    """Return cost, gradient and curvature of one piece, with the curves refitted at all shifts."""
+    # With M = 1 − B (BᵀB + λP)⁻¹ Bᵀ, y a modulus, w its weight and s a shift, the cost is the sum of w yᵀMy. Both its
+    # derivatives are exact.
     curves = smoother.curves(*reduced)
     slopes = curves.slopes_of_basis @ curves.coefficients
     count = 2 * piece.size if free_vertical else piece.size

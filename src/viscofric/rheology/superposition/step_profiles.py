@@ -192,11 +192,9 @@ class StepProfiles:
 
 
 def _reduced(piece: Piece, frequency: Array, values: Array) -> tuple[Array, Array]:
-    """Reduce points at frequencies (k, n) to sums over them with K cubic splines B of equal intervals.
-
-    Returns (k, isotherms + m, K), Σ w B of each isotherm and Σ w y B of each modulus, and (k, 4, K), the lower
-    diagonals of Σ w B Bᵀ.
-    """
+    """Reduce points at frequencies (k, n) to sums over them with K cubic splines B of equal intervals."""
+    # Returns (k, isotherms + m, K), Σ w B of each isotherm and Σ w y B of each modulus, and (k, 4, K), the lower
+    # diagonals of Σ w B Bᵀ.
     count, rows = len(frequency), piece.size + values.shape[1]
     place = frequency / KNOT_SPACING
     first = np.floor(place)

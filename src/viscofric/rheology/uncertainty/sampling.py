@@ -252,11 +252,9 @@ def _tables(
 
 
 def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: ParametricLaw) -> list[ShiftLaw]:
-    """Return the law of every sample: its constants follow linearly from the errors of the shift factors.
-
-    The law's own covariance shows the scatter of the table about it beyond its uncertainty (`ShiftFactors.law`);
-    this scatter is drawn too.
-    """
+    """Return the law of every sample: its constants follow linearly from the errors of the shift factors."""
+    # The law's own covariance shows the scatter of the table about it beyond its uncertainty (`ShiftFactors.law`); this
+    # scatter is drawn too.
     differences = np.diff(np.eye(len(shifts.temperatures)), axis=0)
     gradient = differences @ law.gradient(shifts.temperatures)
     constants = law.parameters

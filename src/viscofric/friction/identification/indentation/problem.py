@@ -85,10 +85,8 @@ class IndentationProblem(SpectrumProblem):
 def solved_by_springs(
     problem: IndentationProblem, unknowns: Array, step: int = 0, accuracy: float = 0.0
 ) -> IndentationProblem:
-    """Return the problem with its contacts that are not linear solved for the material of the unknowns (`Solver`).
-
-    Steps and springs are the same at every accuracy.
-    """
+    """Return the problem with its contacts that are not linear solved for the material of the unknowns (`Solver`)."""
+    # Steps and springs are the same at every accuracy.
     found = dict(problem.functionals)
     for place, contact in enumerate(problem.contacts):
         if contact.by_springs:

@@ -150,11 +150,9 @@ def _contact(prescribed: Array) -> int:
 
 
 def shrinks(record: IndentationRecord) -> int:
-    """Return the row from which the contact shrinks; the number of rows if it does not.
-
-    It may shrink once the prescribed quantity falls by more than its scatter.  Under a falling load the depth may still
-    grow for a while.
-    """
+    """Return the row from which the contact shrinks; the number of rows if it does not."""
+    # It may shrink once the prescribed quantity falls by more than its scatter. Under a falling load the depth may
+    # still grow for a while.
     prescribed = record.load if record.control == "load" else record.indentation
     largest = np.maximum.accumulate(prescribed)
     noise, least = scatter(prescribed), LEAST_FALL * float(np.max(prescribed))
