@@ -61,11 +61,8 @@ class ContactAtStrain(Plotted):
     def to_dataset(self) -> Dataset:
         """Return the numbers of both contacts along the dimension ``moduli``.
 
-        Returns
-        -------
-        xarray.Dataset
-            `ContactSolution.numbers` at ``moduli`` "linear" and "at the strain of the contact"; the attributes are
-            ``strain`` and ``notes`` (JSON).
+        `ContactSolution.numbers` at ``moduli`` "linear" and "at the strain of the contact"; the attributes are
+        ``strain`` and ``notes`` (JSON).
         """
         import xarray
 

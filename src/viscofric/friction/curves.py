@@ -335,13 +335,9 @@ class FrictionCurves(Plotted):
     def to_dataset(self) -> Dataset:
         """Return the curves as a labelled data set, with units and long names.
 
-        Returns
-        -------
-        xarray.Dataset
-            Over ``temperature`` and ``speed`` where there is one entry for each pair of them, over ``load``,
-            ``temperature`` and ``speed`` where there is one for each three, and else along ``point``, as
-            `points_dataset` returns it.  Speed, temperature, load and slip are coordinates; source, notes and
-            assumption are attributes.
+        Over ``temperature`` and ``speed`` where there is one entry for each pair of them, over ``load``,
+        ``temperature`` and ``speed`` where there is one for each three, and else along ``point``, as `points_dataset`
+        returns it.  Speed, temperature, load and slip are coordinates; source, notes and assumption are attributes.
         """
         points = self.points_dataset()
         found = on_grid(points, "temperature", "speed")

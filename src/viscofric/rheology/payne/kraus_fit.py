@@ -115,11 +115,8 @@ class PayneFit(Plotted):
     def to_dataset(self) -> Dataset:
         """Return the sweep as `AmplitudeSweep.to_dataset` does, with the law at its amplitudes.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``storage_fitted`` and ``loss_fitted`` (Pa) in addition; constants, their errors and linear ranges among
-            the attributes.
+        ``storage_fitted`` and ``loss_fitted`` (Pa) in addition; constants, their errors and linear ranges among the
+        attributes.
         """
         found = self.sweep.to_dataset()
         fitted = self.law.complex_modulus(self.sweep.strain_amplitude)

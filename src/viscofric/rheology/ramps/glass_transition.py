@@ -68,11 +68,8 @@ class GlassTransition(Shown):
     def to_dataset(self) -> Dataset:
         """Return the peak as single numbers.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``angular_frequency`` (rad/s), ``temperature`` and ``standard_error`` (K), ``height`` (1 or Pa); the
-            attribute ``by``.
+        ``angular_frequency`` (rad/s), ``temperature`` and ``standard_error`` (K), ``height`` (1 or Pa); the attribute
+        ``by``.
         """
         return dataset(
             (),

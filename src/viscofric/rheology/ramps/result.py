@@ -63,10 +63,7 @@ class RampCheck(Shown):
     def to_dataset(self) -> Dataset:
         """Return the distances along the dimension ``ramp``, with the verdict as attributes.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``offset``, ``between`` and ``within`` (decades); the attributes ``holds`` (1 or 0) and ``sentence``.
+        ``offset``, ``between`` and ``within`` (decades); the attributes ``holds`` (1 or 0) and ``sentence``.
         """
         return dataset(
             "ramp",
@@ -135,11 +132,8 @@ class RampSuperposition(Plotted):
     def to_dataset(self) -> Dataset:
         """Return the points along ``reading`` as `TemperatureRamps.to_dataset` does, with α(T).
 
-        Returns
-        -------
-        xarray.Dataset
-            ``log10_shift_factor`` in addition; among the attributes the reference (K), the assumption, the verdict
-            of the check, and the peaks (JSON).
+        ``log10_shift_factor`` in addition; among the attributes the reference (K), the assumption, the verdict of the
+        check, and the peaks (JSON).
         """
         found = self.ramps.to_dataset()
         peaks = [{"by": one.by, **vars(one)} for one in self.glass_transitions]

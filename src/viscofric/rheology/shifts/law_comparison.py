@@ -118,12 +118,8 @@ class LawComparison(Plotted, Generic[Law]):
     def to_dataset(self) -> Dataset:
         """Return the laws that could be fitted as a labelled data set.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``law``, ``constants``, ``information_criterion``, ``akaike_weight`` and ``law_scatter`` along
-            ``fitted_law``.  Attributes: ``chosen`` and ``explanation``; ``refused``, the other laws, each with the
-            reason, as JSON.
+        ``law``, ``constants``, ``information_criterion``, ``akaike_weight`` and ``law_scatter`` along ``fitted_law``.
+        Attributes: ``chosen`` and ``explanation``; ``refused``, the other laws, each with the reason, as JSON.
         """
         fitted = [row for row in self.rows if row.law is not None]
         lowest = min(row.aic for row in fitted)

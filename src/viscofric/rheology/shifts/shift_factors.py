@@ -121,11 +121,8 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
     def to_dataset(self, temperatures: Any = None) -> Dataset:
         """Return the factors, at other temperatures than the table's if given, as a labelled data set.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``log10_shift_factor`` and its ``standard_error`` along ``temperature`` (K), NaN outside the table.
-            Attribute ``reference_temperature`` (K).
+        ``log10_shift_factor`` and its ``standard_error`` along ``temperature`` (K), NaN outside the table. Attribute
+        ``reference_temperature`` (K).
         """
         if temperatures is None:
             return self._dataset(self.temperatures, self.log10_values, self.standard_errors)

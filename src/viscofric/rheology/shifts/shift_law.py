@@ -230,11 +230,8 @@ class ShiftLaw(Shift):
     def to_dataset(self, temperatures: Any) -> Dataset:
         """Return log10 α over temperatures (n,), K if plain numbers, as a labelled data set.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``log10_shift_factor`` and, where it is known, its ``standard_error``, along ``temperature`` (K); NaN where
-            the law is not valid.  Attributes: ``reference_temperature`` (K), or those of the law with its constants.
+        ``log10_shift_factor`` and, where it is known, its ``standard_error``, along ``temperature`` (K); NaN where the
+        law is not valid.  Attributes: ``reference_temperature`` (K), or those of the law with its constants.
         """
         kelvin = np.ravel(in_kelvin(temperatures))
         values, errors = self.values_at(kelvin)

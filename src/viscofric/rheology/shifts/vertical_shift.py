@@ -33,11 +33,8 @@ class VerticalShift(Shift):
     def to_dataset(self, temperatures: Any) -> Dataset:
         """Return log10 b over temperatures (n,), K if plain numbers, as a labelled data set; errors as of `log10`.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``log10_vertical_shift`` and, where it is known, its ``vertical_standard_error``, along ``temperature`` (K).
-            Attributes: ``reference_temperature`` (K) and ``vertical_shift``, all of the shift as JSON.
+        ``log10_vertical_shift`` and, where it is known, its ``vertical_standard_error``, along ``temperature`` (K).
+        Attributes: ``reference_temperature`` (K) and ``vertical_shift``, all of the shift as JSON.
         """
         kelvin = to_si_array(temperatures, "K", "temperatures")
         values = self.log10(kelvin)

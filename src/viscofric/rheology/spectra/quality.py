@@ -186,13 +186,10 @@ class SpectrumFit(Shown):
     def to_dataset(self) -> Dataset:
         """Return the numbers of the fit.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``rms_log10_storage``, ``rms_log10_loss`` and ``rms_log10_step`` (decades), ``modes``, ``tau_ratio``,
-            ``regularisation`` and ``measured_storage`` (Pa), where they are known; ``frequency_range`` (rad/s); the
-            attributes ``method``, ``E0_extrapolated``, ``E_inf_extrapolated``, ``E0_remark``, ``E_inf_remark``,
-            ``E_inf_at_limit`` and ``statements`` (JSON).
+        ``rms_log10_storage``, ``rms_log10_loss`` and ``rms_log10_step`` (decades), ``modes``, ``tau_ratio``,
+        ``regularisation`` and ``measured_storage`` (Pa), where they are known; ``frequency_range`` (rad/s); the
+        attributes ``method``, ``E0_extrapolated``, ``E_inf_extrapolated``, ``E0_remark``, ``E_inf_remark``,
+        ``E_inf_at_limit`` and ``statements`` (JSON).
         """
         known: dict[str, tuple[Any, str, str]] = {
             "rms_log10_storage": (self.rms_storage, "1", "rms misfit of log10 of the storage modulus"),

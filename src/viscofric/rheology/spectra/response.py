@@ -42,10 +42,7 @@ class FrequencyResponse(Plotted, ABC):
     def modulus_dataset(self, angular_frequency: ArrayLike) -> Dataset:
         """Return E' and E'' (Pa) over angular frequencies (n,), rad/s, as a labelled data set.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``storage_modulus`` and ``loss_modulus`` (Pa) along ``angular_frequency``.
+        ``storage_modulus`` and ``loss_modulus`` (Pa) along ``angular_frequency``.
         """
         omega = np.ravel(in_si(angular_frequency, "rad/s", "angular_frequency"))
         modulus = self.complex_modulus(omega)

@@ -146,11 +146,8 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
     def to_dataset(self) -> Dataset:
         """Return the modes as a labelled data set; `modulus_dataset` returns the moduli over frequency.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``retardation_time`` (s) and ``creep_coefficient`` (1/Pa) along ``mode``.  Attributes: ``E0`` and ``E_inf``
-            (Pa), and remarks on them where the spectrum was fitted.
+        ``retardation_time`` (s) and ``creep_coefficient`` (1/Pa) along ``mode``.  Attributes: ``E0`` and ``E_inf``
+        (Pa), and remarks on them where the spectrum was fitted.
         """
         return dataset(
             "mode",
@@ -346,10 +343,7 @@ class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
     def to_dataset(self) -> Dataset:
         """Return the modes as a labelled data set; `modulus_dataset` returns the moduli over frequency.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``relaxation_time`` (s) and ``modulus`` (Pa) along ``mode``.  Attributes: ``E0`` and ``E_inf`` (Pa).
+        ``relaxation_time`` (s) and ``modulus`` (Pa) along ``mode``.  Attributes: ``E0`` and ``E_inf`` (Pa).
         """
         return dataset(
             "mode",

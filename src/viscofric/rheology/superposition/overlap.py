@@ -241,11 +241,8 @@ class OverlapQuality(Shown):
     def to_dataset(self) -> Dataset:
         """Return the misfits as single numbers.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``overlap_rms_log10_storage`` and ``overlap_rms_log10_loss`` (decades), ``points``, ``neighbours`` and
-            ``neighbours_without_overlap``.
+        ``overlap_rms_log10_storage`` and ``overlap_rms_log10_loss`` (decades), ``points``, ``neighbours`` and
+        ``neighbours_without_overlap``.
         """
         rms = "rms difference of log10 of the {} modulus where shifted isotherms overlap"
         return dataset(

@@ -149,12 +149,9 @@ class Superposed(Plotted, Generic[Curve, Tested]):
     def to_dataset(self) -> Dataset:
         """Return shift factors, vertical shift and overlap of the isotherms as a labelled data set.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``log10_shift_factor`` and ``standard_error`` along ``temperature`` (K), and ``log10_vertical_shift`` and
-            ``vertical_standard_error`` where there is a vertical shift; rms misfits of the overlaps (decades) among
-            the attributes.
+        ``log10_shift_factor`` and ``standard_error`` along ``temperature`` (K), and ``log10_vertical_shift`` and
+        ``vertical_standard_error`` where there is a vertical shift; rms misfits of the overlaps (decades) among the
+        attributes.
         """
         found = self.shift_factors.to_dataset()
         found.attrs |= {"isotherms_used": len(self.shift_factors.temperatures), **self._attributes()}

@@ -143,11 +143,8 @@ class IndentationRecord(Plotted):
     def to_dataset(self) -> Dataset:
         """Return the record as a labelled data set along ``row``.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``time`` (s), ``load`` (N), ``indentation`` (m) and, where it is known, ``error`` of the response; the
-            attributes are ``control``, ``temperature`` (K), ``start`` (s) and ``source``.
+        ``time`` (s), ``load`` (N), ``indentation`` (m) and, where it is known, ``error`` of the response; the
+        attributes are ``control``, ``temperature`` (K), ``start`` (s) and ``source``.
         """
         unit = CONTROLS[RESPONSE[self.control]]
         return dataset(

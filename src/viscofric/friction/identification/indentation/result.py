@@ -87,12 +87,9 @@ class FittedRecord(Plotted):
     def to_dataset(self) -> Dataset:
         """Return the measured values and their fit as a labelled data set along ``point``.
 
-        Returns
-        -------
-        xarray.Dataset
-            ``time`` (s), ``angular_frequency`` (rad/s) or ``speed`` (m/s); ``response``, ``fitted_response``,
-            ``fitted_response_lower`` and ``fitted_response_upper``, ``response_error`` and ``residual``; the attributes
-            are ``quantity``, ``temperature`` (K) and ``source``.
+        ``time`` (s), ``angular_frequency`` (rad/s) or ``speed`` (m/s); ``response``, ``fitted_response``,
+        ``fitted_response_lower`` and ``fitted_response_upper``, ``response_error`` and ``residual``; the attributes are
+        ``quantity``, ``temperature`` (K) and ``source``.
         """
         unit, words = _FITTED[self.quantity]
         name, along_unit, along = self._axis

@@ -148,11 +148,8 @@ class ReboundRecord(Plotted):
     def to_dataset(self) -> Dataset:
         """Return the record as a labelled data set along ``speed`` (m/s).
 
-        Returns
-        -------
-        xarray.Dataset
-            ``restitution``, ``contact_time`` (s), ``peak_force`` (N) and ``indentation`` (m), those measured; the
-            attributes are ``temperature`` (K), ``mass`` (kg), ``gravity`` (m/s²), the relative errors and ``source``.
+        ``restitution``, ``contact_time`` (s), ``peak_force`` (N) and ``indentation`` (m), those measured; the
+        attributes are ``temperature`` (K), ``mass`` (kg), ``gravity`` (m/s²), the relative errors and ``source``.
         """
         return dataset(
             "speed",
@@ -267,11 +264,8 @@ class OscillationRecord(Plotted):
     def to_dataset(self) -> Dataset:
         """Return the record as a labelled data set along ``angular_frequency`` (rad/s).
 
-        Returns
-        -------
-        xarray.Dataset
-            ``storage_stiffness`` and ``loss_stiffness`` (N/m); the attributes are ``temperature`` (K), ``indentation``
-            and ``amplitude`` (m), the relative errors and ``source``.
+        ``storage_stiffness`` and ``loss_stiffness`` (N/m); the attributes are ``temperature`` (K), ``indentation`` and
+        ``amplitude`` (m), the relative errors and ``source``.
         """
         return dataset(
             "angular_frequency",
