@@ -174,8 +174,6 @@ Anchor: TypeAlias = ModulusAnchor | ContactAnchor
 class SolvedContact:
     """ln of the size of a contact near a material for which it was solved.
 
-    Notes
-    -----
     A half-space's contact under a rigid indenter depends on load × compliance, so that two solved loads determine the
     derivative of a size by the level of all compliances.  Its distribution over the modes is that of the contact radius
     to first order (`FirstOrder`): Hertz's contact at the contact's own frequency.  The size itself is exact for the

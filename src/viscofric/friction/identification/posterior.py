@@ -76,9 +76,6 @@ def draws(
 
     Measurements and prior means are changed by errors of their own size, and fitted again.  This is exact for linear
     residuals, and for as many residuals as unknowns up to the change of |∂r/∂x|; samples are independent.
-
-    References
-    ----------
     Randomised maximum likelihood: Y. Chen, D. S. Oliver, Math. Geosci. 44 (2012) 1; J. M. Bardsley et al., SIAM J. Sci.
     Comput. 36 (2014) A1895.
     """

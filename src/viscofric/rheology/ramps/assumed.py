@@ -56,8 +56,7 @@ def assumed_law(
         )
     else:
         law, words = assumed, str(assumed)
-    pole = float(getattr(law, "_divergence", 0.0))
-    lowest = max(lowest, pole + 1.0)
+    lowest = max(lowest, law._divergence + 1.0)
     notes = [Note("shift-assumed", f"α(T) was assumed, not measured: {words}.")]
     before = sum(len(one) for one in ramps.ramps)
     kept = ramps.between(lowest, ramps.temperature_range[1])
@@ -74,17 +73,13 @@ def assumed_law(
     return law.at_reference(kelvin), words, kept, notes
 
 
-def on_assumption(causality: KramersKronig | None) -> list[Note]:
+def on_assumption(causality: KramersKronig) -> Note:
     """Say what E' and E'' make of an assumed law."""
-    if causality is None:
-        return []
     if not causality.scale_differs:
-        return [Note("assumption-consistent", f"{causality.sentence} This is the only test of the assumed α(T).")]
+        return Note("assumption-consistent", f"{causality.sentence} This is the only test of the assumed α(T).")
     scale = causality.loss_scale
-    return [
-        Note(
-            "assumption-contradicted",
-            f"E'' is {scale:.2f} ± {causality.loss_scale_error:.2f} times what the rise of E' requires with the "
-            f"assumed α(T) (Kramers–Kronig): log α about {1.0 / scale:.1f} times as large would agree.",
-        )
-    ]
+    return Note(
+        "assumption-contradicted",
+        f"E'' is {scale:.2f} ± {causality.loss_scale_error:.2f} times what the rise of E' requires with the "
+        f"assumed α(T) (Kramers–Kronig): log α about {1.0 / scale:.1f} times as large would agree.",
+    )

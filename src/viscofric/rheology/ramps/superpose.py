@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -151,8 +152,8 @@ def superpose_ramps(
         points, check = _points(tensile, b), None
     curve = _master_curve(tensile, points, shift, kelvin)
     causality = _causality(curve)
-    if assumption:
-        notes += on_assumption(causality)
+    if assumption and causality is not None:
+        notes.append(on_assumption(causality))
     notes += _on_lag(tensile)
     return RampSuperposition(
         shift, _table(shift, tensile, kelvin), curve, tensile, peaks, assumption, check, causality, b, tuple(notes)
@@ -221,53 +222,44 @@ def _check(points: RampPoints, found: CommonLaw) -> RampCheck:
     return RampCheck(float(np.sqrt(np.mean(found.scatter**2))), float(within), tuple(offsets))
 
 
-def _on_fit(ramps: TemperatureRamps, shift: ShiftLaw, check: RampCheck) -> list[Note]:
-    notes = [Note("ramps-superpose" if check.holds else "ramps-do-not-superpose", check.sentence)]
-    off = [(value, one) for value, one in zip(check.offsets, ramps.ramps, strict=True) if abs(value) > OFFSET]
-    if off:
-        value, worst = max(off, key=lambda each: abs(each[0]))
+def _on_fit(ramps: TemperatureRamps, shift: ShiftLaw, check: RampCheck) -> Iterator[Note]:
+    yield Note("ramps-superpose" if check.holds else "ramps-do-not-superpose", check.sentence)
+    value, worst = max(zip(check.offsets, ramps.ramps, strict=True), key=lambda each: abs(each[0]))
+    if abs(value) > OFFSET:
         hertz = worst.angular_frequency / (2.0 * np.pi)
-        notes.append(
-            Note(
-                "ramp-off",
-                f"The moduli at {hertz:.3g} Hz lie {100.0 * (10.0**value - 1.0):+.0f} % from the common curve on "
-                "average; look for inertia, compliance of the instrument or a resonance at this frequency.",
-            )
+        yield Note(
+            "ramp-off",
+            f"The moduli at {hertz:.3g} Hz lie {100.0 * (10.0**value - 1.0):+.0f} % from the common curve on "
+            "average; look for inertia, compliance of the instrument or a resonance at this frequency.",
         )
-    pole = getattr(shift, "_divergence", 0.0)
+    pole = shift._divergence
     if 0.0 < ramps.temperature_range[0] - pole < NEAR_POLE:
-        notes.append(
-            Note(
-                "pole-near",
-                f"The pole of the law, {shown_celsius(pole)} °C, lies next to the coldest point: the glass determines "
-                "it, not the transition. Fit WLF above and Arrhenius below (law 'wlf+arrhenius'), or leave the glass "
-                "out.",
-            )
+        yield Note(
+            "pole-near",
+            f"The pole of the law, {shown_celsius(pole)} °C, lies next to the coldest point: the glass determines "
+            "it, not the transition. Fit WLF above and Arrhenius below (law 'wlf+arrhenius'), or leave the glass "
+            "out.",
         )
-    return notes
 
 
 #: A pole so close below the coldest point follows from that point.
 NEAR_POLE = 5.0  # K
 
 
-def _on_lag(ramps: TemperatureRamps) -> list[Note]:
+def _on_lag(ramps: TemperatureRamps) -> Iterator[Note]:
     rate = ramps.heating_rate
     if rate is None:
         said = (
             "The heating rate is unknown: the middle of the sample lags behind the thermometer, and by how much cannot "
             "be said."
         )
-        return [Note("heating-rate-unknown", said)]
-    if abs(rate) <= FAST:
-        return []
-    return [
-        Note(
+        yield Note("heating-rate-unknown", said)
+    elif abs(rate) > FAST:
+        yield Note(
             "thermal-lag",
             f"At {60.0 * rate:.3g} K/min the middle of the sample may lag behind the thermometer by kelvins; a lag "
             "that is the same at all temperatures moves the reference temperature only.",
         )
-    ]
 
 
 def _causality(curve: MasterCurve) -> KramersKronig | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -206,7 +207,7 @@ def _seen_over_time(spectrum: RetardationSpectrum, curve: StepMasterCurve) -> _S
     )
 
 
-def _about_rubber(spectrum: RetardationSpectrum, fit: SpectrumFit, seen: _Seen) -> list[Note]:
+def _about_rubber(spectrum: RetardationSpectrum, fit: SpectrumFit, seen: _Seen) -> Iterator[Note]:
     softest, end = seen.moduli[0], seen.ends[0]
     where = (
         f"E0 = {shown_modulus(spectrum.E0)} lies {_beside(spectrum.E0, softest)} the smallest measured "
@@ -214,68 +215,45 @@ def _about_rubber(spectrum: RetardationSpectrum, fit: SpectrumFit, seen: _Seen) 
     )
     if fit.E0_missed:
         also = f" {end[0].upper()}{end[1:]}: the rubber plateau was not measured." if fit.E0_extrapolated else ""
-        notes = [Note("plateau-missed", f"{where}: the fit does not follow the softest points.{also}")]
+        yield Note("plateau-missed", f"{where}: the fit does not follow the softest points.{also}")
     elif fit.E0_extrapolated:
-        notes = [
-            Note(
-                "plateau-extrapolated",
-                f"{where}, and {end}: the rubber plateau was not measured, so that E0 is extrapolated.",
-            )
-        ]
+        said = f"{where}, and {end}: the rubber plateau was not measured, so that E0 is extrapolated."
+        yield Note("plateau-extrapolated", said)
     else:
-        return []
-    slopes = seen.slopes
-    if slopes is not None and seen.loss[0] > 1.0:
-        notes.append(
-            Note(
-                "plateau-doubtful",
-                f"At the lowest frequency E' falls as ω^{shown_number(slopes[0], '.2f')} and E'' as "
-                f"ω^{shown_number(slopes[1], '.2f')}: the measurement cannot separate a soft rubber from a liquid (2 "
-                "and 1), and whether E0 is above zero is not known.",
-            )
+        return
+    if seen.slopes is not None and seen.loss[0] > 1.0:
+        storage, loss = (shown_number(slope, ".2f") for slope in seen.slopes)
+        yield Note(
+            "plateau-doubtful",
+            f"At the lowest frequency E' falls as ω^{storage} and E'' as ω^{loss}: the measurement cannot separate a "
+            "soft rubber from a liquid (2 and 1), and whether E0 is above zero is not known.",
         )
-    return notes
 
 
-def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, seen: _Seen) -> list[Note]:
+def _about_glass(spectrum: RetardationSpectrum, fit: SpectrumFit, seen: _Seen) -> Iterator[Note]:
     stiffest, end = seen.moduli[1], seen.ends[1]
-    where = (
-        f"E_inf = {shown_modulus(spectrum.E_inf)} lies {_beside(spectrum.E_inf, stiffest)} the largest measured "
-        f"{seen.quantity} ({shown_modulus(stiffest)})"
-    )
-    notes = []
+    glass = f"E_inf = {shown_modulus(spectrum.E_inf)}"
+    largest = f"the largest measured {seen.quantity} ({shown_modulus(stiffest)})"
+    where = f"{glass} lies {_beside(spectrum.E_inf, stiffest)} {largest}"
     if fit.E_inf_at_limit:
-        notes.append(
-            Note(
-                "glass-doubtful",
-                f"E_inf = {shown_modulus(spectrum.E_inf)} is the largest that the fit allows, {STIFFEST:g} times the "
-                f"largest measured {seen.quantity} ({shown_modulus(stiffest)}), and no result: {end}, and the "
-                f"{seen.tests} do not "
-                "reach the glass.",
-            )
+        yield Note(
+            "glass-doubtful",
+            f"{glass} is the largest that the fit allows, {STIFFEST:g} times {largest}, and no result: {end}, and the "
+            f"{seen.tests} do not reach the glass.",
         )
     elif fit.E_inf_missed:
         also = f" {end[0].upper()}{end[1:]}: the glassy plateau was not measured." if fit.E_inf_extrapolated else ""
         values = {"E_inf": spectrum.E_inf, "measured": float(stiffest)}
-        notes.append(
-            Note("glass-missed", f"{where}: the fit does not follow the stiffest points.{also}", values=values)
-        )
+        yield Note("glass-missed", f"{where}: the fit does not follow the stiffest points.{also}", values=values)
     elif fit.E_inf_extrapolated:
-        notes.append(
-            Note(
-                "glass-extrapolated",
-                f"{where}, and {end}: the glassy plateau was not measured, so that E_inf is extrapolated.",
-            )
-        )
+        said = f"{where}, and {end}: the glassy plateau was not measured, so that E_inf is extrapolated."
+        yield Note("glass-extrapolated", said)
     if spectrum.E_inf > STIFFEST_GLASS:
-        notes.append(
-            Note(
-                "glass-unphysical",
-                f"E_inf = {shown_modulus(spectrum.E_inf)} is beyond any organic glass (a few GPa); no material has "
-                "such a glass, and the spectrum is not physical above the measured frequencies.",
-            )
+        yield Note(
+            "glass-unphysical",
+            f"{glass} is beyond any organic glass (a few GPa); no material has such a glass, and the spectrum is not "
+            "physical above the measured frequencies.",
         )
-    return notes
 
 
 def _beside(limit: float, measured: float) -> str:
