@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -243,7 +244,8 @@ def compare_stress_laws(
     kind = chosen_row(fitted).kind
     rows = sorted(weighted(rows, fitted), key=lambda row: row.aic)
     chosen = next(row for row in rows if row.kind == kind)
-    return LawComparison(tuple(rows), chosen, _notes(chosen, [row for row in rows if row.law is not None], table))
+    notes = _notes(chosen, [row for row in rows if row.law is not None], table)
+    return LawComparison(tuple(rows), chosen, tuple(notes))
 
 
 def _row(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> LawRow[InterfaceLaw]:
@@ -256,8 +258,8 @@ def _row(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float
     return LawRow(kind, title, found.law, found.constants, found.chi2, freedom, found.scatter, found.aic)
 
 
-def _notes(chosen: LawRow[InterfaceLaw], rows: list[LawRow[InterfaceLaw]], table: StressTable) -> tuple[Note, ...]:
-    """Return why a law was chosen, which others cannot be excluded, and the remaining misfit."""
+def _notes(chosen: LawRow[InterfaceLaw], rows: list[LawRow[InterfaceLaw]], table: StressTable) -> Iterator[Note]:
+    """Yield why a law was chosen, which others cannot be excluded, and the remaining misfit."""
     others = [row for row in rows if row is not chosen]
     better = [row for row in others if row.aic < chosen.aic]
     if better:
@@ -266,12 +268,11 @@ def _notes(chosen: LawRow[InterfaceLaw], rows: list[LawRow[InterfaceLaw]], table
         first = f"its AIC is lower by {others[0].aic - chosen.aic:.2g} than that of the next, {others[0].title}"
     else:
         first = "no other law can be fitted"
-    notes = [Note("law-chosen", f"The law of shear stress is: {chosen.title}; {first}.")]
-    notes += [_rivalry(chosen, row, table) for row in others if row.aic <= chosen.aic + EXCLUDED]
+    yield Note("law-chosen", f"The law of shear stress is: {chosen.title}; {first}.")
+    yield from (_rivalry(chosen, row, table) for row in others if row.aic <= chosen.aic + EXCLUDED)
     if chosen.scatter > 0.0:
         text = f"Shear stress scatters about the law by {100.0 * (10.0**chosen.scatter - 1.0):.2g} % more than its "
-        notes.append(Note("law-scatter", text + "stated errors explain.", values={"scatter": chosen.scatter}))
-    return tuple(notes)
+        yield Note("law-scatter", text + "stated errors explain.", values={"scatter": chosen.scatter})
 
 
 def _rivalry(chosen: LawRow[InterfaceLaw], rival: LawRow[InterfaceLaw], table: StressTable) -> Note:

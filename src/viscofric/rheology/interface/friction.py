@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -70,32 +71,31 @@ def interface_friction(
     return friction, friction * relative
 
 
-def interface_notes(law: InterfaceLaw, speed: Array, kelvin: Array | None, pressure: Array) -> tuple[Note, ...]:
-    """Return how the friction of an interface was found, and where its law is used outside its fit."""
+def interface_notes(law: InterfaceLaw, speed: Array, kelvin: Array | None, pressure: Array) -> Iterator[Note]:
+    """Yield how the friction of an interface was found, and where its law is used outside its fit."""
     how = "fitted to measured stress" if law.fitted_speeds is not None else "as given"
     said = f"Interfacial friction is shear stress times solved contact area over load; law of the stress, {how}: {law}."
-    notes = [Note("interface-law", said)]
+    yield Note("interface-law", said)
     if not law.has_standard_error:
-        notes.append(
-            Note("interface-without-error", "The uncertainty of the law of shear stress is not known, nor included.")
-        )
+        said = "The uncertainty of the law of shear stress is not known, nor included."
+        yield Note("interface-without-error", said)
     outside = np.broadcast_to(law.extrapolates(speed, kelvin), pressure.shape)
-    if np.any(outside):
+    count = int(np.count_nonzero(outside))
+    if count:
         said = (
-            f"At {np.count_nonzero(outside)} of {outside.size} points the reduced slip speed or the temperature lies "
-            "outside those at which shear stress was measured; there the stress rests on the form of the law."
+            f"At {count} of {outside.size} points the reduced slip speed or the temperature lies outside those at "
+            "which shear stress was measured; there the stress rests on the form of the law."
         )
-        notes.append(Note("interface-extrapolated", said, values={"points": int(np.count_nonzero(outside))}))
-    if law.fitted_pressures is not None:
-        low, high = law.fitted_pressures
-        lowest, highest = float(pressure.min()), float(pressure.max())
-        if lowest * SAME_PRESSURE < low or highest > SAME_PRESSURE * high:
-            said = (
-                f"Shear stress was measured at mean contact pressures of {1e-6 * low:.2g} to {1e-6 * high:.2g} MPa and "
-                f"is used at {1e-6 * lowest:.2g} to {1e-6 * highest:.2g} MPa, as if it did not depend on pressure."
-            )
-            notes.append(Note("interface-pressure", said, values={"lowest": lowest, "highest": highest}))
-    return tuple(notes)
+        yield Note("interface-extrapolated", said, values={"points": count})
+    if law.fitted_pressures is None:
+        return
+    (low, high), lowest, highest = law.fitted_pressures, float(pressure.min()), float(pressure.max())
+    if lowest * SAME_PRESSURE < low or highest > SAME_PRESSURE * high:
+        said = (
+            f"Shear stress was measured at mean contact pressures of {1e-6 * low:.2g} to {1e-6 * high:.2g} MPa and "
+            f"is used at {1e-6 * lowest:.2g} to {1e-6 * highest:.2g} MPa, as if it did not depend on pressure."
+        )
+        yield Note("interface-pressure", said, values={"lowest": lowest, "highest": highest})
 
 
 def friction_on_area(law: InterfaceLaw, speed: Array, kelvin: Array, pressure: float, area: Array) -> dict[str, Any]:
@@ -104,5 +104,5 @@ def friction_on_area(law: InterfaceLaw, speed: Array, kelvin: Array, pressure: f
     T = kelvin if np.all(np.isfinite(kelvin)) else None
     local = pressure / area
     friction, error = interface_friction(law, v, T, local, np.zeros(area.shape))
-    notes = interface_notes(law, v, T, local)
+    notes = tuple(interface_notes(law, v, T, local))
     return {"interface_friction": friction, "interface_error": error, "notes": notes}

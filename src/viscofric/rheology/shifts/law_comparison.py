@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
@@ -158,7 +158,7 @@ def compare_laws(table: FactorTable) -> LawComparison[ParametricLaw]:
     rows = weighted(rows, physical)
     by_kind = {row.kind: row for row in rows}
     every = sorted([*rows, _vft(by_kind["wlf"])], key=lambda row: row.aic)
-    return LawComparison(tuple(every), by_kind[kind], _notes(by_kind[kind], rows, table))
+    return LawComparison(tuple(every), by_kind[kind], tuple(_notes(by_kind[kind], rows, table)))
 
 
 def weighted(rows: Iterable[LawRow[Law]], compared: Iterable[LawRow[Law]]) -> list[LawRow[Law]]:
@@ -220,8 +220,8 @@ def chosen_row(fitted: list[LawRow[Law]]) -> LawRow[Law]:
     return chosen
 
 
-def _notes(chosen: LawRow[ParametricLaw], rows: list[LawRow[ParametricLaw]], table: FactorTable) -> tuple[Note, ...]:
-    """Return the reason for the chosen law, the certainty of the choice, and the remaining misfit, in sentences."""
+def _notes(chosen: LawRow[ParametricLaw], rows: list[LawRow[ParametricLaw]], table: FactorTable) -> Iterator[Note]:
+    """Yield the reason for the chosen law, the certainty of the choice, and the remaining misfit, in sentences."""
     fitted = [row for row in rows if row.law is not None]
     others = sorted((row for row in fitted if row is not chosen), key=lambda row: row.aic)
     reasons = [_no_reason(row, chosen) for row in others if row.aic < chosen.aic - ROUNDING]
@@ -234,29 +234,24 @@ def _notes(chosen: LawRow[ParametricLaw], rows: list[LawRow[ParametricLaw]], tab
         gap = others[0].aic - chosen.aic
         first = f"{chosen.title} describes these shift factors best: its AIC is lower by {gap:.2g} than that of "
         first += f"{others[0].title}, the next."
-    notes = [Note("law-chosen", first[0].upper() + first[1:])]
+    yield Note("law-chosen", first[0].upper() + first[1:])
     if chosen.exact:
         text = f"It has as many constants as there are steps between the {len(table) + 1} temperatures, so that it "
-        notes.append(Note("law-exact", text + "passes through all factors and nothing tests it."))
-    notes += [
-        _rivalry(chosen, row, table)
-        for row in others
-        if chosen.kind != "polynomial" and row.aic <= chosen.aic + EXCLUDED
-    ]
+        yield Note("law-exact", text + "passes through all factors and nothing tests it.")
+    for row in others:
+        if chosen.kind != "polynomial" and row.aic <= chosen.aic + EXCLUDED:
+            yield _rivalry(chosen, row, table)
     stated = float(np.sqrt(np.median(table.variance)))
     if stated <= 2.0 * law_fitting.SMALLEST_ERROR:
         text = f"The factors have no standard errors; laws are taken to hold to about {law_fitting.USUAL_MISFIT:g} "
-        notes.append(Note("factors-without-errors", text + "decades."))
+        yield Note("factors-without-errors", text + "decades.")
     elif chosen.scatter > stated:
         text = f"The factors scatter about it by {chosen.scatter:.2g} decades, more than their uncertainties of about "
-        notes.append(Note("law-scatter", text + f"{stated:.2g} explain."))
+        yield Note("law-scatter", text + f"{stated:.2g} explain.")
     if any(row.kind == "wlf" for row in fitted):
-        notes.append(
-            Note(
-                "vft-is-wlf", "VFT is the same curve as WLF with other constants; it is not counted as a separate law."
-            )
+        yield Note(
+            "vft-is-wlf", "VFT is the same curve as WLF with other constants; it is not counted as a separate law."
         )
-    return tuple(notes)
 
 
 def _rivalry(chosen: LawRow[ParametricLaw], rival: LawRow[ParametricLaw], table: FactorTable) -> Note:
