@@ -148,17 +148,8 @@ class IndenterCase(Case):
         else:
             load = indenter.geometry.parabolic_load * rubbers.scale_at(indenter, stiffness, _LOW_SLOPE**2).force
             own = rubbers.scale(indenter, stiffness, load)
-        family = IndenterCase(
-            self.material,
-            indenter,
-            rubbers.reference(self),
-            own.length,
-            load,
-            self.layer,
-            modulus,
-            self.poisson_ratio,
-            self.sample,
-        )
+        at_zero = {"temperature": rubbers.reference(self), "speed": own.length, "load": load, "modulus": modulus}
+        family = replace(self, indenter=indenter, **at_zero)  # type: ignore[arg-type]
         return Place(family, math.log(alpha * self.speed / scale.length), b, math.log(alpha), scale)
 
     def node_label(self, ratio: float) -> str:
@@ -180,13 +171,7 @@ class IndenterCase(Case):
         here, ends = [places[number] for number in between.cases], between.ends
         modes, units = rubbers.modes(self, at_reference=True), self._units(rubbers)
         sensitivities = Sensitivities.between(between.nodes, here, modes, units)
-        shared: dict[str, Any] = {
-            "energy_balance": max((end.energy_balance for end in ends), key=abs),
-            "complementarity": max(end.complementarity for end in ends),
-            "cells": 0,
-            "products": 0,
-            "interpolated": True,
-        }
+        shared = between.shared
         for row, (number, place) in enumerate(zip(between.cases, here, strict=True)):
             case, numbers = cases[number], _with_units(between.found, row, place)
             if math.isinf(ends[0].half_width):
@@ -196,13 +181,8 @@ class IndenterCase(Case):
             except InputError as error:
                 yield number, Failure.of(error, case.label)
                 continue
-            known: dict[str, Any] = {
-                "speed": case.speed,
-                "temperature": case.temperature,
-                "load": case.load,
-                "warnings": doubts,
-            }
-            record = Record.of(**(known | numbers | shared))
+            known = {"speed": case.speed, "temperature": case.temperature, "load": case.load}
+            record = Record.of(**(known | numbers | shared), warnings=doubts)
             yield number, record if sensitivities is None else sensitivities.complete(record, row)
 
 

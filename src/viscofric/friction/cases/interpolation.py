@@ -122,3 +122,11 @@ class Between(NamedTuple):
     nodes: list[tuple[float, Any]]  # s and record of each node of the polynomial
     ends: tuple[Any, Any]  # records of the two neighbouring nodes
     found: Interpolated  # a row for each case
+
+    @property
+    def shared(self) -> dict[str, Any]:
+        """What records of the cases have in common: the largest residuals of the ends, and no cells and products."""
+        energy = max((end.energy_balance for end in self.ends), key=abs)
+        complementarity = max(end.complementarity for end in self.ends)
+        residuals = {"energy_balance": energy, "complementarity": complementarity}
+        return residuals | {"cells": 0, "products": 0, "interpolated": True}

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -134,17 +134,9 @@ class SurfaceCase(Case):
         """Return its place on the curve of its family; see `Case.place`."""
         self.insist_on_motion()
         alpha, b = rubbers.shifts(self)
-        family = SurfaceCase(
-            self.material,
-            self.surface,
-            rubbers.reference(self),
-            1.0,
-            self.pressure / b,
-            self.direction,
-            self.layer,
-            None if self.modulus is None else self.modulus / b,
-            self.poisson_ratio,
-            self.sample,
+        modulus = None if self.modulus is None else self.modulus / b
+        family = replace(
+            self, temperature=rubbers.reference(self), speed=1.0, pressure=self.pressure / b, modulus=modulus
         )
         return Place(family, math.log(alpha * self.speed), b, math.log(alpha))
 
@@ -164,7 +156,7 @@ class SurfaceCase(Case):
         self, between: Between, cases: Sequence[Any], places: Sequence[Place], rubbers: Rubbers
     ) -> Iterator[tuple[int, Record]]:
         """Yield number and record of every case between two nodes, as if it had been solved."""
-        found, ends = between.found, between.ends
+        found, ends, shared = between.found, between.ends, between.shared
         doubtful = [end for end in ends if end.warnings]
         for row, number in enumerate(between.cases):
             case, values = cases[number], found.values[row].copy()
@@ -179,12 +171,8 @@ class SurfaceCase(Case):
                     **dict(zip(_NAMES, values.tolist(), strict=True)),
                     # The discretisation error of the neighbours remains between them.
                     friction_error=max(end.friction_error for end in ends) + added,
-                    energy_balance=max((end.energy_balance for end in ends), key=abs),
-                    complementarity=max(end.complementarity for end in ends),
-                    cells=0,
-                    products=0,
-                    warnings=doubtful[0].warnings if doubtful else (),
-                    interpolated=True,
                     interpolation_error=added,
+                    warnings=doubtful[0].warnings if doubtful else (),
+                    **shared,
                 ),
             )
