@@ -260,10 +260,7 @@ _RULES: dict[type, Callable[[Any], Iterable[Any]]] = {
     LineSpectrum: lambda _: _POWER_SPECTRA,
     PerssonTheory: _of_persson,
     FrictionCurves: _of_curves,
-    ShearStress: lambda stress: (
-        *_SEPARATED_FRICTION,
-        *_solved_contact(line=stress.curves.load_unit == "N/m"),
-    ),
+    ShearStress: lambda stress: (*_SEPARATED_FRICTION, *_solved_contact(line=stress.curves.load_unit == "N/m")),
     InterfaceLaw: _of_interface,
     FrictionMasterCurve: lambda master: (
         *basis(master.curves),

@@ -50,11 +50,7 @@ class Citations(Shown):
     def __str__(self) -> str:
         return "\n".join(
             textwrap.fill(
-                f"[{number}] {entry}",
-                _WIDTH,
-                subsequent_indent="    ",
-                break_long_words=False,
-                break_on_hyphens=False,
+                f"[{number}] {entry}", _WIDTH, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
             )
             for number, entry in enumerate(self.entries, 1)
         )
@@ -122,9 +118,4 @@ polymers and other glass-forming liquids”, J. Am. Chem. Soc. 77 (1955) 3701–
 
 
 def _software() -> Reference:
-    return Reference(
-        "viscofric",
-        ("viscofric developers",),
-        title="viscofric",
-        note=f"version {version('viscofric')}",
-    )
+    return Reference("viscofric", ("viscofric developers",), title="viscofric", note=f"version {version('viscofric')}")

@@ -28,20 +28,22 @@ if TYPE_CHECKING:
     from viscofric.rheology.superposition.consistency import SuperpositionCheck
     from viscofric.rheology.superposition.result import Superposition
 
-    #: Sweeps as read, isotherms as joined, or either as a dataset along `reading`.
-    Sweeps: TypeAlias = IsothermalSweeps | Superposition | Sequence[Isotherm] | xr.Dataset
-    #: A master curve, what it came from, or a dataset along `reading`.
-    Master: TypeAlias = MasterCurve | Superposition | xr.Dataset
-    #: Shift factors, what they came with, or a dataset along `temperature`.
-    Shifts: TypeAlias = ShiftFactors | Superposition | xr.Dataset
-    #: Friction coefficients as curves, or a dataset along `case` (predicted) or `point` (measured).
-    Friction: TypeAlias = FrictionCurves | xr.Dataset
-    #: The same, or all temperatures on one curve.
-    ReducedFriction: TypeAlias = FrictionMasterCurve | xr.Dataset
+#: Sweeps as read, isotherms as joined, or either as a dataset along `reading`.
+Sweeps: TypeAlias = "IsothermalSweeps | Superposition | Sequence[Isotherm] | xr.Dataset"
+#: A master curve, what it came from, or a dataset along `reading`.
+Master: TypeAlias = "MasterCurve | Superposition | xr.Dataset"
+#: Shift factors, what they came with, or a dataset along `temperature`.
+Shifts: TypeAlias = "ShiftFactors | Superposition | xr.Dataset"
+#: Friction coefficients as curves, or a dataset along `case` (predicted) or `point` (measured).
+Friction: TypeAlias = "FrictionCurves | xr.Dataset"
+#: The same, or all temperatures on one curve.
+ReducedFriction: TypeAlias = "FrictionMasterCurve | xr.Dataset"
 
 _POINTS_OF_A_LINE = 200
 #: Laws are not drawn this near to a pole, K.
 _NEAR_POLE = 1.0
+#: Shift factors of the modulus are drawn so far beyond those of friction, K.
+FARTHER = 20.0
 _SIDES = ("lower", "upper")
 
 
@@ -116,16 +118,7 @@ class ModulusBand(NamedTuple):
 
 
 def modulus_band(source: Any, angular_frequency: Array) -> ModulusBand:
-    """Return bounds of E(ω).
-
-    Parameters
-    ----------
-    source : MaterialSamples, IdentifiedMaterial or xarray.Dataset
-        A dataset has `storage_modulus_lower`, `storage_modulus_upper`, `loss_modulus_lower` and `loss_modulus_upper`
-        along `angular_frequency`.
-    angular_frequency : (n,) array
-        At which the bounds of an object are calculated, rad/s.
-    """
+    """Return bounds of E(ω): those of a dataset, or of an object (such as samples) at angular frequencies (n,)."""
     data = as_dataset(source, angular_frequency)
     storage, loss = (
         np.stack([values(data, f"{name}_modulus_{side}") for side in _SIDES]) for name in ("storage", "loss")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import itertools
 import os
 import re
 import shlex
@@ -142,6 +143,7 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
     attrs = {name: str(value) for name, value in tree.attrs.items()}
     spectrum, agreement = group(tree, "spectrum"), group(tree, "agreement")
     checks = all_checks(tree)
+    (_, answer), *others = _figures(tree, images)
     return {
         "title": attrs.get("title") or "Viscoelastic friction",
         "synthetic": is_synthetic(tree),
@@ -156,10 +158,8 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
         "statements": [] if spectrum is None else sentences(spectrum.attrs, "statements"),
         "checks": checks,
         "verdicts": counted(checks),
-        "answer_figures": _figures(tree, images, _ANSWER),
-        "figure_groups": [
-            (heading, found) for heading, names in _groups(tree) if (found := _figures(tree, images, names))
-        ],
+        "answer_figures": answer,
+        "figure_groups": [(heading, found) for heading, found in others if found],
         "tables": detail_tables(tree),
         "failures": grouped_failures(notes(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
         "warnings": [one.words("run_file") for one in notes(tree.attrs, "warnings")],
@@ -191,21 +191,17 @@ def _groups(tree: xr.DataTree) -> list[tuple[str, tuple[str, ...]]]:
     return [*found, ("Calculation", ("convergence",))]
 
 
-def _figures(tree: xr.DataTree, images: dict[str, dict[str, bytes]], names: tuple[str, ...]) -> list[dict[str, Any]]:
-    """Return those of some figures that were drawn, with numbers in the order of the page."""
-    page = [name for name in (*_ANSWER, *(name for _, group in _groups(tree) for name in group)) if name in images]
-    said = captions(tree)
-    return [
-        {
-            "name": name,
-            "number": page.index(name) + 1,
-            "caption": said[name],
-            "source": _as_data(adaptive(images[name]["svg"])),
-            "width": _width(images[name]["svg"]),
-        }
-        for name in names
-        if name in images
-    ]
+def _figures(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> list[tuple[str, list[dict[str, Any]]]]:
+    """Return the figures that were drawn, those beside the key numbers first, numbered in the order of the page."""
+    said, number = captions(tree), itertools.count(1)
+
+    def shown(name: str) -> dict[str, Any]:
+        svg = images[name]["svg"]
+        source = _as_data(adaptive(svg))
+        return {"name": name, "number": next(number), "caption": said[name], "source": source, "width": _width(svg)}
+
+    groups = [("", _ANSWER), *_groups(tree)]
+    return [(heading, [shown(name) for name in names if name in images]) for heading, names in groups]
 
 
 def _width(svg: bytes) -> int:

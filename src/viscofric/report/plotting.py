@@ -29,6 +29,7 @@ from viscofric.report.figures.rubber import (
     plot_master_curve,
     plot_relaxation_spectrum,
     plot_retardation_spectrum,
+    plot_step_master_curve,
 )
 from viscofric.report.figures.shift_factors import (
     draw_law,
@@ -36,7 +37,6 @@ from viscofric.report.figures.shift_factors import (
     plot_shift_factors,
     plot_vertical_shift,
 )
-from viscofric.report.figures.steps import plot_step_master_curve
 from viscofric.report.figures.style import BLUE, STYLE, VERMILION, looks
 from viscofric.report.figures.superposition import plot_van_gurp_palmen
 from viscofric.report.figures.sweeps import plot_study

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
-from viscofric.notes import note_of
+from viscofric.notes import Note, note_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from viscofric.arrays import Array, Integers, Mask
-    from viscofric.notes import Note
 
 
 #: Temperatures closer than this are one nominal temperature, K.

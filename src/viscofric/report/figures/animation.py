@@ -13,7 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from viscofric.errors import InputError, not_written
 from viscofric.files import write_atomically
 from viscofric.report.figures.motion import moves, plot_transient
-from viscofric.report.figures.pressures import frames_of, plot_pressure_frame
+from viscofric.report.figures.pressures import Frames, frames_of, plot_pressure_frame
 from viscofric.report.figures.style import INK, STYLE, mark_synthetic, new_figure, unit_for
 from viscofric.report.texts.numbers import prefixed
 
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.transforms import Bbox
 
     from viscofric.motion.solution import TransientSolution
-    from viscofric.report.figures.pressures import Frames
 
 #: Most frames, and how long they last together, s.
 FRAMES, _SECONDS = 60, 6.0
@@ -31,12 +30,7 @@ _DOTS_PER_INCH, _SMALL = 90, 9.5
 
 
 def save_animation(
-    path: str | PathLike[str],
-    run: TransientSolution,
-    title: str = "",
-    *,
-    frames: int = FRAMES,
-    synthetic: bool = False,
+    path: str | PathLike[str], run: TransientSolution, title: str = "", *, frames: int = FRAMES, synthetic: bool = False
 ) -> None:
     """Draw the pressure over time, beside friction (or the indentation of normal motion), into a GIF.
 

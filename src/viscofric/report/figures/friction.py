@@ -10,8 +10,10 @@ from matplotlib.patches import Patch
 
 from viscofric.errors import InputError
 from viscofric.report.data import (
+    Friction,
     Measured,
     Predicted,
+    ReducedFriction,
     as_dataset,
     measured,
     measured_line,
@@ -42,7 +44,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-    from viscofric.report.data import Friction, ReducedFriction
     from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 

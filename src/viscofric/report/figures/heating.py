@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from viscofric.arrays import Array
     from viscofric.friction.heating import HeatedFrictionCurves
 
 _MILLIMETRES = 1e3
@@ -60,16 +59,6 @@ _RISES = (
 _MEANS = {"face_rise": ": of the face", "loss_weighted_rise": ": where the loss is released"}
 
 
-class _Friction(NamedTuple):
-    """Friction of one curve (n,) with its isothermal one, and that of its cold and its hot states."""
-
-    speed: Array
-    warm: Array
-    isothermal: Array
-    cold: Array
-    hot: Array
-
-
 def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset) -> None:
     """Draw viscoelastic friction with heating against speed, beside the isothermal one.
 
@@ -87,18 +76,20 @@ def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset) 
         If there is no heating, or are several temperatures.
     """
     data, kelvin = _one_curve(curves)
-    one = _friction(data)
-    speed = _MILLIMETRES * one.speed
-    axes.plot(speed, one.isothermal, color=GREY, linestyle="--", label="isothermal")
-    two = one.hot != one.cold
+    mu = "friction_coefficient" if "friction_coefficient" in data else "viscoelastic"  # of a study, or of curves
+    names = ("speed", mu, "isothermal_friction", "cold_friction", "hot_friction")
+    speed, warm, isothermal, cold, hot = (values(data, name) for name in names)
+    speed = _MILLIMETRES * speed
+    axes.plot(speed, isothermal, color=GREY, linestyle="--", label="isothermal")
+    two = hot != cold
     if np.any(two):
-        axes.fill_between(speed, one.cold, one.hot, color=VERMILION, alpha=0.2, linewidth=0.0, label="hysteresis")
-        axes.plot(speed, one.cold, color=BLUE, marker="o", markersize=3, label="heated, speed rising")
-        axes.plot(speed, one.hot, color=VERMILION, marker="s", markersize=3, label="heated, speed falling")
+        axes.fill_between(speed, cold, hot, color=VERMILION, alpha=0.2, linewidth=0.0, label="hysteresis")
+        axes.plot(speed, cold, color=BLUE, marker="o", markersize=3, label="heated, speed rising")
+        axes.plot(speed, hot, color=VERMILION, marker="s", markersize=3, label="heated, speed falling")
     else:
-        axes.plot(speed, one.warm, color=INK, marker="o", markersize=3, label="heated")
+        axes.plot(speed, warm, color=INK, marker="o", markersize=3, label="heated")
     axes.set(xscale="log", ylabel=r"viscoelastic friction $\mu$")
-    axes.set_ylim(0.0, 1.08 * float(np.nanmax(np.concatenate([one.isothermal, one.cold, one.hot]))))
+    axes.set_ylim(0.0, 1.08 * float(np.nanmax(np.concatenate([isothermal, cold, hot]))))
     axes.set_xlabel(r"speed $v$ (mm/s)" + at_temperature(kelvin))
     speed_ticks(axes.xaxis)
     plain_numbers(axes, "y")
@@ -152,13 +143,6 @@ def _one_curve(curves: HeatedFrictionCurves | xr.Dataset) -> tuple[xr.Dataset, f
         )
     (along,) = data["temperature_rise"].dims
     return data.isel({along: np.argsort(values(data, "speed"), kind="stable")}), float(nominal[0])
-
-
-def _friction(data: xr.Dataset) -> _Friction:
-    mu = "friction_coefficient" if "friction_coefficient" in data else "viscoelastic"  # of a study, or of curves
-    return _Friction(
-        *(values(data, name) for name in ("speed", mu, "isothermal_friction", "cold_friction", "hot_friction"))
-    )
 
 
 def heated_curves_figure(curves: HeatedFrictionCurves) -> Figure:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.report.data import Moduli, as_dataset, moduli, moduli_of_master_curve, modulus_band
+from viscofric.report.data import Master, Moduli, as_dataset, moduli, moduli_of_master_curve, modulus_band
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
     from viscofric.friction.identification.result import Identified
-    from viscofric.report.data import Master
 
 
 _MEGAPASCAL = 1e6

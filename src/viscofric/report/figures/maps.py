@@ -44,21 +44,9 @@ def plot_friction_map(
     levels: Array | int = _LEVELS,
     shift: tuple[Array, Array] | None = None,
 ) -> QuadContourSet:
-    """Draw friction over the logarithm of the speed and the temperature, with the ridge of its maximum.
+    """Draw friction (m, n) over log speed (n,), m/s, and temperature (m,), K, ascending, with the ridge of its maximum.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    speed : (n,) array
-        m/s, above zero, ascending.
-    temperature : (m,) array
-        K, ascending.
-    friction : (m, n) array
-        NaN where a case was not solved.
-    levels : (k,) array or int
-        Of the filled contours, or how many of them.
-    shift : ((k,) array, (k,) array), optional
-        Temperatures (K) and log10 of the shift factor, along which friction is interpolated between temperatures.
+    `shift`: temperatures (K) and log10 of the shift factor, along which friction is interpolated.
     """
     x, y = 1e3 * np.asarray(speed), np.asarray(temperature) - 273.15
     kelvin, whole = filled_in(np.asarray(speed), np.asarray(temperature), np.asarray(friction), shift)
@@ -88,21 +76,10 @@ def plot_friction_map(
 
 
 def maximum_ridge(speed: Array, temperature: Array, friction: Array) -> Array:
-    """Return speed and temperature at which friction is highest along the speed, where that lies inside the range.
+    """Return speed (m/s) and temperature (K) of the highest friction (m, n) at each temperature, (m, 2).
 
-    Parameters
-    ----------
-    speed : (n,) array
-        m/s, ascending.
-    temperature : (m,) array
-        K.
-    friction : (m, n) array
-
-    Returns
-    -------
-    (k, 2) array
-        m/s, refined by a parabola through three points over the logarithm of the speed, and K; one row for each
-        temperature whose maximum has solved neighbours on both sides, and a row of NaN where others lie in between.
+    It is refined by a parabola through three points over the logarithm of the speed; NaN where it lies at an end or a
+    neighbour is not solved.
     """
     found = []
     log = np.log(np.asarray(speed, dtype=float))
@@ -125,18 +102,9 @@ def map_figure(
     measurement: tuple[Array, Array] | None = None,
     shifts: Sequence[tuple[Array, Array] | None] = (),
 ) -> Figure | None:
-    """Return friction as a map over speed and temperature, one for each point of the other axes, on one scale.
+    """Return friction as maps over speed and temperature on one scale, the mean over seeds; None of too few points.
 
-    Of several seeds of a surface the mean is drawn.
-
-    Parameters
-    ----------
-    friction : xarray.Dataset
-        Labelled results.
-    measurement : ((n,) array, (n,) array), optional
-        Speeds (m/s) and temperatures (K) of measured points, to mark.
-    shifts : sequence of ((k,) array, (k,) array) or None
-        Temperatures (K) and log10 of the shift factor of each rubber, where they are known.
+    `measurement`: speeds (m/s) and temperatures (K) to mark; `shifts`: temperatures (K) and log10 α of each rubber.
     """
     sizes = friction.sizes
     if sizes.get("speed", 0) < LEAST_SPEEDS or sizes.get("temperature", 0) < LEAST_TEMPERATURES:
@@ -211,27 +179,8 @@ def _known_shift(tree: xr.DataTree) -> tuple[Array, Array] | None:
 def filled_in(
     speed: Array, temperature: Array, friction: Array, shift: tuple[Array, Array] | None
 ) -> tuple[Array, Array]:
-    """Return friction at many temperatures from friction at some.
+    """Return more temperatures (M,), and friction (M, n) there from friction (m, n); the same without a `shift`.
 
-    Parameters
-    ----------
-    speed : (n,) array
-        m/s, ascending.
-    temperature : (m,) array
-        K, ascending.
-    friction : (m, n) array
-        NaN where a case was not solved.
-    shift : ((k,) array, (k,) array) or None
-        Temperatures (K) and log10 of the shift factor; None where it is not known.
-
-    Returns
-    -------
-    temperature : (M,) array
-        Those given among them, or these alone where nothing is known in between.
-    friction : (M, n) array
-
-    Notes
-    -----
     μ(v, T) = μ(α(T) v, T₀): at a temperature between two, each of the two curves is read at its own speed of the same
     α v, and the two are weighed by how near they are in 1/T.  Beyond its ends, a curve goes on with the nearest others,
     so that friction is continuous.  Log α is straight over 1/T between the temperatures at which it is known.

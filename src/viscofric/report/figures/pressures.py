@@ -18,7 +18,7 @@ from viscofric.report.figures.motion import (
 )
 from viscofric.report.figures.style import INK, Unit, new_figure, sequential_looks, unit_for
 from viscofric.report.texts.numbers import prefixed
-from viscofric.units import to_si_array
+from viscofric.units import Quantities, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.motion.impact_solution import RestitutionCurve
     from viscofric.motion.solution import TransientSolution
-    from viscofric.units import Quantities
 
 #: Pressures that are drawn without times of the user's choice.
 _FRAMES = 5

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
@@ -14,8 +14,6 @@ from viscofric.report.figures.style import INK, Look, Unit, decade_ticks, looks,
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
 

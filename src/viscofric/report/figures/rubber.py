@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.report.data import as_dataset, moduli, moduli_of_master_curve, moduli_of_sweeps, modulus_band
+from viscofric.report.data import (
+    Master,
+    Moduli,
+    Sweeps,
+    as_dataset,
+    moduli,
+    moduli_of_master_curve,
+    moduli_of_sweeps,
+    modulus_band,
+)
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -19,9 +28,9 @@ from viscofric.report.figures.style import (
     origin,
     temperature_scale,
 )
-from viscofric.report.results import nearest, nominal_temperatures, values
+from viscofric.report.results import nearest, nominal_temperatures, number, values
 from viscofric.report.texts.numbers import degrees
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -30,11 +39,9 @@ if TYPE_CHECKING:
     from matplotlib.cm import ScalarMappable
 
     from viscofric.arrays import Array
-    from viscofric.report.data import Master, Moduli, Sweeps
     from viscofric.rheology.spectra.modulus_table import ModulusTable
 
     Fitted = RetardationSpectrum | ModulusTable | xr.Dataset
-    from viscofric.rheology.spectra.retardation import RelaxationSpectrum
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 
@@ -61,28 +68,29 @@ def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "l
     measured = moduli_of_sweeps(isotherms)
     value = (measured.storage if modulus == "storage" else measured.loss) / _PASCAL_PER_MEGAPASCAL
     marker = "s" if modulus == "storage" else "o"
-    scale = draw_by_temperature(axes, measured, measured.angular_frequency, value, marker)
+    order = np.argsort(measured.angular_frequency, kind="stable")
+    columns = (measured.temperature, measured.angular_frequency, value)
+    scale = draw_by_temperature(axes, *(column[order] for column in columns), marker=marker)
     axes.set_xlabel(r"angular frequency $\omega$ (rad/s)")
     axes.set_ylabel(modulus_label(measured.symbol, modulus))
     logarithmic(axes)
     return scale
 
 
-def draw_by_temperature(axes: Axes, measured: Moduli, x: Array, y: Array, marker: str = "o") -> ScalarMappable:
-    """Draw one line with marks for each temperature, points in the order of their frequencies."""
-    nominal = nominal_temperatures(measured.temperature)
+def draw_by_temperature(axes: Axes, temperature: Array, x: Array, y: Array, **look: Any) -> ScalarMappable:
+    """Draw points of each temperature (K) in their order, with marks and a line if `look` says nothing else."""
+    nominal = nominal_temperatures(temperature)
     if not nominal.size:
         nominal = np.array([293.15])  # a scale for the colour bar of an empty figure
     scale = temperature_scale(nominal)
-    which = nearest(nominal, measured.temperature)
+    which = nearest(nominal, temperature)
+    look = {"marker": "o", "markersize": 3, "linewidth": 0.8, **look}
     for index, kelvin in enumerate(nominal):
         rows = np.flatnonzero(which == index)
         if not rows.size:
             continue
-        rows = rows[np.argsort(measured.angular_frequency[rows], kind="stable")]
-        label = degrees(float(kelvin))
         colour = scale.to_rgba(np.array(celsius(float(kelvin))))
-        axes.plot(x[rows], y[rows], color=colour, marker=marker, markersize=3, linewidth=0.8, label=label)
+        axes.plot(x[rows], y[rows], color=colour, label=degrees(float(kelvin)), **look)
     return scale
 
 
@@ -167,11 +175,7 @@ def plot_master_curve(
 
 
 def plot_residuals(
-    axes: Axes,
-    master_curve: Master,
-    spectrum: Fitted | None = None,
-    *,
-    reference_temperature: float | None = None,
+    axes: Axes, master_curve: Master, spectrum: Fitted | None = None, *, reference_temperature: float | None = None
 ) -> None:
     """Draw log10 of measured over fitted E' and E'' against reduced frequency: the panel below a master curve.
 
@@ -229,6 +233,35 @@ def _fitted(master_curve: Master, spectrum: Fitted | None, frequency: Array) -> 
         return moduli(spectrum if hasattr(spectrum, "data_vars") else spectrum.modulus_dataset(frequency))
     found = getattr(master_curve, "data_vars", {})
     return moduli(cast("xr.Dataset", master_curve), "fitted_") if "fitted_storage_modulus" in found else None
+
+
+_RESPONSES = {
+    "creep_compliance": (1e6, "creep compliance $D$ (1/MPa)"),
+    "relaxation_modulus": (1e-6, "relaxation modulus $E$ (MPa)"),
+}
+
+
+def plot_step_master_curve(axes: Axes, curve: xr.Dataset, *, synthetic: bool = False) -> ScalarMappable:
+    """Draw a creep compliance or relaxation modulus over reduced time, coloured by temperature, with the fit.
+
+    `curve`: as `StepMasterCurve.to_dataset` or `RetardationSpectrum.step_curve_dataset` return it; returns the colours.
+    """
+    name = next(one for one in _RESPONSES if one in curve)
+    factor, label = _RESPONSES[name]
+    time, kelvin = np.asarray(curve["time"]), np.asarray(curve["temperature"])
+    response = factor * np.asarray(curve[name])
+    points: dict[str, Any] = {"marker": "o", "linestyle": "none", "markersize": 3, "fillstyle": "none"}
+    scale = draw_by_temperature(axes, kelvin, time, response, **points)
+    handles = axes.plot([], [], color=INK, label=origin(synthetic), **points)
+    if f"fitted_{name}" in curve:
+        fitted = factor * np.asarray(curve[f"fitted_{name}"])
+        order = np.argsort(time, kind="stable")
+        handles += axes.plot(time[order], fitted[order], color=INK, linewidth=1.2, label="fitted")
+    axes.set_xlabel(r"reduced time $t/\alpha_T$ (s)" + at_temperature(number(curve.attrs, "reference_temperature")))
+    axes.set_ylabel(label)
+    logarithmic(axes)
+    legend_above(axes, handles, columns=2)
+    return scale
 
 
 #: Modes weaker than the strongest by more than this are left below the axis: they change nothing that can be seen.

@@ -28,18 +28,9 @@ _UNDATED: dict[str, dict[str, Any]] = {
 
 
 def save_picture(path: Path, draw: Callable[[], Figure], *, name: str, synthetic: bool = False) -> None:
-    """Draw a figure in the style of the reports into a file.
+    """Draw a figure in the style of the reports into a file, which ends in ``.png``, ``.svg`` or ``.pdf``.
 
-    Parameters
-    ----------
-    path : Path
-        Ends in ``.png``, ``.svg`` or ``.pdf``.  Replaced if it exists.
-    draw : callable
-        Returns the figure.
-    name : str
-        What the figure shows: figures of one name have the same marks inside an SVG.
-    synthetic : bool
-        Whether the data are synthetic, which the figure then says.
+    Figures of one `name` have the same marks inside an SVG.
     """
     form = path.suffix.lower().removeprefix(".")
     write_atomically(path, images(draw, (form,), name=name, synthetic=synthetic)[form])
@@ -81,13 +72,9 @@ _STEPS = 20
 
 
 def adaptive(svg: bytes) -> bytes:
-    """Return a figure that turns dark where the page around it does.
+    """Return a figure that turns dark under ``prefers-color-scheme: dark``, by one style sheet more.
 
-    Returns
-    -------
-    bytes
-        The same drawing with one style sheet more, which counts only under ``prefers-color-scheme: dark``: paper and
-        ink change places, lines too dark for dark paper are lightened; areas keep their colours, as scales need.
+    Paper and ink change places, lines too dark for dark paper are lightened; areas keep their colours, as scales need.
     """
     rules = [f"svg{{fill:{_LIGHT_INK}}}"]
     for light, dark in _ON_DARK.items():

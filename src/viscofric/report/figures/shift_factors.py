@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.report.data import as_dataset, law_line, law_residuals, shift_table
+from viscofric.report.data import FARTHER, Shifts, ShiftTable, as_dataset, law_line, law_residuals, shift_table
 from viscofric.report.figures.style import (
     BLUE,
     GREY,
@@ -34,15 +34,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from viscofric.arrays import Array
-    from viscofric.report.data import Shifts, ShiftTable
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.superposition.result import Superposition
 
 
 #: 10 to this power is still a float, and beyond any axis.
 _LARGEST = 100.0
-#: Shift factors of the modulus are drawn so far beyond those of friction, K.
-FARTHER = 20.0
 
 
 def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | None = None) -> None:

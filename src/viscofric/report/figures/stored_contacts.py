@@ -145,24 +145,10 @@ def _places(fields: xr.Dataset) -> tuple[Array, Array]:
 
 
 def trails(tree: xr.DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
-    """Return the surface on the centre line of each contact, from well behind it to well ahead.
+    """Return the surface on each centre line, from well behind the contact to well ahead: place (m), displacement (m).
 
-    Parameters
-    ----------
-    tree : xarray.DataTree
-        Results with the retardation spectrum and, where a temperature is not the reference, shift factors.
-    shown : list of Shown
-
-    Returns
-    -------
-    list of ((n,) array, (n,) array)
-        Place (m) and displacement (m) into the solid.  Only within the kept fields where the results do not
-        hold what it takes to look farther: of layers, of several rubbers, and of rubbers that they do not describe.
-
-    Notes
-    -----
-    The kept pressure is convolved with the moving half-space (`viscofric.contact.fields.surface`), in cells that are
-    merged down to about 64 along an edge.
+    The kept pressure is convolved with the moving half-space; of layers, of several rubbers, and of rubbers that the
+    results do not describe, it is that within the kept fields only.
     """
     found = [_calculated_trail(tree, contact, conditions) for contact, conditions in shown]
     if any(trail is None for trail in found):

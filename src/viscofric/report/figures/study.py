@@ -24,9 +24,14 @@ from viscofric.report.figures.histories import histories_figure, impacts_figure
 from viscofric.report.figures.interface import parts_figure, stress_figure
 from viscofric.report.figures.maps import known_shifts, map_figure
 from viscofric.report.figures.ramps import plot_temperature_ramps
-from viscofric.report.figures.rubber import plot_isotherms, plot_master_curve, plot_residuals, plot_retardation_spectrum
+from viscofric.report.figures.rubber import (
+    plot_isotherms,
+    plot_master_curve,
+    plot_residuals,
+    plot_retardation_spectrum,
+    plot_step_master_curve,
+)
 from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors, plot_vertical_shift
-from viscofric.report.figures.steps import plot_step_master_curve
 from viscofric.report.figures.stored_contacts import shown_contacts, trails
 from viscofric.report.figures.style import new_figure, temperature_bar
 from viscofric.report.figures.superposition import plot_cole_cole, plot_van_gurp_palmen

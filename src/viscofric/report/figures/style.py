@@ -108,6 +108,10 @@ def looks(count: int) -> list[Look]:
     else:
         scale = matplotlib.colormaps["viridis"]
         colours = [scale(0.9 * index / (count - 1)) for index in range(count)]
+    return _marked(colours)
+
+
+def _marked(colours: list[Any]) -> list[Look]:
     return [
         Look(colour, _MARKERS[index % len(_MARKERS)], _DASHES[index % len(_DASHES)])
         for index, colour in enumerate(colours)
@@ -117,11 +121,7 @@ def looks(count: int) -> list[Look]:
 def sequential_looks(count: int) -> list[Look]:
     """Return a look for each of so many values of an ordered quantity, from dark (low) to light."""
     scale = matplotlib.colormaps["viridis"]
-    colours = [scale(0.88 * index / max(count - 1, 1)) for index in range(count)]
-    return [
-        Look(colour, _MARKERS[index % len(_MARKERS)], _DASHES[index % len(_DASHES)])
-        for index, colour in enumerate(colours)
-    ]
+    return _marked([scale(0.88 * index / max(count - 1, 1)) for index in range(count)])
 
 
 #: What changes for a figure that is printed one column wide (85 mm), where text must not shrink below 7 pt.

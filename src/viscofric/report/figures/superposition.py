@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.report.data import moduli_of_sweeps
+from viscofric.report.data import Sweeps, moduli_of_sweeps
 from viscofric.report.figures.rubber import draw_by_temperature, modulus_label
 from viscofric.report.figures.style import BLUE, GREY, VERMILION, legend_above, logarithmic, plain_numbers
 
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.cm import ScalarMappable
 
-    from viscofric.report.data import Sweeps
     from viscofric.rheology.superposition.consistency import SuperpositionCheck
     from viscofric.rheology.superposition.kramers_kronig import KramersKronig
 
@@ -39,12 +38,7 @@ def plot_wicket(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappab
     matplotlib.cm.ScalarMappable
         Temperatures in °C to colours, for a colour bar.
     """
-    measured = moduli_of_sweeps(sweeps)
-    scale = draw_by_temperature(axes, measured, measured.storage / _PASCAL_PER_MEGAPASCAL, measured.loss_tangent)
-    axes.set_xlabel(modulus_label(measured.symbol, "storage"))
-    axes.set_ylabel(r"loss tangent $\tan\delta$")
-    logarithmic(axes)
-    return scale
+    return _diagram(axes, sweeps, "storage", "tangent")
 
 
 def plot_cole_cole(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
@@ -52,13 +46,7 @@ def plot_cole_cole(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMap
 
     Arguments and value are those of `plot_wicket`.
     """
-    measured = moduli_of_sweeps(sweeps)
-    storage, loss = measured.storage / _PASCAL_PER_MEGAPASCAL, measured.loss / _PASCAL_PER_MEGAPASCAL
-    scale = draw_by_temperature(axes, measured, storage, loss)
-    axes.set_xlabel(modulus_label(measured.symbol, "storage"))
-    axes.set_ylabel(modulus_label(measured.symbol, "loss"))
-    logarithmic(axes)
-    return scale
+    return _diagram(axes, sweeps, "storage", "loss")
 
 
 def plot_booij_thoone_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
@@ -70,13 +58,7 @@ def plot_booij_thoone_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) ->
     ----------
     H. C. Booij, J. H. M. Palmen, Theoretical and Applied Rheology (1992) 321.
     """
-    measured = moduli_of_sweeps(sweeps)
-    magnitude = np.hypot(measured.storage, measured.loss) / _PASCAL_PER_MEGAPASCAL
-    scale = draw_by_temperature(axes, measured, magnitude, measured.loss_tangent)
-    axes.set_xlabel(rf"modulus $|{measured.symbol}^*|$ (MPa)")
-    axes.set_ylabel(r"loss tangent $\tan\delta$")
-    logarithmic(axes)
-    return scale
+    return _diagram(axes, sweeps, "magnitude", "tangent")
 
 
 def plot_van_gurp_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
@@ -88,14 +70,27 @@ def plot_van_gurp_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> Sca
     ----------
     M. van Gurp, J. Palmen, Rheol. Bull. 67 (1998) 5.
     """
+    return _diagram(axes, sweeps, "magnitude", "angle")
+
+
+def _diagram(axes: Axes, sweeps: Sweeps | SuperpositionCheck, x: str, y: str) -> ScalarMappable:
+    """Draw one quantity of every sweep over another; those with a unit, and tan δ, in decades."""
     measured = moduli_of_sweeps(sweeps)
-    magnitude = np.hypot(measured.storage, measured.loss) / _PASCAL_PER_MEGAPASCAL
-    angle = np.degrees(np.arctan2(measured.loss, measured.storage))
-    scale = draw_by_temperature(axes, measured, magnitude, angle)
-    axes.set_xlabel(rf"modulus $|{measured.symbol}^*|$ (MPa)")
-    axes.set_ylabel(r"loss angle $\delta$ (°)")
-    logarithmic(axes, "x")
-    plain_numbers(axes, "y")
+    storage, loss = measured.storage / _PASCAL_PER_MEGAPASCAL, measured.loss / _PASCAL_PER_MEGAPASCAL
+    quantities = {
+        "storage": (storage, modulus_label(measured.symbol, "storage")),
+        "loss": (loss, modulus_label(measured.symbol, "loss")),
+        "magnitude": (np.hypot(storage, loss), rf"modulus $|{measured.symbol}^*|$ (MPa)"),
+        "tangent": (measured.loss_tangent, r"loss tangent $\tan\delta$"),
+        "angle": (np.degrees(np.arctan2(loss, storage)), r"loss angle $\delta$ (°)"),
+    }
+    (across, x_label), (upwards, y_label) = quantities[x], quantities[y]
+    order = np.argsort(measured.angular_frequency, kind="stable")
+    scale = draw_by_temperature(axes, measured.temperature[order], across[order], upwards[order])
+    axes.set(xlabel=x_label, ylabel=y_label)
+    logarithmic(axes, "x" if y == "angle" else "xy")
+    if y == "angle":
+        plain_numbers(axes, "y")
     return scale
 
 

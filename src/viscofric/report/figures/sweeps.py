@@ -28,6 +28,8 @@ from viscofric.report.sweeps import (
     MOST_PANELS,
     SAMPLE,
     SEED,
+    Layout,
+    SweepAxis,
     best_estimate,
     layout_of,
     seeds_averaged,
@@ -42,7 +44,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from viscofric.arrays import Array
-    from viscofric.report.sweeps import Layout, SweepAxis
 
 
 FRICTION = r"viscoelastic friction coefficient $\mu$"
@@ -131,13 +132,9 @@ def line_looks(lines: SweepAxis | None, shown: Sequence[int]) -> list[Look]:
     return sequential_looks(len(shown))
 
 
-def sweep_figure(friction: xr.Dataset, layout: Layout | None = None) -> Figure | None:
-    """Return friction over all axes of a study: curves in one panel, or in small multiples with one scale.
-
-    `friction`: labelled results; see `plot_sweep`; `layout`: what runs along the axis and what becomes lines and
-    panels; chosen if not given.
-    """
-    layout = layout_of(friction) if layout is None else layout
+def sweep_figure(friction: xr.Dataset) -> Figure | None:
+    """Return labelled friction over all axes of a study: curves in one panel, or in small multiples with one scale."""
+    layout = layout_of(friction)
     if layout is None or not np.isfinite(friction[_COEFFICIENT].values).any():
         return None
     chosen = panel_points(layout.panels, MOST_PANELS)

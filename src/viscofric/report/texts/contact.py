@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from viscofric.contact.solution import ERRORS
+from viscofric.contact.solution import ERRORS, ContactSolution, Diagnostics
 from viscofric.datasets import plain
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import length, prefixed, short, significant, with_error
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import shown_number
-
-if TYPE_CHECKING:
-    from viscofric.contact.solution import ContactSolution, Diagnostics
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
 
 # Friction from the pressure below it is rounding.
 _ROUND_OFF = 1e-12

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.datasets import record
+from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import ABSENT, percent, several, short, significant
 from viscofric.report.texts.tables import aligned
+from viscofric.traction import TractionRuns
 from viscofric.units import shown_celsius, shown_number
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.traction import TractionRuns
 
 
 def friction_table(curves: FrictionCurves) -> list[str]:

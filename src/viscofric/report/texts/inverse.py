@@ -45,10 +45,7 @@ def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str
     factors = _factors(master)
     found, doubt = values(factors, "log10_shift_factor"), np.nan_to_num(values(factors, "standard_error"))
     kelvin = values(factors, "temperature")
-    columns = [
-        ["T (°C)", *(shown_celsius(float(one)) for one in kelvin)],
-        ["log10 α", *_pairs(found, doubt)],
-    ]
+    columns = [["T (°C)", *(shown_celsius(float(one)) for one in kelvin)], ["log10 α", *_pairs(found, doubt)]]
     if known is not None and master.found:
         other, errors = known.at_reference(master.reference).values_at(kelvin)
         columns.append(["of the modulus", *_pairs(other, errors)])
@@ -102,10 +99,7 @@ def shift_words(
 
 
 def shift_record(
-    master: FrictionMasterCurve,
-    law: ParametricLaw | None,
-    agreement: ShiftAgreement | None,
-    inputs: dict[str, Any],
+    master: FrictionMasterCurve, law: ParametricLaw | None, agreement: ShiftAgreement | None, inputs: dict[str, Any]
 ) -> dict[str, Any]:
     """Return shifted friction in plain types, SI units, without a NaN: what is not known is None."""
     factors, curve = _factors(master), record(master.to_dataset())

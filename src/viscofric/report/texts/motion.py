@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.datasets import plain, record
+from viscofric.motion.cycle_solution import CycleSolution
+from viscofric.motion.history import History
+from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
+from viscofric.motion.solution import TransientSolution
 from viscofric.notes import Note, listed
 from viscofric.report.texts.numbers import degrees, length, prefixed, short, significant, with_error
 from viscofric.report.texts.tables import aligned
-
-if TYPE_CHECKING:
-    from viscofric.motion.cycle_solution import CycleSolution
-    from viscofric.motion.history import History
-    from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
-    from viscofric.motion.solution import TransientSolution
 
 _ERRORS_IN_TIME = Note(
     "errors-in-time",

@@ -45,16 +45,16 @@ def length(metres: float, error: float | None = None) -> str:
     return prefixed(metres, error, "m")
 
 
-def megapascals(pascals: float, digits: int = 3) -> str:
+def megapascals(pascals: float) -> str:
     """Return a modulus or pressure with its unit: MPa, or GPa from a thousand of them on."""
     if abs(pascals) >= 1e9:
-        return f"{significant(pascals / 1e9, digits)}{_SPACE}GPa"
-    return f"{significant(pascals / 1e6, digits)}{_SPACE}MPa"
+        return f"{significant(pascals / 1e9)}{_SPACE}GPa"
+    return f"{significant(pascals / 1e6)}{_SPACE}MPa"
 
 
-def speed(metres_per_second: float, digits: int = 3) -> str:
+def speed(metres_per_second: float) -> str:
     """Return a speed with its unit: mm/s, or m/s from 1 m/s on."""
-    return " ".join(_speed(metres_per_second, digits))
+    return " ".join(_speed(metres_per_second))
 
 
 def speeds(lowest: float, highest: float) -> str:
@@ -65,10 +65,10 @@ def speeds(lowest: float, highest: float) -> str:
     return f"{low} to {high} {unit}" if unit == last else f"{low} {unit} to {high} {last}"
 
 
-def _speed(metres_per_second: float, digits: int = 3) -> tuple[str, str]:
+def _speed(metres_per_second: float) -> tuple[str, str]:
     if metres_per_second >= 0.99995:
-        return short(metres_per_second, digits), "m/s"
-    return short(1e3 * metres_per_second, digits), "mm/s"
+        return short(metres_per_second, 3), "m/s"
+    return short(1e3 * metres_per_second, 3), "mm/s"
 
 
 def unbroken(text: str) -> str:

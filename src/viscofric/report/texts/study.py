@@ -24,7 +24,7 @@ from viscofric.report.results import (
     rubbers,
     values,
 )
-from viscofric.report.sweeps import cases_of, labelled, solved_cases, sweep_axes, value_label
+from viscofric.report.sweeps import SweepAxis, cases_of, labelled, solved_cases, sweep_axes, value_label
 from viscofric.report.texts.numbers import (
     ABSENT,
     degrees,
@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from viscofric.arrays import Array
-    from viscofric.report.sweeps import SweepAxis
 
 
 _FEW = 6  # points that are listed one by one
