@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
 from viscofric.readers.dma.amplitudes import read_amplitude_sweep
 from viscofric.rheology.payne.at_strain import material_at_strain, on_strain
-from viscofric.rheology.payne.kraus_fit import fit_kraus
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from viscofric.rheology.payne.kraus_fit import PayneFit
-    from viscofric.study.rubber import Rubber
-    from viscofric.study.run_file.material import MaterialTable
+from viscofric.rheology.payne.kraus_fit import PayneFit, fit_kraus
+from viscofric.study.rubber import Rubber
+from viscofric.study.run_file.material import MaterialTable
 
 
 def payne_of(table: MaterialTable) -> PayneFit | None:

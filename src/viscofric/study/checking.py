@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.cases.case import moved
 from viscofric.friction.cases.surfaces import surface_of
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, Remedy
 from viscofric.study.cases.estimates import (
     HEATED_CURVE,
@@ -19,25 +22,17 @@ from viscofric.study.cases.estimates import (
     HEATED_SURFACE,
     HEATED_TIMES,
     SECONDS_OF_IMPACT,
+    Expectation,
     contacts_beyond_indenter,
     estimate,
     seconds_over_time,
 )
-from viscofric.study.histories import case_histories, checked_table, is_heated, material_notes
-from viscofric.study.impacts import impacts_of
+from viscofric.study.cases.sweep import Sweep
+from viscofric.study.histories import case_histories, checked_table, impacts_of, is_heated, material_notes
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.measurement import read_measurement
-from viscofric.study.rubber import shift_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.cases.estimates import Expectation
-    from viscofric.study.cases.sweep import Sweep
-    from viscofric.study.rubber import Rubber
-    from viscofric.study.run_file.study import Study
+from viscofric.study.rubber import Rubber, shift_of
+from viscofric.study.run_file.study import Study
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from viscofric.friction.cases.case import moved
+from viscofric.friction.cases.case import Case, moved
 from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.planning.plan import plan_cases
-from viscofric.notes import counted
-from viscofric.study.cases.sweep import place, place_in
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.friction.cases.case import Case
-    from viscofric.friction.planning.plan import Plan
-    from viscofric.notes import Note
-    from viscofric.study.cases.sweep import Sweep
-    from viscofric.study.measurement import Measurement
-    from viscofric.study.run_file.study import Study
-    from viscofric.study.study_rubber import StudyRubber
+from viscofric.friction.planning.plan import Plan, plan_cases
+from viscofric.notes import Note, counted
+from viscofric.study.cases.sweep import Sweep, place, place_in
+from viscofric.study.measurement import Measurement
+from viscofric.study.run_file.study import Study
+from viscofric.study.study_rubber import StudyRubber
 
 # Margin beyond the speeds of the cases, so that rounding leaves no point outside the master curve.
 _ROUNDING = 1e-6
@@ -62,19 +55,9 @@ class Solved:
 
 
 class Contacts:
-    """The contacts of a study.
+    """The contacts of a study, in one plan: its cases, those at measured points, and those along the master curve.
 
-    Attributes
-    ----------
-    sweep : Sweep
-        The cases of the study.
-    at_points : tuple of Case
-        At each measured point.
-    along : tuple of Case
-        Along the friction master curve; none if there are several, as of several loads, nor for a rough surface, where
-        each seed has its own.
-    plan : Plan
-        Of all of them together, so that they share solved contacts.
+    There are none along the master curve if there are several, nor for a rough surface, where each seed has its own.
     """
 
     def __init__(self, study: Study, rubbers: Sequence[StudyRubber], measured: Measurement | None) -> None:

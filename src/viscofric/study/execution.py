@@ -15,17 +15,16 @@ from viscofric.notes import Note, dumped, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.heating import NO_LAW, Heatings
-from viscofric.study.histories import Histories, material_notes
-from viscofric.study.impacts import Impacts
+from viscofric.study.histories import Histories, Impacts, material_notes
 from viscofric.study.interface import StudyInterface, interface_columns, study_interface
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, beyond_accuracy, input_hashes, provenance
 from viscofric.study.results.tree import field_groups, master_prediction, material_groups, prediction, setting
 from viscofric.study.rubber_datasets import rubber_groups
-from viscofric.study.run_file.study import parse_study, read_study_text
+from viscofric.study.run_file.study import Study, parse_study, read_study_text
 from viscofric.study.running.folder import study_folder
-from viscofric.study.running.running import Event, choose_executor, run_plan, silent
+from viscofric.study.running.running import Event, Progress, choose_executor, run_plan, silent
 from viscofric.study.study_rubber import StudyRubber, all_within, band_columns
 
 if TYPE_CHECKING:
@@ -35,8 +34,6 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.study.cases.singles import Singles
-    from viscofric.study.run_file.study import Study
-    from viscofric.study.running.running import Progress
 
     Groups = dict[str, xarray.Dataset]
 

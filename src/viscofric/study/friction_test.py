@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from os import PathLike
+from pathlib import Path
 
 from viscofric.errors import StudyError
 from viscofric.files import file_path
-from viscofric.study.run_file.study import load_study
-
-if TYPE_CHECKING:
-    from os import PathLike
-    from pathlib import Path
-
-    from viscofric.study.run_file.study import Study
+from viscofric.study.run_file.study import Study, load_study
 
 
 def open_friction_test(folder: str | PathLike[str]) -> tuple[Path, Study]:
-    """Return the run file of a friction test, and what it holds.
-
-    Raises
-    ------
-    StudyError
-        If the folder does not hold one run file, or one without sweeps, measured friction, citation or licence.
-    """
+    """Return the run file of a friction test, and what it holds; raise `StudyError` where something is missing."""
     place = file_path(folder)
     if not place.is_dir():
         raise StudyError(f"{place}: is not a folder; expected the folder of a friction test.", code="no-folder")

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.contact.heated_result import AT_THE_LOSS, THIN
 from viscofric.errors import InputError
-from viscofric.friction.cases.case import moved
+from viscofric.friction.cases.case import Case, Rubbers, moved
 from viscofric.friction.cases.record import Failure, HistoryRecord
 from viscofric.friction.cases.solving import Task
 from viscofric.friction.cases.surface_case import SurfaceCase
@@ -17,20 +17,18 @@ from viscofric.notes import Note
 from viscofric.study.cases.heating import COLUMNS, solve_heated, solve_temperature_map
 from viscofric.study.cases.singles import Singles
 from viscofric.study.results.tree import coordinate, coordinates_of
-from viscofric.thermal import BODIES
+from viscofric.thermal import BODIES, ThermalProperties
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
-    from viscofric.friction.cases.case import Case, Rubbers
     from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.run_file.heating import HeatingTable
     from viscofric.study.run_file.study import Study
-    from viscofric.thermal import ThermalProperties
 
 NO_LAW = Note(
     "no-heating", "Contacts were not heated, as the law of the interface, whose friction would heat them, is not known."

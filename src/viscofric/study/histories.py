@@ -1,34 +1,38 @@
-"""The cases of a study over time, where its run file has a [history]."""
+"""The cases of a study over time, where its run file has a [history], and its impacts, where it has an [impact]."""
 
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import Any
 
+import numpy as np
+
+from viscofric.arrays import Indices
 from viscofric.errors import InputError, StudyError
+from viscofric.friction.cases.case import Rubbers
 from viscofric.friction.cases.record import Failure
 from viscofric.friction.cases.solving import Task
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import unit_vector
+from viscofric.motion.history import History
 from viscofric.motion.history_files import read_history
 from viscofric.motion.stages import staged_history
+from viscofric.notes import Note
 from viscofric.readers.one_table import history_columns
 from viscofric.rheology.material import Material
-from viscofric.study.cases.history import solve_history
+from viscofric.study.cases.history import solve_history, solve_hit
 from viscofric.study.cases.singles import Singles
+from viscofric.study.cases.sweep import Sweep, shown
 from viscofric.study.heating import COULOMB
 from viscofric.study.results.tree import coordinate, coordinates_of
-from viscofric.study.run_file.study import isothermal
+from viscofric.study.run_file.history import HistoryTable
+from viscofric.study.run_file.study import Study, isothermal
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from viscofric.friction.cases.case import Rubbers
-    from viscofric.motion.history import History
-    from viscofric.notes import Note
-    from viscofric.study.cases.sweep import Sweep
-    from viscofric.study.run_file.history import HistoryTable
-    from viscofric.study.run_file.study import Study
+#: Conditions of steady cases that an impact does not have.
+_OTHERS = {"load", "speed"}
+#: Largest error of a restitution that can be asked for.
+_LOOSEST = 1e-2
 
 
 class Histories(Singles):
@@ -110,34 +114,23 @@ def case_histories(study: Study, table: HistoryTable, *, heated: bool = False) -
 
     Raises `StudyError`, `DataFileError` for a bad table.
     """
-    make: Any = _from_file(table, study) if table.file is not None else _from_stages(table)
+    has_load = table.file is not None and checked_table(table, study)
 
     def made(case: Any, dwell: float) -> History:
-        found: History = make(case, dwell, case.temperature if heated else None)
-        return found
-
-    return made
-
-
-def _from_stages(table: HistoryTable) -> Any:
-    """Return what makes the history of a case: its load put on, a dwell, and its speed along the path."""
-
-    def made(case: Any, dwell: float, temperature: float | None) -> History:
+        rough = isinstance(case, SurfaceCase)
+        prescribed = ("pressure", case.pressure) if rough else ("load", case.load)
+        place: dict[str, Any] = {
+            "direction": unit_vector(case.direction) if rough else (1.0, 0.0),
+            "temperature": case.temperature if heated else None,
+        }
+        if table.file is not None:  # without a load in it, that of the case
+            return _read(table, **({} if has_load else dict([prescribed])), **place)
         return staged_history(
-            *_prescribed(case), load_time=table.load_time, dwell=dwell, slide=table.slide or 0.0, speed=case.speed,
-            strokes=table.strokes, before=table.before, direction=_direction(case), temperature=temperature,
+            *prescribed, load_time=table.load_time, dwell=dwell, slide=table.slide or 0.0, speed=case.speed,
+            strokes=table.strokes, before=table.before, **place,
         )  # fmt: skip
 
     return made
-
-
-def _prescribed(case: Any) -> tuple[str, float]:
-    """Return what is prescribed normal to the surface, and its value."""
-    return ("pressure", case.pressure) if isinstance(case, SurfaceCase) else ("load", case.load)
-
-
-def _direction(case: Any) -> tuple[float, float]:
-    return unit_vector(case.direction) if isinstance(case, SurfaceCase) else (1.0, 0.0)
 
 
 def checked_table(table: HistoryTable, study: Study) -> bool:
@@ -171,12 +164,46 @@ def _read(table: HistoryTable, **constants: Any) -> History:
     )
 
 
-def _from_file(table: HistoryTable, study: Study) -> Any:
-    """Return what makes the history of a case from a table; without a load in it, that of the case."""
-    has_load = checked_table(table, study)
+class Impacts(Singles):
+    """Every indenter of a study that falls on every material, at every temperature; the speed runs fastest."""
 
-    def made(case: Any, dwell: float, temperature: float | None) -> History:
-        load = {} if has_load else dict([_prescribed(case)])
-        return _read(table, **load, temperature=temperature, direction=_direction(case))
+    STAGE, GROUP, NOUN = "impacts", "/impact", "impacts"
 
-    return made
+    @classmethod
+    def of(cls, study: Study, sweep: Sweep, rubbers: Rubbers) -> Impacts | None:
+        """Return the impacts of a study, None without [impact]."""
+        table = study.impact
+        if table is None:
+            return None
+        tasks: list[Task | Failure] = []
+        for number in impacts_of(sweep).tolist():
+            case: Any = sweep.cases[number]
+            for speed in table.speed:
+                label = f"impact at {shown('temperature', case.temperature)}, {speed:g} m/s{case.body_label}"
+                label += "" if case.sample is None else f", sample {case.sample}"
+                arguments = {
+                    "indenter": case.indenter,
+                    "mass": table.mass,
+                    "speed": speed,
+                    "gravity": table.gravity or 0.0,
+                    "accuracy": min(study.solver.accuracy, _LOOSEST),
+                    "indenter_modulus": case.modulus,
+                    "indenter_poisson_ratio": case.poisson_ratio,
+                    "fields": False,
+                }
+                try:
+                    rubber = {"modes": rubbers.modes(case), "poisson_ratio": rubbers.of(case).poisson_ratio}
+                    tasks.append(Task(solve_hit, rubber | arguments, label))
+                except InputError as error:
+                    tasks.append(Failure.of(error, label))
+        axes = [axis for axis in sweep.axes if not set(axis.columns) <= _OTHERS]
+        dimensions = {axis.name: len(axis) for axis in axes if len(axis) > 1} | {"impact_speed": len(table.speed)}
+        about = {"units": "m/s", "long_name": "speed of the impact"}
+        coordinates = coordinates_of(axes, "point") | {"impact_speed": ("impact_speed", list(table.speed), about)}
+        return cls(tasks, dimensions, coordinates, {"mass": table.mass, "gravity": table.gravity or 0.0})
+
+
+def impacts_of(sweep: Sweep) -> Indices:
+    """Return the numbers of the cases that stand for those of all loads and sliding speeds."""
+    first = tuple(0 if set(axis.columns) <= _OTHERS else slice(None) for axis in sweep.axes)
+    return np.arange(len(sweep.cases)).reshape(sweep.shape)[first].ravel()

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, cast, overload
+from pathlib import Path
+from typing import Any, cast, overload
 
-from viscofric.data import IsothermalSweeps
+from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
 from viscofric.notes import Note, note_of
+from viscofric.ramps import TemperatureRamps
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.dma.ramps import read_ramps
 from viscofric.readers.dma.read import read_dma
@@ -17,42 +20,30 @@ from viscofric.rheology.cards import open_card
 from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
 from viscofric.rheology.material import Material
 from viscofric.rheology.ramps.assumed import assumed_of
-from viscofric.rheology.ramps.superpose import superpose_ramps
+from viscofric.rheology.ramps.superpose import RampLaw, superpose_ramps
+from viscofric.rheology.shifts.law_comparison import LawComparison
+from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_files import read_shift_factors
+from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import StepSuperposition
 from viscofric.rheology.superposition.superpose import superpose
-from viscofric.step_tests import StepMasterCurve
+from viscofric.step_tests import StepMasterCurve, StepTests
 from viscofric.study.at_strain import at_strain
 from viscofric.study.rubber import Rubber
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from viscofric.data import MasterCurve
-    from viscofric.ramps import TemperatureRamps
-    from viscofric.rheology.ramps.superpose import RampLaw
-    from viscofric.rheology.shifts.law_comparison import LawComparison
-    from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.step_tests import StepTests
-    from viscofric.study.run_file.material import MaterialTable
+from viscofric.study.run_file.material import MaterialTable
 
 
 def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
     """Return the material of [material] of a run file, whose paths are resolved.
 
-    With `liquids`, a liquid, which has no spectrum for contacts, becomes a table of its master curve, with a note.
-
-    Raises `LiquidError` if it is a liquid, unless `liquids` is true.  Raises `DataFileError`,
-    `SuperpositionError` or `InputError` if a file cannot be used or does not state tension or shear, or the fit
-    fails.
+    With `liquids`, a liquid, which has no spectrum for contacts, becomes a table of its master curve, with a note;
+    otherwise it is a `LiquidError`.
     """
     return at_strain(_at_small_strain(table, liquids), table)
 
@@ -227,11 +218,7 @@ def _from_master_curve(table: MaterialTable, path: Path, liquids: bool) -> Rubbe
     """Use a given master curve, with its shift factors if they are given."""
     reference = _reference(table)
     curve = read_master_curve(
-        path,
-        reference,
-        poisson_ratio=table.poisson_ratio,
-        modulus_unit=table.modulus_unit,
-        **_columns(table),
+        path, reference, poisson_ratio=table.poisson_ratio, modulus_unit=table.modulus_unit, **_columns(table)
     )
     shift: ShiftLaw | None = None
     if table.shift_factors is not None:

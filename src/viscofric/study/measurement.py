@@ -48,15 +48,7 @@ def separated(runs: TractionRuns, table: MeasurementTable) -> FrictionCurves:
 
 
 class Measurement:
-    """Measured friction and the modulus of a material.
-
-    Attributes
-    ----------
-    load : float
-        Of the friction master curve, N.
-    notes : list of Note
-        One sentence each.
-    """
+    """Measured friction and the modulus of a material; `load` of the friction master curve, N."""
 
     def __init__(self, curves: FrictionCurves, material: Material, ball: Ball, load: float) -> None:
         self.curves, self.material = curves, material

@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import StudyError
 from viscofric.notes import Note
+from viscofric.rheology.material import Material
+from viscofric.rheology.payne.kraus_fit import PayneFit
+from viscofric.rheology.ramps.result import RampSuperposition
+from viscofric.rheology.shifts.law_comparison import LawComparison
+from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-if TYPE_CHECKING:
-    from viscofric.data import IsothermalSweeps, MasterCurve
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.payne.kraus_fit import PayneFit
-    from viscofric.rheology.ramps.result import RampSuperposition
-    from viscofric.rheology.shifts.law_comparison import LawComparison
-    from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
-    from viscofric.rheology.superposition.joint import JointSuperposition
-    from viscofric.rheology.superposition.result import Superposition
-    from viscofric.rheology.superposition.step_result import StepSuperposition
-    from viscofric.step_tests import StepTests
+from viscofric.rheology.superposition.joint import JointSuperposition
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.step_tests import StepTests
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,31 +5,26 @@ from __future__ import annotations
 import csv
 import io
 import math
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.files import write_atomically
 from viscofric.notes import dumped, records
 from viscofric.rheology.cards import CardFormat, CardLaw, write_card
+from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.step_tests import StepMasterCurve
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, input_hashes, provenance
+from viscofric.study.rubber import Rubber
 from viscofric.study.rubber_datasets import rubber_groups
+from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.study_rubber import draw_rubber
 from viscofric.units import CELSIUS_ZERO, celsius, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from viscofric.data import IsothermalSweeps, MasterCurve
-    from viscofric.rheology.material import Material
-    from viscofric.step_tests import StepMasterCurve
-    from viscofric.study.rubber import Rubber
-    from viscofric.study.run_file.material import MaterialTable
-
 
 #: Format of a card -> the end of its file's name.
 CARDS: dict[CardFormat, str] = {
@@ -54,32 +49,9 @@ def run_material(
     samples: int = 200,
     synthetic: bool = False,
 ) -> tuple[StudyResults, Rubber, list[Path]]:
-    """Make a material and store it: results, material file and tables.
+    """Make a material and store it: results with its groups, the material, and its files (material file and tables).
 
-    Parameters
-    ----------
-    table : MaterialTable
-    output : str or Path
-        Folder for the results, made if missing.
-    title, command : str
-        Of the report; the user's command.
-    samples : int
-        Bootstrap samples for the bands of E(ω); 0 for none.
-    synthetic : bool
-        Whether the data are synthetic.
-
-    Returns
-    -------
-    results : StudyResults
-        With the groups of the material in `viscofric.study.results.tree`.
-    rubber : Rubber
-    files : list of Path
-        Material file and tables.
-
-    Raises
-    ------
-    DataFileError, SuperpositionError, InputError
-        If a file cannot be read or written, or the fit fails.
+    `title`, `command`: of the report; `samples`: of the bands of E(ω), 0 for none; `synthetic`: whether the data are.
     """
     import xarray
 

@@ -2,32 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
+from viscofric.friction.cases.case import Case
+from viscofric.friction.cases.record import Record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, note_of
+from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.laws import ShiftLaw
+from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES, sample_materials
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber import Rubber, shift_of
+from viscofric.study.run_file.material import MaterialTable
+from viscofric.study.run_file.settings import UncertaintyTable
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.friction.cases.case import Case
-    from viscofric.friction.cases.record import Record
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.rheology.spectra.quality import SpectrumFit
-    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-    from viscofric.study.run_file.material import MaterialTable
-    from viscofric.study.run_file.settings import UncertaintyTable
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,11 +38,7 @@ class StudyRubber:
 
     @classmethod
     def of(cls, table: MaterialTable, uncertainty: UncertaintyTable, temperatures: Sequence[float]) -> StudyRubber:
-        """Make a material for contacts at some temperatures.
-
-        Raises `StudyError` if it has no spectrum, no shift, or no sweeps for bootstrap samples.  Raises
-        `InputError` if a file cannot be used, or a temperature has no shift factor.
-        """
+        """Make a material for contacts at some temperatures; raise if it, or one of these, cannot be used for them."""
         rubber = make_rubber(table)
         shift = shift_of(rubber)
         # Raises for temperatures without a shift factor, before any case is solved.
@@ -192,14 +185,7 @@ def curves_of(records: Sequence[Record]) -> FrictionCurves:
 
 
 class FrictionBands:
-    """Converts solved cases to friction curves, with bands if the material has bootstrap samples (`count`, 0 for none).
-
-    Attributes
-    ----------
-    samples : MaterialSamples or None
-    notes : tuple of str
-        On the bands so far, one sentence each.
-    """
+    """Converts solved cases to friction curves, with bands from `count` bootstrap samples of the material, if any."""
 
     def __init__(self, rubber: Rubber, count: int, seed: int = 0) -> None:
         self.notes: tuple[str, ...] = ()

@@ -78,7 +78,7 @@ def opened_study(path: Path) -> tuple[dict[str, Any], dict[str, Path]]:
     DataFileError
         If a file that it names is not there.
     """
-    from viscofric.study.run_file.material import files_of
+    from viscofric.study.run_file.tables import files_of
     from viscofric.study.run_file.study import parse_study, read_study_text
 
     text = read_study_text(path)

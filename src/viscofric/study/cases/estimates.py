@@ -4,23 +4,18 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.contact.free.scale import Scale
 from viscofric.errors import InputError
-from viscofric.friction.cases.case import Rubbers
+from viscofric.friction.cases.case import Case, Rubbers
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.planning.curve import Curve
 from viscofric.motion.springs import is_body_of_revolution
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
-
-    from viscofric.friction.cases.case import Case
-    from viscofric.rheology.material import Material
+from viscofric.rheology.material import Material
 
 # Processor time of a contact on one core of 2020, s: at low accuracy, what 1e-3 adds, and the power of 1/accuracy with
 # which that grows.  Means over six speeds at two temperatures of the synthetic fluoroelastomer

@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.contact.fields.dissipation import Modes
 from viscofric.contact.heating import face_temperature
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ViscofricError
 from viscofric.friction.cases.record import Column, HistoryRecord
 from viscofric.friction.cases.surfaces import TOLERANCE, surface_of, unit_vector
 from viscofric.friction.prediction import predict_friction
+from viscofric.heat.heating import Heating
 from viscofric.heat.result import COLUMNS as HEAT_COLUMNS
 from viscofric.notes import note_of
+from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.quality import BEYOND
 from viscofric.roughness.ensemble import predict_rough_friction
 from viscofric.roughness.rough_friction import HeatedRoughFriction
-
-if TYPE_CHECKING:
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.heat.heating import Heating
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.rheology.material import Material
 
 #: Column of the results -> that of heated friction curves, unit, and meaning.
 COLUMNS = {
@@ -39,12 +37,7 @@ _KEPT = (BEYOND, "interface-extrapolated", "interface-pressure", "loss-beyond", 
 
 
 def solve_heated(
-    material: Material,
-    *,
-    speeds: tuple[float, ...],
-    temperature: float,
-    fields: bool = False,
-    **settings: Any,
+    material: Material, *, speeds: tuple[float, ...], temperature: float, fields: bool = False, **settings: Any
 ) -> HistoryRecord:
     """Solve contacts of one temperature and load at all speeds, each at the temperature to which it heats itself.
 

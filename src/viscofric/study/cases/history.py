@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from viscofric.friction.cases.record import Column, HistoryRecord
 from viscofric.friction.cases.surfaces import surface_of
 from viscofric.motion.cycle import solve_cycle
-from viscofric.motion.history import dense_times
+from viscofric.motion.history import History, dense_times
 from viscofric.motion.impact import solve_impact
 from viscofric.motion.solve import solve_transient
 from viscofric.notes import note_of
@@ -16,7 +16,6 @@ from viscofric.rheology.material import Material
 if TYPE_CHECKING:
     import xarray
 
-    from viscofric.motion.history import History
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 #: Number of a cycle -> its meaning; units by that of the load.
@@ -41,30 +40,12 @@ _OF_IMPACT = {
 
 
 def solve_history(
-    material: Material,
-    *,
-    history: History,
-    points: int,
-    cycle: bool = False,
-    fields: bool = False,
-    **contact: Any,
+    material: Material, *, history: History, points: int, cycle: bool = False, fields: bool = False, **contact: Any
 ) -> HistoryRecord:
-    """Solve a contact over time.
+    """Solve a contact over time, or with `cycle` the periodic state of a period, at so many times (`dense_times`).
 
-    Parameters
-    ----------
-    material : Material
-        Of an isothermal contact with the modes at its temperature, without shift factors.
-    history : History
-        With a temperature only for a heated contact.
-    points : int
-        Number of times, see `dense_times`.
-    cycle : bool
-        Whether the history is one period of a motion in its periodic state.
-    fields : bool
-        Not used: there are none.
-    **contact
-        Further arguments of `solve_transient`, SI; `surface`, a description of one, instead of `indenter`.
+    An isothermal `material` has the modes at its temperature, without shift factors; `contact` are further arguments
+    of `solve_transient`, SI, with `surface`, a description of one, instead of `indenter`.  `fields` is not used.
     """
     times = dense_times(history, points)
     if "surface" in contact:

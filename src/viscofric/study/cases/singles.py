@@ -7,17 +7,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from viscofric.friction.cases.record import Failure, HistoryRecord
+from viscofric.friction.cases.record import Failure, HistoryRecord, Record
 from viscofric.friction.cases.solving import Task
-from viscofric.notes import counted
+from viscofric.notes import Note, counted
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     import xarray
-
-    from viscofric.friction.cases.record import Record
-    from viscofric.notes import Note
 
 
 #: Numbers over time with the names of coordinates.
@@ -25,13 +22,7 @@ _OVER_TIME = ("load", "temperature")
 
 
 class Singles:
-    """Contacts of one kind with their results; see `viscofric.study.running.running.Plan`.
-
-    Attributes
-    ----------
-    tasks : sequence of Task or Failure
-        Of each contact; the last of the dimensions runs fastest.
-    """
+    """Contacts of one kind with their results, see `running.Plan`; the last of the dimensions runs fastest."""
 
     #: Its stage in events, its group in the results, and its contacts in a sentence.
     STAGE: ClassVar[str]

@@ -118,13 +118,7 @@ class Common(NamedTuple):
 
 
 def common_cases(one: CaseTable, other: CaseTable) -> Common:
-    """Find the common cases of two tables.
-
-    Raises
-    ------
-    InputError
-        If there are none, a coordinate has different units, varies in only one of them, or a case is repeated.
-    """
+    """Find the common cases of two tables; raise where there are none, or their coordinates do not match."""
     shared = [name for name in one.coordinates if name in other.coordinates]
     for name in shared:
         units = one.units.get(name, "1"), other.units.get(name, "1")

@@ -75,15 +75,7 @@ def write_columns(text: TextIO, dataset: xarray.Dataset) -> None:
 
 
 def read_table_text(text: str) -> tuple[dict[str, str], dict[str, str], dict[str, Any]]:
-    """Read a table written by `table_text`; raise ValueError if it is not one.
-
-    Returns
-    -------
-    attributes, units : dict of str to str
-        Of the data set, from the lines above the table; and of the columns, SI.
-    columns : dict of str to (n,) array
-        Numbers (missing ones NaN) or texts; SI.
-    """
+    """Return attributes, units and columns (SI) of a table written by `table_text`; raise ValueError for any other."""
     lines = text.splitlines()
     remarks = [line.removeprefix("#").strip() for line in lines if line.startswith("#")]
     if not remarks or not remarks[0].startswith(TITLE):

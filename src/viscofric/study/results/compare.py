@@ -14,7 +14,7 @@ from viscofric.contact.solution import ERRORS
 from viscofric.datasets import dataset
 from viscofric.files import parse_toml
 from viscofric.notes import Note
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 from viscofric.study.results.case_table import CaseTable, common_cases
 
 if TYPE_CHECKING:
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
-    from viscofric.showing import Rows
 
 
 #: Variables that are compared -> the variable with its stated error.
@@ -171,11 +170,7 @@ def compare_tables(one: CaseTable, other: CaseTable, tolerance: float | None) ->
 
 
 def _difference(
-    name: str,
-    tables: tuple[CaseTable, CaseTable],
-    rows: tuple[Any, Any],
-    tolerance: float | None,
-    accuracy: float,
+    name: str, tables: tuple[CaseTable, CaseTable], rows: tuple[Any, Any], tolerance: float | None, accuracy: float
 ) -> VariableDifference:
     """Compare one variable over the cases that both have solved."""
     a, b = (table.columns[name][row] for table, row in zip(tables, rows, strict=True))

@@ -16,10 +16,10 @@ import numpy as np
 from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, note_of
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.study.results.case_table import CaseTable
-from viscofric.study.results.compare import compare_tables
-from viscofric.study.results.export import export_results
+from viscofric.study.results.compare import ResultsComparison, compare_tables
+from viscofric.study.results.export import Form, export_results
 from viscofric.study.results.file import cases_of, open_tree, rubbers_of
 from viscofric.units import number
 
@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Mask
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.showing import Rows
-    from viscofric.study.results.compare import ResultsComparison
-    from viscofric.study.results.export import Form
 
 _ROUNDING = 1e-9
 

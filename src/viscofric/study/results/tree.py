@@ -43,7 +43,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.datasets import dataset
-from viscofric.friction.cases.record import FIELD_MEANING, MEANING, Record
+from viscofric.friction.cases.record import FIELD_MEANING, MEANING, Failure, Record
 from viscofric.friction.cases.surfaces import MadeSurface
 
 if TYPE_CHECKING:
@@ -52,7 +52,6 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.contact.solution import Meaning
-    from viscofric.friction.cases.record import Failure
     from viscofric.friction.curves import FrictionCurves
     from viscofric.study.cases.sweep import Axis, Sweep
     from viscofric.study.run_file.contact import AnyIndenterTable
@@ -68,10 +67,7 @@ _FLAGS = {"interpolated": 0, _WITHIN: -1}
 _PLACES = ("speed", "temperature", "load", "pressure")
 # Meaning of values that are no numbers of a record: bands and flags, and coordinates.
 _OTHER: dict[str, Meaning] = {
-    "friction_material_error": (
-        "1",
-        "standard error of the friction coefficient due to material uncertainty",
-    ),
+    "friction_material_error": ("1", "standard error of the friction coefficient due to material uncertainty"),
     "friction_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
     "friction_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
     "interface_friction": ("1", "friction coefficient of the interface"),
@@ -90,18 +86,12 @@ _OTHER: dict[str, Meaning] = {
     "seed": ("1", "seed of the generated rough surface"),
     "direction": ("rad", "direction of the motion, from x towards y"),
 }
-_ROUGH_WITHIN = (
-    "1",
-    "1: reduced frequencies 2παv/λ of all waves of the surface within the measured range; 0: not",
-)
+_ROUGH_WITHIN = ("1", "1: reduced frequencies 2παv/λ of all waves of the surface within the measured range; 0: not")
 _PREDICTED: dict[str, Meaning] = {
     "reduced_speed": ("m/s", "speed times shift factor"),
     "predicted": ("1", "predicted viscoelastic friction coefficient"),
     "predicted_error": ("1", "numerical error estimate of the predicted friction coefficient"),
-    "predicted_material_error": (
-        "1",
-        "standard error of the predicted friction due to material uncertainty",
-    ),
+    "predicted_material_error": ("1", "standard error of the predicted friction due to material uncertainty"),
     "predicted_lower": ("1", "lower end of the 95 % band of the predicted friction coefficient"),
     "predicted_upper": ("1", "upper end of the 95 % band of the predicted friction coefficient"),
     _WITHIN: _OTHER[_WITHIN],
@@ -201,11 +191,7 @@ def field_groups(sweep: Sweep, outcomes: Sequence[Record | Failure]) -> Groups:
 
 
 def measurement_data(
-    measured: FrictionCurves,
-    reduced_speed: Any,
-    solved: Any,
-    within: Sequence[bool] | None,
-    predicted: FrictionCurves,
+    measured: FrictionCurves, reduced_speed: Any, solved: Any, within: Sequence[bool] | None, predicted: FrictionCurves
 ) -> xarray.Dataset:
     """Return the separated measurement with the prediction at the `solved` points, NaN at the others."""
     columns: dict[str, Any] = {"reduced_speed": reduced_speed}

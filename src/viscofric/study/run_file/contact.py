@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
+from collections.abc import Callable, Iterator
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag
 
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
+from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.study.run_file.tables import (
     Angles,
@@ -19,23 +21,17 @@ from viscofric.study.run_file.tables import (
     Modulus,
     Number,
     Pressures,
+    Problem,
     Speeds,
     Table,
     Temperatures,
     worded,
 )
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.cases.case import Case
-    from viscofric.study.run_file.tables import Problem
-
 _SHAPE = "Shape; each has its own lengths or angle."
 
 
-class AnyIndenterTable(Table, ABC):
+class AnyIndenterTable(Table):
     """[indenter]: the indenter that slides or rolls over the rubber."""
 
     modulus: Modulus | None = Field(None, description="Young's modulus of an elastic indenter; rigid without it.")
@@ -45,8 +41,9 @@ class AnyIndenterTable(Table, ABC):
     #: Class of its cases, and the keys of [conditions] that they take.
     CASE: ClassVar[type[Case]] = IndenterCase
     CONDITIONS: ClassVar[tuple[str, ...]] = ("load",)
-    #: Keys whose values are axes of the study.
+    #: Keys whose values are axes of the study, and what makes the indenter of one value of each, in their order.
     AXES: ClassVar[tuple[str, ...]]
+    KIND: ClassVar[Callable[..., Indenter]]
     #: Whether its load is per length.
     LINE: ClassVar[bool] = False
 
@@ -61,9 +58,9 @@ class AnyIndenterTable(Table, ABC):
         """Lengths (m) or angles (rad) of the shape, each with all its values."""
         return {name: getattr(self, name) for name in self.AXES}
 
-    @abstractmethod
     def made(self, *values: float) -> Indenter:
         """Return the indenter for one value of each axis, in their order."""
+        return type(self).KIND(*values)
 
 
 class BallTable(AnyIndenterTable):
@@ -71,11 +68,7 @@ class BallTable(AnyIndenterTable):
 
     shape: Literal["ball"] = Field("ball", description=_SHAPE)
     radius: Lengths = Field(description="Radius of the ball.")
-    AXES = ("radius",)
-
-    def made(self, *values: float) -> Indenter:
-        """Return the ball for one radius."""
-        return Ball(*values)
+    AXES, KIND = ("radius",), Ball
 
 
 class CylinderTable(AnyIndenterTable):
@@ -83,12 +76,8 @@ class CylinderTable(AnyIndenterTable):
 
     shape: Literal["cylinder"] = Field(description=_SHAPE)
     radius: Lengths = Field(description="Radius of the cylinder.")
-    AXES = ("radius",)
+    AXES, KIND = ("radius",), Cylinder
     LINE = True
-
-    def made(self, *values: float) -> Indenter:
-        """Return the cylinder for one radius."""
-        return Cylinder(*values)
 
 
 class EllipsoidTable(AnyIndenterTable):
@@ -97,11 +86,7 @@ class EllipsoidTable(AnyIndenterTable):
     shape: Literal["ellipsoid"] = Field(description=_SHAPE)
     radius_x: Lengths = Field(description="Radius of curvature along the motion.")
     radius_y: Lengths = Field(description="Radius of curvature across the motion.")
-    AXES = ("radius_x", "radius_y")
-
-    def made(self, *values: float) -> Indenter:
-        """Return the ellipsoid for two radii."""
-        return Ellipsoid(*values)
+    AXES, KIND = ("radius_x", "radius_y"), Ellipsoid
 
 
 class ConeTable(AnyIndenterTable):
@@ -109,17 +94,13 @@ class ConeTable(AnyIndenterTable):
 
     shape: Literal["cone"] = Field(description=_SHAPE)
     angle: Angles = Field(description="Angle between flank and undeformed surface; small for linear contact.")
-    AXES = ("angle",)
+    AXES, KIND = ("angle",), Cone
 
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
         yield from super().problems()
         if max(self.angle) >= 0.5 * math.pi:
             yield "angle", f"{math.degrees(max(self.angle)):.4g}° is not less than a right angle, such as '10 deg'"
-
-    def made(self, *values: float) -> Indenter:
-        """Return the cone for one angle."""
-        return Cone(*values)
 
 
 #: What a run file calls a shape -> its table.
@@ -162,8 +143,7 @@ class ConditionsTable(Table):
     )
     pressure: Pressures = Field(default_factory=tuple, description="Instead, for a rough surface: mean pressure.")
     direction: Directions = Field(
-        default_factory=tuple,
-        description="Sliding direction of a rough surface, from x towards y; default: along x.",
+        default_factory=tuple, description="Sliding direction of a rough surface, from x towards y; default: along x."
     )
     speed: Speeds = Field(description="Speed at which the rubber is deformed, above zero.")
     temperature: Temperatures = Field(description="Temperature of the rubber.")

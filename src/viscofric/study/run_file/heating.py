@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PlainValidator, WithJsonSchema
 
 from viscofric.errors import brief
 from viscofric.heat.heating import Heating
-from viscofric.study.run_file.tables import Length, Number, Speeds, Table, as_written, listed, one_or_more, worded
-from viscofric.thermal import BODIES, body_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.study.run_file.tables import Problem
-    from viscofric.thermal import ThermalProperties
+from viscofric.study.run_file.tables import (
+    Length,
+    Number,
+    Problem,
+    Speeds,
+    Table,
+    as_written,
+    listed,
+    one_or_more,
+    worded,
+)
+from viscofric.thermal import BODIES, ThermalProperties, body_of
 
 _MOST_VALUES = 100
 
@@ -77,8 +82,7 @@ class HeatingTable(Table):
         "given, makes this heat instead.",
     )
     slip: Speeds | None = Field(
-        None,
-        description="Sliding velocity between both surfaces; several are an axis; default: the speed of the case.",
+        None, description="Sliding velocity between both surfaces; several are an axis; default: the speed of the case."
     )
     track_radius: Length | None = Field(None, description="Radius of the circle on which earlier passes were.")
     passes: Passes = Field(0, description="Earlier passes on that circle; inf: the final state.")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -16,6 +17,7 @@ from viscofric.study.run_file.tables import (
     Headings,
     Length,
     Mass,
+    Problem,
     Speeds,
     Table,
     Words,
@@ -27,12 +29,6 @@ from viscofric.study.run_file.tables import (
     worded,
 )
 from viscofric.units import to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from viscofric.study.run_file.tables import Problem
 
 _MOST_DWELLS = 1000
 
@@ -57,6 +53,8 @@ _STAGES = ("load_time", "dwell", "slide", "strokes")
 
 class HistoryTable(Table):
     """[history]: every case also over time, at its load or pressure, speed and temperature, with [heating] heated."""
+
+    FILES = ("file",)
 
     load_time: Duration = Field(0.0, description="Time in which the load or pressure rises from zero; 0 s: at once.")
     dwell: Durations = Field((0.0,), description="Time at rest under the load before the sliding; several are an axis.")
@@ -103,15 +101,6 @@ class HistoryTable(Table):
             yield "dwell", worded(said, f"{said.partition(';')[0]}; give a dwell, a time to load or a path")
         if self.slide is None and self.strokes > 1:
             yield "strokes", worded("needs slide, the length of the path", "need the path of a stroke")
-
-    @property
-    def inputs(self) -> tuple[Path, ...]:
-        """The file of the history."""
-        return () if self.file is None else (self.file,)
-
-    def relative_to(self, folder: Path) -> HistoryTable:
-        """Return the table with its path relative to a folder."""
-        return self if self.file is None else self.model_copy(update={"file": folder / self.file})
 
 
 class ImpactTable(Table):

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import fields
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
 from viscofric.rheology.interface.fitting import KINDS
+from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.study.run_file.tables import (
     VALUE,
     Number,
     Pressure,
+    Problem,
     Speed,
     Table,
     Temperature,
@@ -21,12 +24,6 @@ from viscofric.study.run_file.tables import (
     worded,
 )
 from viscofric.units import positive
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.study.run_file.tables import Problem
 
 Volume = Annotated[float, BeforeValidator(lambda value: positive(with_unit(value), "m**3", VALUE)), as_text("20 nm**3")]
 Energy = Annotated[

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import itertools
 import math
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.errors import InputError
 from viscofric.rheology.ramps.assumed import assumed_of
 from viscofric.study.run_file.tables import (
-    MOST_POINTS,
     Count,
     FileName,
     FileNames,
     Headings,
     Number,
+    Problem,
     Table,
     Temperature,
     Words,
@@ -29,40 +29,15 @@ from viscofric.study.run_file.tables import (
 )
 from viscofric.units import conversion
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.study.run_file.tables import Problem
-
-_MOST_FILES = MOST_POINTS
 #: Keys for the source of the material; every run file has one of them, or sweeps and step tests together.
 SOURCES = ("dma", "ramps", "creep", "relaxation", "master_curve", "file", "catalogue")
 #: Kinds of tests that make one material together.
 SEVERAL = (["dma", "creep"], ["dma", "relaxation"])
 #: Laws whose constants are fitted to temperature ramps.
 RAMP_LAWS = ("wlf", "arrhenius", "vft", "wlf+arrhenius")
-#: Keys for the conversion of sweeps, invalid for a predefined material …
-_HOW = (
-    "deformation",
-    "temperature",
-    "modulus_unit",
-    "columns",
-    "sheet",
-    "poisson_ratio",
-    "vertical_shift",
-    "shift_by",
-    "shift_weights",
-    "shift",
-    "shift_factors",
-    "shift_factor_columns",
-    "shift_factor_sheet",
-    "fixed_shift_factors",
-    "spectrum",
-    "modes",
-    "tau_ratio",
-    "assumed_shift",
-)
-#: … those invalid for step tests, which have one curve for each temperature …
+#: Keys that a predefined material has too; the others are for the conversion of sweeps.
+_OF_ANY = (*SOURCES, "name", "reference_temperature", "amplitude_sweep", "strain", "measured_at")
+#: Keys that are invalid for step tests, which have one curve for each temperature …
 _OF_TWO_MODULI = ("shift_by", "shift_weights")
 #: … those for one kind of tests, not for sweeps and step tests together …
 _OF_ONE_KIND = ("temperature", "modulus_unit", "columns", "sheet", "shift_factors", "fixed_shift_factors")
@@ -103,6 +78,8 @@ def _in_catalogue(value: str) -> str:
 
 class MaterialTable(Table):
     """[material]: DMA files and how the material model is fitted to them, or a predefined material."""
+
+    FILES = ("dma", "creep", "relaxation", "ramps", "amplitude_sweep", "master_curve", "file", "shift_factors")
 
     dma: FileNames | None = Field(None, description="DMA sweeps: a file, a list, or a pattern such as 'sweeps/*.txt'.")
     ramps: FileNames | None = Field(
@@ -177,8 +154,7 @@ class MaterialTable(Table):
     tau_ratio: Number = Field(math.e, gt=1.0, le=100.0, description="Ratio of neighbouring retardation times.")
 
     amplitude_sweep: FileNames | None = Field(
-        None,
-        description="Amplitude sweep of the material, from which Kraus's law scales it to strain.",
+        None, description="Amplitude sweep of the material, from which Kraus's law scales it to strain."
     )
     strain: Annotated[Number, Field(gt=0.0, le=10.0)] | None = Field(
         None, description="Tensile strain to scale the moduli to, a fraction (0.05 is 5 %): an approximation."
@@ -199,55 +175,47 @@ class MaterialTable(Table):
                 'has no source of the material; give dma = "sweeps.csv" (or a master_curve, a file with a '
                 "predefined material, or a name in the catalogue)"
             )
-        chosen = self.model_fields_set
         if given in SEVERAL:
-            yield from self._doubts_of_several(" and ".join(given))
+            kinds = " and ".join(given)
+            yield from self._useless(_OF_ONE_KIND, f"for {kinds} together, only for one of them")
+            if self.vertical_shift == "free":
+                yield 'vertical_shift = "free" is fitted to one kind of tests; choose "density" or "none"'
         elif len(given) > 1:
             yield f"{' and '.join(given)} are both given; give one of them"
         if given in (["file"], ["catalogue"]):
-            useless = [name for name in _HOW if name in chosen]
-            if useless:
-                yield f"{' and '.join(useless)} cannot be chosen for a predefined material ({given[0]})"
-        elif given == ["ramps"]:
-            yield from self._doubts_of_ramps()
+            names = [name for name in type(self).model_fields if name not in _OF_ANY]
+            yield from self._useless(names, f"for a predefined material ({given[0]})")
         elif given and self.reference_temperature is None:
             yield 'reference_temperature is missing; it is the temperature of the master curve, e.g. "30 degC"'
+        if given == ["ramps"]:
+            yield from self._doubts_of_ramps()
         if given == ["master_curve"]:
-            useless = [name for name in _OF_SWEEPS if name in chosen]
-            if useless:
-                yield f"{' and '.join(useless)} cannot be chosen for a master curve, only for sweeps (dma)"
+            yield from self._useless(_OF_SWEEPS, "for a master curve, only for sweeps (dma)")
             if self.shift != "measured" and self.shift_factors is None:
                 yield "a law for shift needs the shift factors of the master curve; give them as shift_factors"
         yield from self._doubts_of_shifts()
         if self.modes is not None and self.spectrum != "sparse":
             yield 'modes needs spectrum = "sparse"'
 
-    def _doubts_of_several(self, kinds: str) -> Iterator[str]:
-        useless = [name for name in _OF_ONE_KIND if name in self.model_fields_set]
-        if useless:
-            yield f"{' and '.join(useless)} cannot be chosen for {kinds} together, only for one of them"
-        if self.vertical_shift == "free":
-            yield 'vertical_shift = "free" is fitted to one kind of tests; choose "density" or "none"'
+    def _useless(self, names: Sequence[str], where: str) -> Iterator[str]:
+        """Yield the keys among some that were given where they cannot be chosen."""
+        if found := [name for name in names if name in self.model_fields_set]:
+            yield f"{' and '.join(found)} cannot be chosen {where}"
 
     def _doubts_of_ramps(self) -> Iterator[str]:
-        chosen = self.model_fields_set
-        if self.reference_temperature is None:
-            yield 'reference_temperature is missing; it is the temperature of the master curve, e.g. "30 degC"'
-        useless = [name for name in (*_OF_SWEEPS, "shift_factors") if name in chosen and name != "vertical_shift"]
-        if useless:
-            yield f"{' and '.join(useless)} cannot be chosen for temperature ramps"
+        names = [name for name in (*_OF_SWEEPS, "shift_factors") if name != "vertical_shift"]
+        yield from self._useless(names, "for temperature ramps")
         if self.vertical_shift == "free":
             yield 'vertical_shift = "free" cannot be found from temperature ramps; choose "density" or "none"'
         if self.shift not in ("measured", *RAMP_LAWS):
             yield f"shift of ramps is one of {', '.join(RAMP_LAWS)}; their constants are fitted to all points"
-        if self.assumed_shift is not None and "shift" in chosen:
+        if self.assumed_shift is not None and "shift" in self.model_fields_set:
             yield "shift and assumed_shift are both given; give one of them"
 
     def _doubts_of_shifts(self) -> Iterator[str]:
         for name in ("creep", "relaxation"):
-            useless = [key for key in _OF_TWO_MODULI if key in self.model_fields_set]
-            if useless and getattr(self, name) is not None and self.dma is None:
-                yield f"{' and '.join(useless)} cannot be chosen for {name} tests, only for sweeps (dma)"
+            if getattr(self, name) is not None and self.dma is None:
+                yield from self._useless(_OF_TWO_MODULI, f"for {name} tests, only for sweeps (dma)")
         for name in ("strain", "measured_at"):
             if getattr(self, name) is not None and self.amplitude_sweep is None:
                 yield f"{name} needs an amplitude_sweep, from which Kraus's law is found"
@@ -258,52 +226,14 @@ class MaterialTable(Table):
         for name in ("shift_factor_columns", "shift_factor_sheet"):
             if name in self.model_fields_set and self.shift_factors is None:
                 yield f"{name} is for a file of shift_factors, which is not given"
-        found_by = [name for name in ("shift_by", "shift_weights") if name in self.model_fields_set]
-        if self.shift_factors is not None and found_by:
-            yield f"{' and '.join(found_by)} cannot be chosen with shift_factors, which leave no factor to be found"
+        if self.shift_factors is not None:
+            yield from self._useless(_OF_TWO_MODULI, "with shift_factors, which leave no factor to be found")
         if self.shift_weights is not None and self.shift_by != "both":
             yield f"shift_weights are for E' and E'' together; leave them out with shift_by = \"{self.shift_by}\""
         if self.vertical_shift == "free" and self.shift_by == "loss-tangent":
             yield 'vertical_shift = "free" cannot be found from tan δ (shift_by = "loss-tangent"), where it cancels'
 
-    def relative_to(self, folder: Path) -> MaterialTable:
-        """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
-        changes: dict[str, Any] = {}
-        for name in ("dma", "ramps", "creep", "relaxation", "amplitude_sweep"):
-            if (paths := getattr(self, name)) is not None:
-                changes[name] = tuple(path for one in paths for path in files_of(folder, one))
-        for name in ("master_curve", "file", "shift_factors"):
-            if (path := getattr(self, name)) is not None:
-                changes[name] = folder / path
-        return self.model_copy(update=changes)
-
     @property
     def steps(self) -> tuple[Path, ...]:
         """Files of creep or relaxation tests."""
         return self.creep or self.relaxation or ()
-
-    @property
-    def inputs(self) -> tuple[Path, ...]:
-        """All files of the material."""
-        return (
-            *(self.dma or ()),
-            *self.steps,
-            *(self.ramps or ()),
-            *(self.amplitude_sweep or ()),
-            *(path for path in (self.master_curve, self.file, self.shift_factors) if path is not None),
-        )
-
-
-def files_of(folder: Path, path: Path) -> tuple[Path, ...]:
-    """Return the files that match a path with ``*`` or ``?``, by name; the path itself if none does."""
-    whole = folder / path
-    if not any(mark in str(path) for mark in "*?") or whole.exists():
-        return (whole,)
-    base = Path(whole.anchor) if path.is_absolute() else folder
-    pattern = path.relative_to(path.anchor) if path.is_absolute() else path
-    found = list(itertools.islice((one for one in base.glob(str(pattern)) if one.is_file()), _MOST_FILES + 1))
-    if len(found) > _MOST_FILES:
-        raise InputError(
-            f"{path} matches more than {_MOST_FILES:,} files; write a narrower pattern", code="too-many-files"
-        )
-    return tuple(sorted(found)) or (whole,)

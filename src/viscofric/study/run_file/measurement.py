@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from viscofric.errors import brief
-from viscofric.study.run_file.material import files_of
 from viscofric.study.run_file.tables import (
     MOST_POINTS,
     Count,
@@ -17,6 +17,7 @@ from viscofric.study.run_file.tables import (
     Force,
     Headings,
     Number,
+    Problem,
     SignedForce,
     Table,
     TemperatureStep,
@@ -24,12 +25,6 @@ from viscofric.study.run_file.tables import (
     listed,
     one_or_more,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from viscofric.study.run_file.tables import Problem
 
 
 def _number_or_word(value: object) -> object:
@@ -43,6 +38,8 @@ def _number_or_word(value: object) -> object:
 
 class MeasurementTable(Table):
     """[measurement]: tribometer files and how their friction is separated, or separated friction curves."""
+
+    FILES = ("mtm", "curves")
 
     mtm: FileNames = Field((), description="Traction runs: a file, a list, or a pattern such as 'run*.txt'.")
     curves: FileName | None = Field(None, description="Instead: separated friction curves.")
@@ -95,15 +92,3 @@ class MeasurementTable(Table):
             "speed_tolerance": self.speed_tolerance,
             "temperature_tolerance": self.temperature_tolerance,
         }
-
-    def relative_to(self, folder: Path) -> MeasurementTable:
-        """Return the table with paths relative to a folder, and patterns such as ``*.txt`` expanded."""
-        changes: dict[str, Any] = {"mtm": tuple(path for one in self.mtm for path in files_of(folder, one))}
-        if self.curves is not None:
-            changes["curves"] = folder / self.curves
-        return self.model_copy(update=changes)
-
-    @property
-    def inputs(self) -> tuple[Path, ...]:
-        """All files of the measurement."""
-        return self.mtm if self.curves is None else (self.curves,)

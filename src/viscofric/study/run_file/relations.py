@@ -8,12 +8,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from viscofric.study.cases.sweep import CONDITIONS, MOST_CASES, axes_of, body_of, coordinates, count_cases
 from viscofric.study.run_file.contact import BallTable
-from viscofric.study.run_file.tables import PerLength, worded
+from viscofric.study.run_file.tables import PerLength, Problem, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
-
-    from viscofric.study.run_file.tables import Problem
 
     #: Valid tables by their names in the file.
     Tables: TypeAlias = Mapping[str, Any]
@@ -227,10 +225,7 @@ def _members(tables: Tables) -> Iterator[Problem]:
     for number, material in enumerate(tables.get("material", ())):
         if not (material.dma or material.steps):
             which = f"material[{number}]" if len(tables["material"]) > 1 else "[material]"
-            yield (
-                "uncertainty.members",
-                f"needs sweeps (dma), whose scatter gives the uncertainty; {which} has none",
-            )
+            yield ("uncertainty.members", f"needs sweeps (dma), whose scatter gives the uncertainty; {which} has none")
 
 
 def _place(name: str) -> str:

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.notes import Note
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
-from viscofric.study.run_file.tables import BIGGEST_SEED, MOST_POINTS, VALUE, Count, Number, Table, with_unit
+from viscofric.study.run_file.tables import BIGGEST_SEED, MOST_POINTS, VALUE, Count, Number, Problem, Table, with_unit
 from viscofric.units import positive
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from viscofric.study.run_file.tables import Problem
 
 _MOST_SAMPLES = 10_000
 _MOST_MEMBERS = 1_000

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import functools
 import re
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, Field, TypeAdapter, ValidationError
 
 from viscofric.errors import InputError, StudyError
 from viscofric.files import file_path, parse_toml
 from viscofric.notes import Note
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 from viscofric.study.cases.sweep import Sweep, sweep_of
-from viscofric.study.run_file.contact import (
-    SHAPES,
-    ConditionsTable,
-    IndenterTable,
-    LayerTable,
-)
+from viscofric.study.run_file.contact import SHAPES, AnyIndenterTable, ConditionsTable, IndenterTable, LayerTable
 from viscofric.study.run_file.errors import place, problems, wrong
 from viscofric.study.run_file.heating import HeatingTable
 from viscofric.study.run_file.history import HistoryTable, ImpactTable
@@ -28,15 +25,7 @@ from viscofric.study.run_file.measurement import MeasurementTable
 from viscofric.study.run_file.relations import relations
 from viscofric.study.run_file.settings import ClusterTable, OutputsTable, SolverTable, SweepTable, UncertaintyTable
 from viscofric.study.run_file.surface import SurfaceTable
-from viscofric.study.run_file.tables import RANGE, SEED_RANGE, SeedRange, SpeedRange, Table
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from viscofric.showing import Rows
-    from viscofric.study.run_file.contact import AnyIndenterTable
-    from viscofric.study.run_file.tables import Problem
+from viscofric.study.run_file.tables import RANGE, SEED_RANGE, Problem, SeedRange, SpeedRange, Table
 
 Part = TypeVar("Part", bound=BaseModel)
 
@@ -381,10 +370,8 @@ def _resolve_paths(study: Study, path: Path) -> Study:
     folder = path.parent
     try:
         materials = tuple(material.relative_to(folder) for material in study.materials)
-        measurement = None if study.measurement is None else study.measurement.relative_to(folder)
-        surface = None if study.surface is None else study.surface.relative_to(folder)
-        history = None if study.history is None else study.history.relative_to(folder)
+        tables = {name: getattr(study, name) for name in ("measurement", "surface", "history")}
+        others = {name: one.relative_to(folder) for name, one in tables.items() if one is not None}
     except (OSError, ValueError) as error:
         raise StudyError(f"{path}: {getattr(error, 'strerror', None) or error}.", code="unreadable") from None
-    tables = {"materials": materials, "measurement": measurement, "surface": surface, "history": history}
-    return study.model_copy(update=tables)
+    return study.model_copy(update={"materials": materials, **others})

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from collections.abc import Iterator
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from viscofric.errors import InputError
+from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.surface_case import SurfaceCase
-from viscofric.friction.cases.surfaces import MadeSurface, ScannedSurface, file_digest, step_of
+from viscofric.friction.cases.surfaces import MadeSurface, ScannedSurface, SurfaceSource, file_digest, step_of
 from viscofric.study.run_file.tables import (
     Count,
     Direction,
@@ -17,6 +19,7 @@ from viscofric.study.run_file.tables import (
     Length,
     Modulus,
     Number,
+    Problem,
     Seeds,
     Table,
     Words,
@@ -25,17 +28,12 @@ from viscofric.study.run_file.tables import (
 )
 from viscofric.units import conversion
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-
-    from viscofric.friction.cases.case import Case
-    from viscofric.friction.cases.surfaces import SurfaceSource
-    from viscofric.study.run_file.tables import Problem
-
 _MOST_POINTS, _MOST_STEPS = 16_384, 50
 _FEWEST_POINTS = 4
 _ROUNDING = 1e-9
+#: Keys of a surface read from a file, and of that and a generated one.
+_READ = ("unit", "channel", "missing", "lines", "prepare")
+_OF_BOTH = ("file", "spacing", "modulus", "poisson_ratio")
 
 _Points = Annotated[int, Field(strict=True, ge=1, le=_MOST_POINTS)]
 Points = Annotated[
@@ -71,6 +69,7 @@ class SurfaceTable(Table):
     CONDITIONS: ClassVar[tuple[str, ...]] = ("pressure", "direction")
     #: Whether its load is per length.
     LINE: ClassVar[bool] = False
+    FILES = ("file",)
 
     hurst: Number | None = Field(None, gt=0.0, le=1.0, description="Hurst exponent of a generated surface.")
     rms_height: Length | None = Field(None, description="Rms height; or give rms_slope.")
@@ -117,8 +116,9 @@ class SurfaceTable(Table):
         if self.file is None and self.hurst is None:
             yield "", 'has no source; give file = "scan.csv", or the hurst exponent of a generated surface'
             return
+        made = [name for name in type(self).model_fields if name not in (*_READ, *_OF_BOTH)]
         wrong, kind = (
-            (MADE, "a generated surface, but there is a file") if self.file else (READ, "a surface read from a file")
+            (made, "a generated surface, but there is a file") if self.file else (_READ, "a surface read from a file")
         )
         found = [name for name in wrong if name in given]
         for name in found:
@@ -208,30 +208,3 @@ class SurfaceTable(Table):
             angle=self.angle,
             exact=self.exact,
         )
-
-    def relative_to(self, folder: Path) -> SurfaceTable:
-        """Return the table with its path relative to a folder."""
-        return self if self.file is None else self.model_copy(update={"file": folder / self.file})
-
-    @property
-    def inputs(self) -> tuple[Path, ...]:
-        """The file of a measured surface."""
-        return () if self.file is None else (self.file,)
-
-
-#: Keys of a generated surface, and of one read from a file.
-MADE = (
-    "hurst",
-    "rms_height",
-    "rms_slope",
-    "longest",
-    "rolloff",
-    "shortest",
-    "points",
-    "period",
-    "seed",
-    "aspect",
-    "angle",
-    "exact",
-)
-READ = ("unit", "channel", "missing", "lines", "prepare")

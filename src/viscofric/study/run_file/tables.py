@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import re
 from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeAlias
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeAlias
 
 import numpy as np
 from pydantic import (
@@ -16,6 +18,7 @@ from pydantic import (
     ConfigDict,
     Discriminator,
     Field,
+    GetCoreSchemaHandler,
     PlainValidator,
     Strict,
     Tag,
@@ -29,12 +32,6 @@ from pydantic_core import InitErrorDetails, PydanticCustomError, core_schema
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, Remedy
 from viscofric.units import Quantity, positive, to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from pydantic import GetCoreSchemaHandler
-
 
 #: A key within the table, such as "load" or "load.2" ("": the whole table), and a sentence about it.
 Problem: TypeAlias = tuple[str, str]
@@ -64,6 +61,24 @@ class Table(BaseModel):
     """A table of the run file: no unknown keys, no changes afterwards."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    #: Keys that name files, in the order of `inputs`.
+    FILES: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def inputs(self) -> tuple[Path, ...]:
+        """All files that the table names."""
+        given = (getattr(self, key) for key in self.FILES)
+        return tuple(path for one in given for path in ((one,) if isinstance(one, Path) else one or ()))
+
+    def relative_to(self, folder: Path) -> Self:
+        """Return the table with paths relative to a folder, and patterns such as ``*.txt`` in lists expanded."""
+        changes: dict[str, Any] = {}
+        for key in self.FILES:
+            if isinstance(one := getattr(self, key), Path):
+                changes[key] = folder / one
+            elif one:
+                changes[key] = tuple(path for each in one for path in files_of(folder, each))
+        return self.model_copy(update=changes)
 
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
@@ -75,6 +90,21 @@ class Table(BaseModel):
         if found:
             raise all_at_once(type(self).__name__, found)
         return self
+
+
+def files_of(folder: Path, path: Path) -> tuple[Path, ...]:
+    """Return the files that match a path with ``*`` or ``?``, by name; the path itself if none does."""
+    whole = folder / path
+    if not any(mark in str(path) for mark in "*?") or whole.exists():
+        return (whole,)
+    base = Path(whole.anchor) if path.is_absolute() else folder
+    pattern = path.relative_to(path.anchor) if path.is_absolute() else path
+    found = list(itertools.islice((one for one in base.glob(str(pattern)) if one.is_file()), MOST_POINTS + 1))
+    if len(found) > MOST_POINTS:
+        raise InputError(
+            f"{path} matches more than {MOST_POINTS:,} files; write a narrower pattern", code="too-many-files"
+        )
+    return tuple(sorted(found)) or (whole,)
 
 
 def all_at_once(title: str, problems: list[Problem]) -> ValidationError:

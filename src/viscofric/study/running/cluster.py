@@ -10,21 +10,16 @@ import shutil
 import signal
 import time
 import uuid
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any, Self
 
 from viscofric.errors import InputError, ViscofricError, not_imported
 from viscofric.friction.cases.solving import solver_fingerprint
-from viscofric.study.running.executors import Executor, Lost, Waiting, take_on_cluster
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-    from types import ModuleType, TracebackType
-    from typing import Self
-
-    from viscofric.study.run_file.settings import ClusterTable
-    from viscofric.study.running.executors import Answers, Outcome, Solve, Task
+from viscofric.study.run_file.settings import ClusterTable
+from viscofric.study.running.executors import Answers, Executor, Lost, Outcome, Solve, Task, Waiting, take_on_cluster
 
 _PATIENCE = 30.0  # s
 _POLLING = 1.0  # s
@@ -101,9 +96,7 @@ class Dask(Executor):
                 code="no-batch-system",
             )
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self._client = None
         self._open.close()
 

@@ -4,20 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import Any, Protocol, Self, TypeAlias
 
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import solver_fingerprint
 from viscofric.processes import Workers, as_they_come
 from viscofric.threads import one_blas_thread
-
-if TYPE_CHECKING:
-    from collections.abc import Generator, Sequence
-    from types import TracebackType
-    from typing import Self
 
 
 @dataclass(frozen=True)
@@ -34,35 +29,14 @@ class Executor(contextlib.AbstractContextManager["Executor"]):
     """Solves tasks, in a ``with`` block; the results do not depend on the executor or its number of workers."""
 
     def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
-        """Solve independent tasks.
+        """Solve independent tasks, and yield the key and the outcome of each in the order in which they finish.
 
-        Parameters
-        ----------
-        solve : callable
-            Task → record; raises ConvergenceError or InputError.  Importable by its name.
-        tasks : sequence of Task
-
-        Yields
-        ------
-        key : str
-            Of a task, in the order in which they finish.
-        outcome : Record, Failure, Waiting or None
-            None: the task has started.  `Lost`: its workers ended again and again.  `Waiting`, without a task: there
-            are no workers for the time being.
-
-        Raises
-        ------
-        ViscofricError
-            If there are no usable workers.
+        The outcome is None when a task starts, and `Lost` when its workers ended again and again.  `Waiting`, without a
+        key: there are no workers for the time being.  Raises `ViscofricError` if there are no usable workers.
         """
         raise NotImplementedError
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         pass
 
 
@@ -101,10 +75,8 @@ class Processes(Executor):
         self._workers.__enter__()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._workers.__exit__(kind, error, trace)
+    def __exit__(self, *error: Any) -> None:
+        self._workers.__exit__(*error)
 
     def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
         """Solve tasks; see `Executor`."""

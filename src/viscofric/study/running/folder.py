@@ -9,17 +9,15 @@ import platform
 import shutil
 import stat
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import IO, TYPE_CHECKING
+from pathlib import Path
+from typing import IO
 
 from viscofric.errors import DataFileError, StudyError, not_written
 from viscofric.study.results.file import DIGEST, RESULTS_FILE, open_tree
 from viscofric.study.running.store import CaseStore
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 CASES_FOLDER = "cases"
 _LOCK = ".lock"
@@ -30,13 +28,7 @@ _OUTPUTS = ("results.", "prediction.")
 
 @contextlib.contextmanager
 def study_folder(folder: Path, resume: bool) -> Iterator[CaseStore]:
-    """Lock a results folder (made if missing) and yield its store of solved contacts.
-
-    With `resume`, contacts in it are reused and its results replaced.
-
-    Raises `StudyError` if another run uses it, or it has contents and `resume` is false.  Raises `DataFileError`
-    if it cannot be written, a part of it is a link to another place, or it is removed before the end.
-    """
+    """Lock a results folder (made if missing) and yield its store of solved contacts, old ones only with `resume`."""
     if folder.exists() and not folder.is_dir():
         raise DataFileError(folder, "is a file; results need a folder.", code="is-file")
     _refuse_links(folder)

@@ -10,15 +10,13 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.friction.cases.solving import solve
-from viscofric.study.running.executors import Executor, Lost, NoSolver, Processes, Serial, Waiting
-from viscofric.study.running.store import Damaged
+from viscofric.study.running.executors import Executor, Lost, NoSolver, Outcome, Processes, Serial, Solve, Task, Waiting
+from viscofric.study.running.store import CaseStore, Damaged
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.study.run_file.settings import ClusterTable
-    from viscofric.study.running.executors import Outcome, Solve, Task
-    from viscofric.study.running.store import CaseStore
 
     Value: TypeAlias = str | int | float | bool
 
@@ -64,8 +62,6 @@ def choose_executor(
 
     `workers` are processes of this machine, `scheduler` is the address of a Dask scheduler, and with `finished_only`
     nothing is solved.
-
-    Raises `InputError` if two are requested, the number is invalid, or Dask is not installed.
     """
     if finished_only:
         if workers is not None or scheduler is not None:
@@ -114,37 +110,10 @@ class Plan(Protocol):
 def run_plan(
     plan: Plan, store: CaseStore, executor: Executor, progress: Progress = silent, solve: Solve = solve
 ) -> list[str]:
-    """Solve all tasks of a plan that are not stored.
+    """Solve all tasks of a plan that are not stored; return the labels of those whose stored contacts were damaged.
 
-    Parameters
-    ----------
-    plan : Plan
-        Receives results in the order of its tasks, whatever the order in which they finish, so that its next tasks do
-        not depend on timing.
-    store : CaseStore
-        Each result is stored as soon as it is known.
-    executor : Executor
-        Within its ``with`` block.
-    progress : callable, optional
-        Receives events.
-    solve : callable, optional
-        Task → record; importable by its name.
-
-    Returns
-    -------
-    list of str
-        Labels of the tasks whose stored contacts were damaged, and were solved again.
-
-    Raises
-    ------
-    DataFileError
-        If the store cannot be written (disk full, folder read-only), or contacts were removed from it meanwhile.
-    ViscofricError
-        If the executor cannot continue.
-
-    Notes
-    -----
-    An interrupt loses only the tasks being solved.
+    The plan receives results in the order of its tasks, whatever the order in which they finish, so that its next
+    tasks do not depend on timing.  An interrupt loses only the tasks being solved.
     """
     run = _Run(plan, store, executor, progress, solve)
     run.report("stage")

@@ -7,18 +7,15 @@ import hashlib
 import io
 import json
 import zipfile
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.files import LARGEST_FILE, insist_on_size, parse_json, read_bytes, write_atomically
 from viscofric.friction.cases.record import ContactFields, Failure, Record
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 _DAMAGED = (OSError, ValueError, TypeError, KeyError, EOFError, zipfile.BadZipFile)
 # Text before the checksum of everything before it.

@@ -15,10 +15,10 @@ from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_bytes, write_atomically
 from viscofric.notes import Note, note_of
 from viscofric.study.make_rubber import make_rubber
-from viscofric.study.run_file.material import MaterialTable, files_of
+from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.settings import UncertaintyTable
 from viscofric.study.run_file.study import validated
-from viscofric.study.run_file.tables import Table
+from viscofric.study.run_file.tables import Table, files_of
 from viscofric.web.study_files import FILE_KEYS
 
 if TYPE_CHECKING:
