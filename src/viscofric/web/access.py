@@ -15,7 +15,7 @@ from urllib.parse import parse_qs
 from viscofric.web.replies import headers_of, refuse, reply, with_headers
 
 if TYPE_CHECKING:
-    from viscofric.web.replies import App, Receive, Scope, Send
+    from starlette.types import ASGIApp, Receive, Scope, Send
 
 _HOST = re.compile(r"(?P<name>\[[^\[\]]+\]|[^:\[\]]+)(?::(?P<port>\d{1,5}))?")
 _EVERYWHERE = {"0.0.0.0", "::", ""}
@@ -103,7 +103,7 @@ class Door:
 class Access:
     """Lets in only requests of the user's own page, and gives every reply the headers that keep it private."""
 
-    def __init__(self, app: App, door: Door) -> None:
+    def __init__(self, app: ASGIApp, door: Door) -> None:
         self.app, self.door = app, door
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:

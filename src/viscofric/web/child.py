@@ -43,11 +43,7 @@ _IDLE = 2.0  # s without a job, after which what later jobs need is imported
 
 
 def main(parent: int, warm: Iterable[str] = WARM) -> None:
-    """Do jobs until the standard input closes; run in a process of its own.
-
-    `parent`: number of the process that hands out the jobs; `warm`: modules that it imports before the first of
-    them.
-    """
+    """Do jobs until the standard input closes, in a process of its own whose `parent` hands them out."""
     _end_with(parent)
     orders, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     _keep_from_jobs()
@@ -256,11 +252,7 @@ def look_after(cache: Path) -> None:
 
 
 def make_room(cache: Path, most: int = _MOST_BYTES, young: float = _YOUNG) -> None:
-    """Remove the oldest rubbers and solved contacts where there are too many; later jobs make them anew.
-
-    `cache`: of a workspace; `most`: bytes that may stay; `young`: what was written so many seconds ago or less
-    stays.
-    """
+    """Remove the oldest rubbers and solved contacts beyond so many bytes, but none younger than so many seconds."""
     stays, before = 0, time.time() - young
     files = [entry for folder in _folders(cache) for entry in _kept_files(folder)]
     for modified, size, path in sorted(files, reverse=True):

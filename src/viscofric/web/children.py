@@ -173,19 +173,7 @@ class Children:
     async def run(
         self, kind: str, study: dict[str, Any], options: dict[str, Any], folder: Path
     ) -> AsyncIterator[bytes]:
-        """Have a job done; yield its messages, one JSON object a line.
-
-        Parameters
-        ----------
-        kind : str
-            Of `KINDS`.
-        folder : Path
-            Of the workspace: its next job goes to the same process, if that is free.
-
-        Notes
-        -----
-        Closing the iterator cancels the job.
-        """
+        """Have a job done in a workspace's folder; yield its messages, a JSON object a line; closing cancels it."""
         yield line("queued")
         if self._closed:
             yield line("error", message=_STOPPED, code="stopped", field=None)

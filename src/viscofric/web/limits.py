@@ -3,31 +3,23 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from viscofric.web.replies import headers_of, refuse
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, MutableMapping
+    from collections.abc import Callable
 
-    from viscofric.web.replies import App, Receive, Scope, Send
+    from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 LARGEST_STUDY = 4_000_000  # bytes, of a job's body
 _BODY_WAIT, _LEAST_RATE = 30.0, 1e4  # s for a body that was announced, and longer for what comes at so many bytes/s
 
 
 class Limits:
-    """Refuses bodies that are too large, or that do not come.
+    """Refuses bodies larger than `largest` of their path (bytes), or that do not come within a pause (s) and rate."""
 
-    Parameters
-    ----------
-    largest : callable
-        Path of a request -> how many bytes its body may have.
-    pause : float
-        Seconds in which it must come, and longer for what came of it.
-    """
-
-    def __init__(self, app: App, largest: Callable[[str], int], pause: float = _BODY_WAIT) -> None:
+    def __init__(self, app: ASGIApp, largest: Callable[[str], int], pause: float = _BODY_WAIT) -> None:
         self.app, self.largest, self.pause = app, largest, pause
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -71,7 +63,7 @@ class _Body:
         self._receive, self._left, self._more = receive, most, True
         self._end = asyncio.get_running_loop().time() + pause
 
-    async def receive(self) -> MutableMapping[str, Any]:
+    async def receive(self) -> Message:
         if not self._more:
             return await self._receive()
         try:
@@ -93,6 +85,6 @@ class _Replied:
     def __init__(self, send: Send) -> None:
         self._send, self.begun = send, False
 
-    async def send(self, message: MutableMapping[str, Any]) -> None:
+    async def send(self, message: Message) -> None:
         self.begun = True
         await self._send(message)

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable, MutableMapping
-
-    Scope = MutableMapping[str, Any]
-    Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
-    Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
-    App = Callable[[Scope, Receive, Send], Awaitable[None]]
+    from starlette.types import Message, Scope, Send
 
 _CONTENT = "; ".join(
     [
@@ -44,7 +39,7 @@ def headers_of(scope: Scope) -> dict[str, str]:
 def with_headers(send: Send, program: str) -> Send:
     """Add to every reply the headers that keep the page private, and the name of this run of the server."""
 
-    async def sending(message: MutableMapping[str, Any]) -> None:
+    async def sending(message: Message) -> None:
         if message["type"] == "http.response.start":
             message["headers"] = [*message.get("headers", ()), *HEADERS, (b"x-program", program.encode())]
         await send(message)

@@ -35,10 +35,7 @@ def is_local(host: str) -> bool:
 
 
 def bound(host: str, port: int) -> socket.socket:
-    """Return a listening socket at a port, or at a free one if that is taken.
-
-    Raises `ViscofricError` if the host is none of this machine's.
-    """
+    """Return a listening socket at a port, or at a free one if that is taken."""
     for wanted in (port, 0):
         try:
             return _listening(host, wanted)
@@ -74,25 +71,10 @@ def serve(
     browser: bool = True,
     on_start: Callable[[str, int], object] | None = None,
 ) -> None:
-    """Serve the page until an interrupt.
+    """Serve the page until an interrupt, at this port or a free one; `files`: name -> file that every tab begins with.
 
-    Parameters
-    ----------
-    port : int
-        Wanted; another one where it is taken.
-    study : dict, optional
-        That the page opens with.
-    files : dict, optional
-        Name -> file that every tab begins with.
-    browser : bool
-        Whether to open it.
-    on_start : callable, optional
-        Called with the address, token and all, and the port, once it can be opened.
-
-    Raises
-    ------
-    ViscofricError
-        If the packages of the extra ``web`` are missing, or the page cannot be served there.
+    `on_start` is called with the address, token and all, and the port, once it can be opened.  Raises `ViscofricError`
+    if the packages of the extra ``web`` are missing, or the page cannot be served there.
     """
     from viscofric.web.access import Door
     from viscofric.web.children import Children

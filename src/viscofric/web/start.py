@@ -21,21 +21,7 @@ FIRST_STUDY: dict[str, Any] = {
 
 
 def start(study: dict[str, Any] | None = None) -> dict[str, Any]:
-    """Return what the page requests first.
-
-    Parameters
-    ----------
-    study : dict, optional
-        The tables of a run file that the page is to open with; the first study if not given.
-
-    Returns
-    -------
-    dict
-        ``version``; ``study``, the tables of a run file; ``catalogue``, rubbers with ``name``, ``synthetic`` and
-        ``description``; ``limits``, ``upload`` in bytes and ``files`` of one page; ``forms``, fields by the name of
-        their form, and ``shapes``, what each shape of a contact begins with; ``glossary``, definitions of
-        numbers by their labels.
-    """
+    """Return what the page requests first; `study`: the run file's tables it opens with, instead of the first study."""
     from importlib.metadata import version
 
     from viscofric.web.forms import FORMS
@@ -55,20 +41,10 @@ def start(study: dict[str, Any] | None = None) -> dict[str, Any]:
 
 
 def rubbers() -> list[dict[str, Any]]:
-    """Return the rubbers of the catalogue.
-
-    Returns
-    -------
-    list of dict
-        ``name``, ``synthetic`` (whether it was made up) and ``description`` (what is known of it, and from where).
-    """
+    """Return the rubbers of the catalogue."""
     from viscofric.rheology.catalogue import catalogue
 
     return [
-        {
-            "name": entry.name,
-            "synthetic": entry.kind == "SYNTHETIC",
-            "description": f"{entry.holds} {entry.citation}",
-        }
+        {"name": entry.name, "synthetic": entry.kind == "SYNTHETIC", "description": f"{entry.holds} {entry.citation}"}
         for entry in catalogue()
     ]

@@ -46,10 +46,7 @@ def named_files(document: dict[str, Any]) -> Iterator[Named]:
 
 
 def check_confined(document: dict[str, Any]) -> None:
-    """See to it that a study of the page names no files but the page's own.
-
-    Raises `JobError` if it leads anywhere else.
-    """
+    """Raise `JobError` if a study names other files than the page's own."""
     for named in named_files(document):
         for name in named.names:
             # a backslash or a drive leads elsewhere under Windows
@@ -62,24 +59,9 @@ def check_confined(document: dict[str, Any]) -> None:
 
 
 def opened_study(path: Path) -> tuple[dict[str, Any], dict[str, Path]]:
-    """Read a run file for the page to open with.
-
-    Returns
-    -------
-    document : dict
-        Its tables, in which files have plain names.
-    files : dict
-        Each of these names, and the file that it stands for.
-
-    Raises
-    ------
-    StudyError
-        If the run file is not right.
-    DataFileError
-        If a file that it names is not there.
-    """
-    from viscofric.study.run_file.tables import files_of
+    """Read a run file for the page to open with; return its tables and the file of each plain name in them."""
     from viscofric.study.run_file.study import parse_study, read_study_text
+    from viscofric.study.run_file.tables import files_of
 
     text = read_study_text(path)
     study = parse_study(text, path)

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Any
 from viscofric.errors import StudyError, brief
 from viscofric.notes import Note
 from viscofric.study.run_file.errors import keys
-from viscofric.study.run_file.study import FIELDS, TABLES, parse_study
+from viscofric.study.run_file.study import FIELDS, TABLES, Study, parse_study
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
-    from viscofric.study.run_file.study import Study
 
 #: What the exported run file is called.
 RUN_FILE = "study.toml"
@@ -33,13 +32,7 @@ _OF_INDENTERS = ("shape", "radius", "radius_x", "radius_y", "angle", "modulus", 
 
 
 class DocumentError(StudyError):
-    """What is wrong with a document.
-
-    Parameters
-    ----------
-    problems : sequence of Note
-        Each with its path in the document, such as ``conditions.load``, as its place; none if it is about several.
-    """
+    """What is wrong with a document; the place of each problem is its path in it, such as ``conditions.load``."""
 
     def __init__(self, problems: Sequence[Note]) -> None:
         super().__init__("The study cannot be used:", problems)
@@ -49,26 +42,9 @@ class DocumentError(StudyError):
 
 
 def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
-    """Write a document as a run file, and check it as one.
+    """Write a document as a run file, and check it as one whose data files lie in a folder; return text and study.
 
-    Parameters
-    ----------
-    document : mapping
-        Tables of a run file, with its keys and its words.
-    folder : Path
-        Of the data files that it names.
-
-    Returns
-    -------
-    text : str
-        Of the run file.
-    study : Study
-        Its paths lie in `folder`.
-
-    Raises
-    ------
-    DocumentError
-        With every wrong key, unit and range, or if a data file lies outside the folder or has the run file's name.
+    Raises `DocumentError` with every wrong key, unit and range, and for a data file elsewhere.
     """
     text = study_text(document)
     path = folder / RUN_FILE
@@ -89,23 +65,7 @@ def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
 
 
 def study_text(document: Mapping[str, Any]) -> str:
-    """Write a document as a run file.
-
-    Parameters
-    ----------
-    document : mapping
-        Tables of a run file.  Of those, what it holds nothing in is left out.
-
-    Returns
-    -------
-    str
-        TOML, tables in the order of the documentation.
-
-    Raises
-    ------
-    DocumentError
-        If it holds what no run file can: null, or text that is no Unicode.
-    """
+    """Write the tables of a document as TOML; raise `DocumentError` for what no run file can hold, such as null."""
     known = [key for key in KEYS if key in document]
     ordered = {key: document[key] for key in [*known, *(key for key in document if key not in known)]}
     tables = {key: value for key, value in ordered.items() if _is_table(value)}

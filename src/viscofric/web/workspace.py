@@ -38,10 +38,7 @@ _DEVICE = re.compile(r"^(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
 
 
 def checked_name(name: str) -> str:
-    """Return the name of a file in its composed form.
-
-    Raises `InputError` if it is not a plain name that every system can have.
-    """
+    """Return the name of a file in its composed form; raise if it is not a plain name that every system can have."""
     name = unicodedata.normalize("NFC", name)
     if not name or name != name.strip() or name.startswith(".") or name.endswith("."):
         raise InputError(
@@ -88,10 +85,7 @@ class Workspace:
             return sorted((one.name, one.stat().st_size) for one in entries if not one.name.startswith("."))
 
     def store(self, name: str, content: bytes) -> None:
-        """Keep a file; one of the same name is replaced.
-
-        Raises `InputError` if it is one too many, or too large.
-        """
+        """Keep a file; one of the same name is replaced; raise `InputError` if it is one too many, or too large."""
         others = [size for other, size in self.listing() if other != name]
         if len(content) > LARGEST_UPLOAD:
             raise InputError(
@@ -123,10 +117,7 @@ class Workspace:
 class Workspaces:
     """All workspaces of a server, in a temporary folder that is locked as long as the server lives.
 
-    Parameters
-    ----------
-    given : dict, optional
-        Name -> file that every workspace begins with.
+    `given`: name -> file that every workspace begins with.
     """
 
     def __init__(self, given: dict[str, Path] | None = None) -> None:
@@ -138,10 +129,7 @@ class Workspaces:
         self._one_at_a_time = threading.Lock()  # a fresh tab requests several things at once
 
     def get(self, key: str) -> Workspace:
-        """Return the workspace of a tab, a new one if need be; the one that rested longest makes room for it.
-
-        Raises `InputError` if all others are at work.
-        """
+        """Return the workspace of a tab, a new one if need be; the one that rested longest makes room for it."""
         with self._one_at_a_time:
             workspace = self._known.get(key) or self._new(key)
             workspace.used = time.monotonic()

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.friction.cases.case import Case
 from viscofric.web.figures.spec import Spec, axis, figure, line, number, points, quantity
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.friction.cases.case import Case
 
 _EDGE, _MARK = "vermilion", "grey"
 _ASIDE: Spec = {"legend": False, "decoration": True}
@@ -21,10 +19,7 @@ _LOSSY = 0.03
 
 
 def contact_view(found: dict[str, Any], case: Case) -> dict[str, Any]:
-    """Return ``figures``, ``key_numbers``, ``more_numbers`` and ``why``, the cause of the friction.
-
-    `found`: as of `contact_pictures.pictures`.
-    """
+    """Return ``figures``, ``key_numbers``, ``more_numbers`` and ``why``, the cause of the friction, of `pictures`."""
     indenter = getattr(case, "indenter", None)
     noun = "rough surface" if indenter is None else indenter.noun
     rough = found["kind"] == "rough"

@@ -30,19 +30,12 @@ _DOUBTS = {
 #: Drawn beside a quantity: column, dashes and words.
 _BESIDE = {
     "heated_friction": [("friction", "6px,4px", "isothermal")],
-    "temperature_rise": [
-        ("coulomb_rise", "6px,4px", "by Coulomb friction"),
-        ("loss_rise", "2px,3px", "by the loss"),
-    ],
+    "temperature_rise": [("coulomb_rise", "6px,4px", "by Coulomb friction"), ("loss_rise", "2px,3px", "by the loss")],
 }
 
 
 def curve_layout(kind: str, extra: list[str], layout: dict[str, Any]) -> dict[str, Any]:
-    """Return ``quantities`` of a kind of contact with their axes, and ``curves``: rows by combination and temperature.
-
-    `extra`: quantities that [interface] and [heating] add; `layout`: columns ``combination``, ``temperature`` and
-    ``speed`` of the cases.
-    """
+    """Return ``quantities`` of a kind of contact with axes, and ``curves``: cases by combination and temperature."""
     others = [*(_SMOOTH if kind == "rough" else _ROUGH), *(name for name in _OF_TABLES if name not in extra)]
     quantities = {name: about for name, about in _QUANTITIES.items() if name not in others}
     if kind == "line":

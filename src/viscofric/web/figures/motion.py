@@ -42,11 +42,7 @@ def motion_view(data: xarray.Dataset, contacts: tuple[ImpactContact, ...], steps
 
 
 def pressures(solved: TransientSolution) -> dict[str, Any]:
-    """Return the pressure along the motion over time, through the indenter's axis or, on waves, the highest pressure.
-
-    Returned: ``animation``: ``time`` (s), ``x`` (m, from the indenter's axis) and ``pressure`` (Pa, a row for
-    each time). ``figures``: "motion-pressure", of the first time.  Empty where no pressures were kept.
-    """
+    """Return the pressure along the motion over time, on waves where it is highest; empty where none was kept."""
     if not solved.has_pressures:
         return {}
     times = np.unique(solved.time)

@@ -10,10 +10,7 @@ from viscofric.web.figures.sweeps import moduli_of_material
 
 
 def rubber_view(found: dict[str, Any]) -> dict[str, Any]:
-    """Return what is shown of a result of the job ``rubber``.
-
-    Columns that figures have of their own are left out of ``shift`` and ``check``.
-    """
+    """Return what is shown of a result of the job ``rubber``, without columns that figures have of their own."""
     shift, check, spectrum = found["shift"], found["check"], found["spectrum"]
     tables = {}
     if shift and shift["laws"]:

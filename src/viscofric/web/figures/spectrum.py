@@ -30,16 +30,9 @@ _TANGENT = (("loss_tangent", "tan δ", "diamond", "green"),)
 def moduli_figures(
     found: dict[str, Any], temperature: float | None, *, fitted: bool, path: str = "", moved: str = "moved"
 ) -> dict[str, Spec]:
-    """Return the figures of E' and E'' and of tan δ at a temperature (K).
+    """Return the figures of E' and E'' and of tan δ at a temperature (K), with ``band`` and ``isotherm`` where known.
 
-    Parameters
-    ----------
-    found : dict
-        The result, whose ``band`` and ``isotherm`` are drawn where they are known.
-    fitted : bool
-        Whether its spectrum was fitted to the points.
-    path, moved : str
-        Where its ``modulus`` is, and its measured points; "" of no points.
+    `fitted`: to the points; `path`, `moved`: where ``modulus`` is, and the measured points, "" of no points.
     """
     band, sweep = found.get("band"), found.get("isotherm")
 

@@ -75,11 +75,7 @@ def _axis(key: str, letter: str) -> Spec:
 
 def _of_ramps(ramps: list[dict[str, Any]], key: str) -> list[Spec]:
     return [
-        line(
-            f"ramps[{at}].temperature",
-            f"ramps[{at}].{key}",
-            quantity(one["angular_frequency"], "angular_frequency"),
-        )
+        line(f"ramps[{at}].temperature", f"ramps[{at}].{key}", quantity(one["angular_frequency"], "angular_frequency"))
         for at, one in enumerate(ramps)
     ]
 

@@ -199,9 +199,7 @@ _CONTACTS = ["indentation", "contact_area", "half_width"]
 #: Options of the job identify, which are no part of the study.
 IDENTIFY = [
     choice(
-        "@identify.shift",
-        "Shift factors",
-        [["friction", "found from friction"], ["rubber", "of the page's material"]],
+        "@identify.shift", "Shift factors", [["friction", "found from friction"], ["rubber", "of the page's material"]]
     ),
     choice(
         "@identify.anchor",

@@ -4,19 +4,43 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from pydantic import Field
 
 from viscofric.datasets import plain
 from viscofric.notes import listed, note_of
-from viscofric.web.jobs.context import JobOptions
+from viscofric.report.data import predicted
+from viscofric.report.results import (
+    group,
+    nominal_temperatures,
+    notes,
+    reference_temperature,
+    remarks,
+    sentences,
+    values,
+)
+from viscofric.report.sweeps import cases_of
+from viscofric.report.texts.checks import CIRCULAR, friction_checks
+from viscofric.report.texts.friction_tables import agreement_table
+from viscofric.report.texts.study import AGREEMENT, key_numbers
+from viscofric.study.contacts import Contacts
+from viscofric.study.execution import tree_of
+from viscofric.study.measurement import Measurement
+from viscofric.study.running.executors import Serial
+from viscofric.study.running.running import Event, run_plan
+from viscofric.study.running.store import CaseStore
+from viscofric.web.figures.friction import agreement_figures
+from viscofric.web.figures.spec import number
+from viscofric.web.jobs.context import Context, JobOptions
+from viscofric.web.jobs.friction_data import by_temperature, drawn_line, measured_points, table_record, texts
+from viscofric.web.jobs.friction_input import friction_curves, measured
+from viscofric.web.jobs.rubbers import study_rubber
+from viscofric.web.study_text import study_of
 
 if TYPE_CHECKING:
     import xarray
 
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.contacts import Contacts
-    from viscofric.study.running.running import Event
-    from viscofric.web.jobs.context import Context
 
 #: Tables of the run file that the comparison rests on; other tables belong to other steps.
 _TABLES = ("material", "indenter", "surface", "layer", "measurement", "solver", "uncertainty", "data_origin")
@@ -33,32 +57,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Predict friction where it was measured, and say how well both agree.
-
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file.  [conditions] are those of the measurement, but for the rubber's thickness.
-
-    Returns
-    -------
-    dict
-        ``points``: by temperature ``measured``, ``predicted``, ``lower``, ``upper``, ``difference`` (relative),
-        ``reduced_speed`` and ``remark``; ``lines``: by temperature ``friction``, ``lower``, ``upper`` and
-        ``extrapolated``; ``along``: the same at the ``reference`` over the reduced speed, or null; ``sentences``: how
-        well both agree; ``key_numbers``, the most important ones, and ``summary``; ``table`` by temperature;
-        ``checks`` (name, verdict, words); ``warnings``, ``failures``, ``notes``; ``band``: whether there is any;
-        ``figures``.
-    """
-    from viscofric.report.texts.checks import CIRCULAR
-    from viscofric.study.execution import tree_of
-    from viscofric.study.running.executors import Serial
-    from viscofric.study.running.running import run_plan
-    from viscofric.study.running.store import CaseStore
-    from viscofric.web.figures.friction import agreement_figures
-    from viscofric.web.jobs.friction_data import measured_points
-    from viscofric.web.jobs.friction_input import friction_curves, measured
-
+    """Predict friction where and how it was measured; return both by temperature, and how well they agree."""
     curves = friction_curves(study, context)
     context.progress(0, 1, "Making the rubber")
     contacts = _contacts(_as_measured(study, curves, options), curves, context)
@@ -80,10 +79,6 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options) -> dict[str, Any]:
     """Return a study of the conditions that were measured."""
-    import numpy as np
-
-    from viscofric.report.results import nominal_temperatures
-
     requested = {name: study[name] for name in _TABLES if name in study}
     conditions = {
         "load": f"{float(np.median(curves.load)):.9g} {curves.load_unit}",
@@ -113,28 +108,14 @@ def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options
 
 def _contacts(requested: dict[str, Any], curves: FrictionCurves, context: Context) -> Contacts:
     """Return the contacts to solve, of the requested and the measured conditions."""
-    from viscofric.study.contacts import Contacts
-    from viscofric.study.measurement import Measurement
-    from viscofric.web.jobs.rubbers import study_rubber
-    from viscofric.web.study_text import study_of
-
     _, checked = study_of(requested, context.files)
     rubber = study_rubber(requested, context, checked.conditions.temperature)
     ball: Any = checked.sweep().cases[0]
-    measured = Measurement(curves, rubber.material, ball.indenter, float(checked.conditions.load[0]))
-    return Contacts(checked, [rubber], measured)
+    load = float(checked.conditions.load[0])
+    return Contacts(checked, [rubber], Measurement(curves, rubber.material, ball.indenter, load))
 
 
 def _reply(tree: xarray.DataTree) -> dict[str, Any]:
-    from viscofric.report.data import predicted
-    from viscofric.report.results import group, notes, reference_temperature, sentences
-    from viscofric.report.sweeps import cases_of
-    from viscofric.report.texts.checks import friction_checks
-    from viscofric.report.texts.friction_tables import agreement_table
-    from viscofric.report.texts.study import AGREEMENT, key_numbers
-    from viscofric.web.figures.spec import number
-    from viscofric.web.jobs.friction_data import by_temperature, drawn_line, table_record, texts
-
     requested, along, agreement = (group(tree, name) for name in ("prediction", "prediction_master", "agreement"))
     assert requested is not None
     lines = predicted(cases_of(requested))
@@ -161,22 +142,17 @@ def _reply(tree: xarray.DataTree) -> dict[str, Any]:
 
 def _points(tree: xarray.DataTree) -> list[dict[str, Any]]:
     """Return measured points beside their prediction, with what is doubtful about each."""
-    import numpy as np
-
-    from viscofric.report.results import group, remarks, values
-    from viscofric.web.jobs.friction_data import by_temperature
-
     points = group(tree, "measurement")
     assert points is not None
-    measured, found = values(points, "viscoelastic"), values(points, "predicted")
+    friction, found = values(points, "viscoelastic"), values(points, "predicted")
     return by_temperature(
         values(points, "temperature"),
         values(points, "speed"),
-        measured=measured,
+        measured=friction,
         predicted=found,
         lower=values(points, "predicted_lower"),
         upper=values(points, "predicted_upper"),
-        difference=np.divide(found, measured, out=np.full(found.shape, np.nan), where=measured > 0.0) - 1.0,
+        difference=np.divide(found, friction, out=np.full(found.shape, np.nan), where=friction > 0.0) - 1.0,
         reduced_speed=values(points, "reduced_speed"),
         remark=np.array(["; ".join(words) for words in remarks(tree, points)], dtype=object),
     )

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.datasets import plain, record
 from viscofric.errors import InputError
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.contact_strain import solve_at_contact_strain
 from viscofric.notes import listed
+from viscofric.rheology.payne.kraus_fit import PayneFit
 from viscofric.study.at_strain import payne_of
 from viscofric.web.figures.spec import MODULUS, Spec, axis, figure, line, points, quantity
-from viscofric.web.jobs.context import JobError, JobOptions
-from viscofric.web.jobs.rubbers import (
-    checked_tables,
-    made_rubber,
-    named_without_folder,
-    notes_without_folder,
-)
-
-if TYPE_CHECKING:
-    from viscofric.rheology.payne.kraus_fit import PayneFit
-    from viscofric.web.jobs.context import Context
+from viscofric.web.jobs.combinations import of_combination, page_sweep
+from viscofric.web.jobs.context import Context, JobError, JobOptions
+from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
+from viscofric.web.study_text import study_of
 
 _DIGITS = 6
 #: Friction is compared to this, relative.
@@ -35,15 +31,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Fit Kraus's law to the amplitude sweep of [material].
-
-    Returns
-    -------
-    dict
-        The sweep and the law as their data set names them, ``words`` (the law), ``linear`` (its linear ranges in
-        words), ``figures``, ``notes`` and ``contact``: None, or ``strain`` of the contact, ``friction`` at it and
-        ``linear`` friction, ``speed`` and ``temperature``.
-    """
+    """Fit Kraus's law to the amplitude sweep of [material]; return both, and the strain of the study's contact."""
     table, _ = checked_tables(study, context)
     try:
         fit = payne_of(table)
@@ -76,11 +64,6 @@ def _figure(found: dict[str, Any], letter: str) -> Spec:
 
 def _contact(study: dict[str, Any], fit: PayneFit, measured_at: float | None, context: Context) -> dict[str, Any]:
     """Solve the first contact of the study, with a rigid indenter, with the moduli of its own strain."""
-    from viscofric.friction.cases.indenter_case import IndenterCase
-    from viscofric.friction.contact_strain import solve_at_contact_strain
-    from viscofric.web.jobs.combinations import of_combination, page_sweep
-    from viscofric.web.study_text import study_of
-
     _, checked = study_of(study, context.files)
     case = of_combination(page_sweep(checked), 0)
     if not isinstance(case, IndenterCase):

@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.notes import listed
-from viscofric.web.jobs.context import JobOptions
-
-if TYPE_CHECKING:
-    from viscofric.web.jobs.context import Context
-
+from viscofric.study.checking import check_study
+from viscofric.web.jobs.context import Context, JobOptions
+from viscofric.web.study_text import RUN_FILE, study_of
 
 Options = JobOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Check a study as ``viscofric check`` does; nothing is solved.
-
-    Returned: ``cases``, ``measured_points``, ``solves``, ``seconds`` (one core), ``memory`` (bytes),
-    ``synthetic`` (whether a rubber is made up) and ``notes``.  Raises `StudyError` with all that is wrong.
-    """
-    from viscofric.study.checking import check_study
-    from viscofric.web.study_text import RUN_FILE, study_of
-
+    """Check a study and its files as ``viscofric check`` does; nothing is solved."""
     _, checked = study_of(study, context.files)
     found = check_study(checked, context.files / RUN_FILE)
     return {

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
-from viscofric.study.cases.sweep import others_in
+from viscofric.friction.cases.case import Case
+from viscofric.study.cases.sweep import Sweep, others_in
+from viscofric.study.run_file.study import Study
 from viscofric.web.jobs.context import JobError
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from viscofric.friction.cases.case import Case
-    from viscofric.study.cases.sweep import Sweep
-    from viscofric.study.run_file.study import Study
 
 #: Cases that the page solves at most; a browser shows no more.
 MOST_CASES = 2_000
@@ -36,15 +31,7 @@ def page_sweep(study: Study) -> Sweep:
 
 
 def combinations(sweep: Sweep) -> tuple[dict[object, int], list[str]]:
-    """Return the number of each combination by `Case.alike`, and its differences from the others, in words.
-
-    Returns
-    -------
-    dict
-        In the order of the cases.
-    list of str
-        Empty words where there is one combination only.
-    """
+    """Return the number of each combination by `Case.alike`, and its differences from the others in words, if any."""
     numbers: dict[object, int] = {}
     words: list[str] = []
     for number, case in enumerate(sweep.cases):

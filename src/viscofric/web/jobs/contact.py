@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from pydantic import Field
 
 from viscofric.contact.steady import LOOSE
 from viscofric.friction.cases.case import Rubbers, moved
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
-from viscofric.web.jobs.contact_pictures import RequestedContact, pictures
-from viscofric.web.jobs.context import JobOptions
+from viscofric.web.jobs.contact_pictures import pictures
+from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
-
-if TYPE_CHECKING:
-    from viscofric.web.jobs.context import Context
 
 #: Accuracy of coarse replies, the loosest that a run file may ask for.
 COARSE = 0.1
@@ -35,16 +32,12 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Solve one contact.
-
-    The reply is as of `contact_pictures.pictures`.  A converged reply has the numbers of a study that solves the
-    case by itself.  Raises `ViscofricError` if the study is wrong, or the contact cannot be solved.
-    """
+    """Solve one contact, coarsely or to the study's accuracy; then its numbers are those of a study of it alone."""
     _, checked = study_of(study, context.files)
     first = of_combination(page_sweep(checked), options.combination)
     rubber = study_rubber(of_material(study, first.material), context, [options.temperature])
     case = moved(first, material=0, speed=options.speed, temperature=options.temperature)
-    requested, accuracy = RequestedContact(case, rubber, checked), checked.solver.accuracy
+    accuracy = checked.solver.accuracy
     rubbers = Rubbers([rubber.material], {})
     if options.stages != "sharp":
         solution: Any = case.solution(rubbers, COARSE, COARSE_POINTS)
@@ -53,8 +46,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         same = case.geometry == "line" or (case.geometry == "point" and accuracy >= LOOSE)
         allowed = accuracy * abs(solution.friction_coefficient)
         settled = same and solution.diagnostics.friction_error <= allowed
-        found = pictures(requested, solution, sharp=settled)
+        found = pictures(case, rubber, solution, sharp=settled)
         if settled or options.stages == "coarse":
             return found
         context.part(found)
-    return pictures(requested, case.solution(rubbers, accuracy), sharp=True)
+    return pictures(case, rubber, case.solution(rubbers, accuracy), sharp=True)

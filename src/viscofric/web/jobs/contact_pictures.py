@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.ndimage import uniform_filter
 
+from viscofric.arrays import Array
 from viscofric.contact.fields.surface import surface_displacement
+from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.solution import ERRORS, ContactSolution
 from viscofric.datasets import plain
+from viscofric.friction.cases.case import Case
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.notes import Note, listed
+from viscofric.study.study_rubber import StudyRubber
 from viscofric.web.figures.contact import contact_view
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.friction.cases.case import Case
-    from viscofric.friction.cases.indenter_case import IndenterCase
-    from viscofric.friction.cases.surface_case import SurfaceCase
-    from viscofric.study.run_file.study import Study
-    from viscofric.study.study_rubber import StudyRubber
-
 
 #: Points of a map along its longer edge, and of a profile, at most.
 MOST_CELLS, MOST_POINTS = 110, 400
@@ -36,24 +31,8 @@ _OUTLINE = 1_500
 _DIGITS, _FEW_DIGITS = 6, 3
 
 
-@dataclass(frozen=True, eq=False)
-class RequestedContact:
-    """A contact that the page requests."""
-
-    case: Case
-    rubber: StudyRubber
-    study: Study
-
-
 class Profile(NamedTuple):
-    """What a cut along the motion shows, SI; heights upwards from the undeformed surface.
-
-    Attributes
-    ----------
-    x : (n,) array
-    pressure, surface, indenter : (n,) array
-        NaN where there is nothing to show.
-    """
+    """A cut along the motion, (n,) each, SI, NaN where nothing is to be shown; heights from the undeformed surface."""
 
     x: Array
     pressure: Array
@@ -109,13 +88,9 @@ def _closed(line: Any) -> Array:
     return np.asarray(line if np.array_equal(line[0], line[-1]) else np.vstack([line, line[:1]]))
 
 
-def profile(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> Profile:
-    """Cut a contact along its centre line, with the trail behind it.
-
-    Where the indenter is elastic, what is solved for is the sum of both bodies' displacements; the rubber's share is
-    found from the pressure.
-    """
-    trail_x, trail = _trail(requested, case, solution)
+def profile(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) -> Profile:
+    """Cut a contact along its centre line, with the trail behind it and the rubber's share of the displacement."""
+    trail_x, trail = _trail(rubber, case, solution)
     x, pressure = solution.x, _centre(solution.y, solution.pressure)
     displacement = _centre(solution.y, solution.displacement)
     gap = displacement - (solution.indentation - case.indenter.height(x, np.zeros_like(x)))
@@ -140,9 +115,9 @@ def profile(requested: RequestedContact, case: IndenterCase, solution: ContactSo
     )
 
 
-def _trail(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> tuple[Array, Array]:
+def _trail(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) -> tuple[Array, Array]:
     """Return the rubber's displacement on the centre line, from well behind the contact to well ahead."""
-    modes = requested.rubber.material.modes_at(case.temperature)
+    modes = rubber.material.modes_at(case.temperature)
     x, y, pressure = solution.x, solution.y, solution.pressure
     if solution.geometry == "point" and all(size % 2 == 0 for size in pressure.shape):
         x, y, pressure = thinned(x, y, pressure, max(pressure.shape) // max(1, max(pressure.shape) // 32))
@@ -155,7 +130,7 @@ def _trail(requested: RequestedContact, case: IndenterCase, solution: ContactSol
         E_inf=modes.E_inf,
         C=modes.C,
         tau=modes.tau,
-        poisson_ratio=requested.rubber.material.poisson_ratio,
+        poisson_ratio=rubber.material.poisson_ratio,
         layer=case.layer,
         behind=_BEHIND * length,
         ahead=_AHEAD * length,
@@ -183,59 +158,47 @@ def shown(cut: Profile) -> dict[str, Any]:
 
 
 def pictures(
-    requested: RequestedContact, solution: ContactSolution | PeriodicSolution, *, sharp: bool
+    case: Case, rubber: StudyRubber, solution: ContactSolution | PeriodicSolution, *, sharp: bool
 ) -> dict[str, Any]:
-    """Return everything that the page shows of a contact, as JSON holds it, SI.
+    """Return everything that the page shows of a contact, SI; `sharp`: whether it is to the study's accuracy.
 
-    Parameters
-    ----------
-    sharp : bool
-        Whether it is to the study's accuracy.
-
-    Returns
-    -------
-    dict
-        ``stage`` ("coarse" or "sharp"), ``kind`` ("point", "line" or "rough"), ``speed``, ``temperature``,
-        ``direction`` (rad, of the motion in the map), ``numbers`` (each ``value`` and ``error``), ``peak_resolved``,
-        ``map`` (null of line contacts; ``pressure`` has a row for each y), ``outline`` (closed lines), ``profile``,
-        ``warnings``, and what is shown of them (`contact_view`).  Of the numbers, ``within`` is 1 where the rubber was
-        measured at the contact's frequencies, 0 where it is extrapolated, null where that is not known.
+    Each of ``numbers`` has ``value`` and ``error``; ``within`` is 1 where the rubber was measured at the contact's
+    frequencies, 0 where it is extrapolated, null where that is not known.
     """
-    case = requested.case
-    within = requested.rubber.is_within(case, case.record(solution))
+    within = rubber.is_within(case, case.record(solution))
     shared: dict[str, Any] = {
         "stage": "sharp" if sharp else "coarse",
         "speed": case.speed,
         "temperature": case.temperature,
-        **listed("warnings", [*solution.warnings, *_extrapolated(requested)]),
+        **listed("warnings", [*solution.warnings, *_extrapolated(rubber, case)]),
     }
     drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
-    found: dict[str, Any] = drawn(requested, case, solution)
+    found: dict[str, Any] = drawn(rubber, case, solution)
     found["numbers"]["within"] = _with_error(None if within is None else float(within))
     found |= shared
     return found | contact_view(found, case)
 
 
-def _extrapolated(requested: RequestedContact) -> list[Note]:
+def _extrapolated(rubber: StudyRubber, case: Case) -> list[Note]:
     """Return notes on a temperature at which the shift factor is extrapolated."""
     # Warnings on the material itself belong to other steps.
-    return [note for note in requested.rubber.doubts([requested.case.temperature]) if note.code == "extrapolated"]
+    return [note for note in rubber.doubts([case.temperature]) if note.code == "extrapolated"]
 
 
-def _of_indenter(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
+def _of_indenter(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
     line = solution.geometry == "line"
     return {
         "kind": solution.geometry,
         "direction": 0.0,
-        "numbers": _numbers(solution, _of_case(requested, case, solution)),
+        "numbers": _numbers(solution, _of_case(rubber, case, solution)),
         "peak_resolved": solution.diagnostics.peak_resolved,
         "map": None if line else pressure_map(*around(solution)),
         "outline": [] if line else outline(solution.x, solution.y, solution.pressure),
-        "profile": shown(profile(requested, case, solution)),
+        "profile": shown(profile(rubber, case, solution)),
     }
 
 
-def _of_surface(requested: RequestedContact, case: SurfaceCase, solution: PeriodicSolution) -> dict[str, Any]:
+def _of_surface(rubber: StudyRubber, case: SurfaceCase, solution: PeriodicSolution) -> dict[str, Any]:
     line = solution.pressure.shape[1] == 1
     shortest, longest = case.surface.wavelengths
     return {
@@ -247,7 +210,7 @@ def _of_surface(requested: RequestedContact, case: SurfaceCase, solution: Period
                 "pressure": solution.mean_pressure,
                 "slowest_frequency": 2.0 * math.pi * case.speed / longest,
                 "fastest_frequency": 2.0 * math.pi * case.speed / shortest,
-                **_rubber_at(requested, 2.0 * math.pi * case.speed / shortest),
+                **_rubber_at(rubber, case, 2.0 * math.pi * case.speed / shortest),
                 "points": max(solution.pressure.shape),
                 "points_requested": max(case.surface.shape),
             },
@@ -282,7 +245,7 @@ def _numbers(solution: ContactSolution | PeriodicSolution, more: dict[str, float
     return found
 
 
-def _of_case(requested: RequestedContact, case: IndenterCase, solution: ContactSolution) -> dict[str, float]:
+def _of_case(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) -> dict[str, float]:
     """Return what depends on the indenter's and the rubber's range too."""
     length = solution.front + solution.rear
     half = solution.half_width if math.isfinite(solution.half_width) else 0.5 * length
@@ -290,19 +253,18 @@ def _of_case(requested: RequestedContact, case: IndenterCase, solution: ContactS
     return {
         "reach": max(half, solution.front, solution.rear) / case.indenter.reach,
         "frequency": frequency,
-        **_rubber_at(requested, frequency),
+        **_rubber_at(rubber, case, frequency),
     }
 
 
-def _rubber_at(requested: RequestedContact, frequency: float) -> dict[str, float]:
+def _rubber_at(rubber: StudyRubber, case: Case, frequency: float) -> dict[str, float]:
     """Tell what the rubber is at a frequency (rad/s) and the contact's temperature."""
-    rubber, temperature = requested.rubber, requested.case.temperature
-    modulus = complex(rubber.material.modes_at(temperature).complex_modulus(frequency))
-    alpha = float(rubber.shift(temperature))
+    modulus = complex(rubber.material.modes_at(case.temperature).complex_modulus(frequency))
+    alpha = float(rubber.shift(case.temperature))
     return {
         "storage_modulus": modulus.real,
         "loss_factor": modulus.imag / modulus.real,
         "shift_factor": alpha,
         "reduced_frequency": alpha * frequency,
-        "reduced_speed": alpha * requested.case.speed,
+        "reduced_speed": alpha * case.speed,
     }

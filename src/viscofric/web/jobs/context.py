@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
 from viscofric.errors import ViscofricError
 from viscofric.notes import Note
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 _BETWEEN_SENT = 0.05  # s, of progress: a browser shows no more
 
@@ -27,15 +25,7 @@ class JobOptions(BaseModel):
 
 
 class JobError(ViscofricError):
-    """What keeps a job from being done, in one sentence, with the field of the study that it is about.
-
-    Parameters
-    ----------
-    field : str, optional
-        Path in the study, such as ``conditions.load``.
-    code : str, optional
-        As for `ViscofricError`.
-    """
+    """What keeps a job from being done, in one sentence, with the field of the study that it is about."""
 
     def __init__(self, message: str | Note, field: str | None = None, *, code: str = "") -> None:
         super().__init__(message, field=field, code=code)

@@ -4,39 +4,30 @@ from __future__ import annotations
 
 import math
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 
 from viscofric.datasets import plain
-from viscofric.friction.cases.record import Failure
+from viscofric.friction.cases.record import Failure, Record
+from viscofric.friction.planning.plan import Outcome
 from viscofric.notes import Note, listed
+from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.study.assumptions import assumption_checks
-from viscofric.study.contacts import Contacts, doubts
+from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.interface import interface_columns, study_interface
+from viscofric.study.run_file.study import Study
 from viscofric.study.running.executors import Serial
-from viscofric.study.running.running import run_plan
+from viscofric.study.running.running import Event, Plan, Progress, run_plan
 from viscofric.study.running.store import CaseStore
-from viscofric.study.study_rubber import band_columns
+from viscofric.study.study_rubber import StudyRubber, band_columns
 from viscofric.web.figures.curve import curve_layout, curve_parts
 from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
-from viscofric.web.jobs.context import JobError, JobOptions
+from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from viscofric.friction.cases.record import Record
-    from viscofric.friction.planning.plan import Outcome
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.study.contacts import Solved
-    from viscofric.study.run_file.study import Study
-    from viscofric.study.running.running import Event, Plan, Progress
-    from viscofric.study.study_rubber import StudyRubber
-    from viscofric.web.jobs.context import Context
-
 
 _BETWEEN_PARTS = 0.12  # s
 _DIGITS = 6
@@ -47,25 +38,10 @@ Options = JobOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Solve all cases of a study, as ``viscofric run`` does.
+    """Solve all cases of a study, as ``viscofric run`` does, without its measurement.
 
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file; what it measured is not looked at.
-    context : Context
-        The first part has ``layout``: for each case ``combination``, ``temperature`` (K), ``speed`` (m/s) and
-        ``reduced_speed`` (m/s), with the ``combinations`` in words, ``kind``, ``accuracy``, the ``reference``
-        temperature and what can be drawn (`curve_layout`).  Those that follow have ``cases`` (numbers), ``friction``
-        and ``known``: whether it is to the accuracy already, or lies between contacts that may be too far apart.
-
-    Returns
-    -------
-    dict
-        For each case ``friction``, ``error``, ``lower``, ``upper``, ``interpolated`` and what else
-        is known of it (null where it is not), and ``doubts``, a list of words: "extrapolated", "shift", "strain",
-        "unresolved", "failed".  Then ``master`` (friction along the master curve), ``failures``, also grouped
-        as ``missing``, ``warnings``, ``notes`` and ``checks``, in sentences, and what is drawn (`curve_parts`).
+    The first part has ``layout`` (see `_layout`); those that follow have ``cases`` (numbers), ``friction`` and
+    ``known``: whether it is to the accuracy already, or lies between contacts that may be too far apart.
     """
     _, checked = study_of(study, context.files)
     contacts = _contacts(checked, study, context)
@@ -272,7 +248,6 @@ _COLUMNS = (
     "contact_area_fraction",
     "mean_gap",
 )
-_DIGITS = 6
 
 
 def columns(contacts: Contacts, requested: Solved) -> dict[str, Any]:

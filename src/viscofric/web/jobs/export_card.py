@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from pydantic import Field
 
 from viscofric.notes import warned
-from viscofric.web.jobs.context import JobOptions
+from viscofric.rheology.cards import CardFormat, write_card
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.study.rubber_results import CARDS
+from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.export_files import offered
 from viscofric.web.jobs.rubbers import made_rubber
-
-if TYPE_CHECKING:
-    from viscofric.rheology.cards import CardFormat
-    from viscofric.web.jobs.context import Context
 
 _WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
 _OWN = ("csv", "json")
@@ -33,22 +32,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Write a card of the rubber.
-
-    Parameters
-    ----------
-    study : dict
-        The page's document; of it, [material] counts.
-
-    Returns
-    -------
-    dict
-        ``text`` of the card, ``download`` (``name``, ``title``, ``size``) and ``notes``, sentences.
-    """
-    from viscofric.rheology.cards import write_card
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.study.rubber_results import CARDS
-
+    """Write a card of the rubber; return its ``text``, the ``download`` and ``notes``."""
     rubber = made_rubber(study, context)
     form: CardFormat = options.format
     name = "rubber" if form in _OWN else f"rubber_{form.replace('-', '_')}"

@@ -5,17 +5,14 @@ from __future__ import annotations
 import io
 import shutil
 import zipfile
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
 
 from viscofric.errors import DataFileError, not_written
 from viscofric.files import write_atomically
+from viscofric.study.run_file.study import Study
 from viscofric.web.study_text import RUN_FILE
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from pathlib import Path
-
-    from viscofric.study.run_file.study import Study
 
 _EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date of an archive: the same files give the same bytes
 
@@ -26,27 +23,7 @@ def missing_files(study: Study) -> list[str]:
 
 
 def lay_out(text: str, study: Study, folder: Path) -> Path:
-    """Put a run file and copies of its data files into a folder.
-
-    Parameters
-    ----------
-    text : str
-        Of the run file.
-    study : Study
-        As it was checked, with the paths of its files.
-    folder : Path
-        Made if need be; other data files in it are removed, folders are left.
-
-    Returns
-    -------
-    Path
-        The run file.
-
-    Raises
-    ------
-    DataFileError
-        If a data file is not there, or the folder cannot be written.
-    """
+    """Put a run file and copies of its data files alone into a folder; return the run file's path."""
     if missing := missing_files(study):
         raise DataFileError(missing[0], "is not one of the page's files; drop it on the page first.", code="no-file")
     try:

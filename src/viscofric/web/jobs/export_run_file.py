@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.errors import ViscofricError
 from viscofric.notes import Note
-from viscofric.web.jobs.context import JobOptions, beside_field
+from viscofric.study.run_file.study import Study
+from viscofric.web.jobs.context import Context, JobOptions, beside_field
 from viscofric.web.jobs.export_files import archive, missing_files, offered
 from viscofric.web.study_text import RUN_FILE, DocumentError, study_of, study_text
-
-if TYPE_CHECKING:
-    from viscofric.study.run_file.study import Study
-    from viscofric.web.jobs.context import Context
 
 ARCHIVE = "study.zip"
 
@@ -28,15 +25,7 @@ _OF_SOUND = ("cases", "about", "files", "download")
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Write and check a run file.
-
-    Returns
-    -------
-    dict
-        ``text`` of the run file; ``problems``, a list of ``field`` and ``message``; ``cases`` that it has,
-        ``files`` that it names, and ``about``, both in words, None where there are problems; ``summary``;
-        ``download``, if it was to be packed.
-    """
+    """Write and check a run file; what only a sound one has is None where there are ``problems``."""
     text, problems, checked = _checked(study, context)
     if checked is None or problems:
         if options.pack:

@@ -4,22 +4,21 @@ from __future__ import annotations
 
 import os
 import shutil
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from pydantic import Field
 
 from viscofric.notes import listed
+from viscofric.report import write_figures_and_report
+from viscofric.report.texts.study import grouped_failures
+from viscofric.study.execution import run_study
+from viscofric.study.results.results import StudyResults
+from viscofric.study.running.running import Event
 from viscofric.web.figures.spec import number
-from viscofric.web.jobs.context import JobOptions
+from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.export_files import archive, lay_out, offered
 from viscofric.web.study_text import study_of
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from viscofric.study.results.results import StudyResults
-    from viscofric.study.running.running import Event
-    from viscofric.web.jobs.context import Context
 
 _MOST_SHOWN = 8
 _STAGES = {
@@ -39,19 +38,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Run a study; contacts that an earlier run in this workspace solved are taken from there.
-
-    Returns
-    -------
-    dict
-        ``downloads``, a list of ``name``, ``title`` and ``size``; ``cases`` and ``failed``, their numbers;
-        ``key_numbers``, the same to be shown; ``summary``;
-        ``failures``, ``warnings`` and ``notes``, sentences; ``synthetic``.
-    """
-    from viscofric.report import write_figures_and_report
-    from viscofric.report.texts.study import grouped_failures
-    from viscofric.study.execution import run_study
-
+    """Run a study; contacts that an earlier run in this workspace solved are taken from there."""
     text, checked = study_of(study, context.files)
     folder = context.cache / "study"
     run_file = lay_out(text, checked, folder)

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import note_of
+from viscofric.report.data import Predicted
 from viscofric.report.results import nearest, nominal_temperatures
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.report.data import Predicted
-    from viscofric.report.texts.tables import Table
-
+from viscofric.report.texts.tables import Table
 
 _MEASURED = (
     "load",
@@ -35,12 +31,7 @@ _MEASURED = (
 
 
 def by_temperature(temperature: Array, speed: Array, **columns: Any) -> list[dict[str, Any]]:
-    """Sort points into isotherms.
-
-    `temperature`, `speed` (n,), K, m/s; `columns` (n,): what else is known of the points.  Returned: for each
-    nominal temperature, ascending: ``temperature`` (a number), ``speed`` and the other columns, in ascending
-    speed.
-    """
+    """Sort points (n,) of temperatures (K) and speeds (m/s) into isotherms, their columns in ascending speed."""
     nominal = nominal_temperatures(temperature)
     which = nearest(nominal, temperature) if nominal.size else np.zeros(0, dtype=np.int64)
     found = []
@@ -53,10 +44,7 @@ def by_temperature(temperature: Array, speed: Array, **columns: Any) -> list[dic
 
 
 def measured_points(curves: FrictionCurves) -> list[dict[str, Any]]:
-    """Return measured friction by temperature, with the 95 % limits of its means; see `by_temperature`.
-
-    What the signs of the speeds do not determine, such as Coulomb friction in pure rolling, is NaN.
-    """
+    """Return measured friction by temperature, with the 95 % limits of its means; NaN where it is not determined."""
     columns = {name: getattr(curves, name) for name in _MEASURED if getattr(curves, name) is not None}
     for name in ("viscoelastic", "coulomb"):
         if getattr(curves, name) is not None:

@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import DataFileError, InputError, StudyError
-from viscofric.files import read_text
+from viscofric.files import read_bytes, read_text
 from viscofric.friction.curve_files import holds_friction_curves
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, note_of
+from viscofric.readers.mtm.read import format_name, read_mtm
+from viscofric.readers.source import Source
+from viscofric.report.texts.friction import runs_lines
+from viscofric.study.measurement import read_measurement, separated
 from viscofric.study.run_file.contact import IndenterTable
 from viscofric.study.run_file.measurement import MeasurementTable
 from viscofric.study.run_file.study import validated
 from viscofric.study.run_file.tables import Table
+from viscofric.web.jobs.context import Context
 from viscofric.web.jobs.rubbers import insist_on_uploads, kept, named_without_folder, without_folder
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-    from pathlib import Path
-
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.web.jobs.rubbers import Folders
-
 
 _NOTHING = Note("", "")
 
@@ -40,76 +40,59 @@ class Measured:
     notes: tuple[Note, ...]  # what was doubtful
 
 
-def measured(study: Mapping[str, Any], folders: Folders) -> Measured:
-    """Return what the files of [measurement] hold, read here or found where an earlier job left it.
-
-    Raises `StudyError` as `measurement_table` does.  Raises `DataFileError` if a file cannot be read; it is named
-    without its folder.
-    """
-    table = measurement_table(study, folders)
-    return kept("measured", [table], table.inputs, folders, lambda: _measured(table, folders))
+def measured(study: Mapping[str, Any], context: Context) -> Measured:
+    """Return what the files of [measurement] hold, read here or found where an earlier job left it."""
+    table = measurement_table(study, context)
+    return kept("measured", [table], table.inputs, context, lambda: _measured(table, context))
 
 
-def friction_curves(study: Mapping[str, Any], folders: Folders) -> FrictionCurves:
-    """Return the friction curves of [measurement].
-
-    Raises `StudyError`, `DataFileError` or `InputError` as `measured` does, or if the runs cannot be separated.
-    """
-    found = measured(study, folders)
+def friction_curves(study: Mapping[str, Any], context: Context) -> FrictionCurves:
+    """Return the friction curves of [measurement]; raise the `InputError` of runs that cannot be separated."""
+    found = measured(study, context)
     if found.curves is None:
         raise InputError(found.refusal)
     return found.curves
 
 
-def _measured(table: MeasurementTable, folders: Folders) -> Measured:
+def _measured(table: MeasurementTable, context: Context) -> Measured:
     try:
-        return _of_curves(table, table.curves, folders) if table.curves is not None else _of_runs(table, folders)
+        return _of_curves(table, table.curves, context) if table.curves is not None else _of_runs(table, context)
     except DataFileError as error:
-        raise named_without_folder(error, folders) from None
+        raise named_without_folder(error, context) from None
 
 
-def _of_curves(table: MeasurementTable, path: Path, folders: Folders) -> Measured:
-    from viscofric.study.measurement import read_measurement
-
-    curves = _named(read_measurement(table), folders)
+def _of_curves(table: MeasurementTable, path: Path, context: Context) -> Measured:
+    curves = _named(read_measurement(table), context)
     lines = [("file", path.name), ("recognised as", "a table of friction curves, separated already")]
     return Measured(False, lines, [], _is_made_up(path), curves, _NOTHING, tuple(map(note_of, curves.notes)))
 
 
-def _of_runs(table: MeasurementTable, folders: Folders) -> Measured:
-    from viscofric.readers.mtm.read import read_mtm
-    from viscofric.report.texts.friction import runs_lines
-    from viscofric.study.measurement import separated
-
+def _of_runs(table: MeasurementTable, context: Context) -> Measured:
     runs = read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet)
     lines = [("files" if len(table.mtm) > 1 else "file", ", ".join(path.name for path in table.mtm))]
     lines += [("recognised as", _kinds(table.mtm)), *runs_lines(runs)]
-    steps = [(step.number, without_folder(str(step), folders)) for step in runs.steps]
+    steps = [(step.number, without_folder(str(step), context)) for step in runs.steps]
     made_up = any(_is_made_up(path) for path in table.mtm)
     try:
-        curves = _named(separated(runs, table), folders)
+        curves = _named(separated(runs, table), context)
     except InputError as error:
-        refusal = named_without_folder(error, folders).note
-        return Measured(True, lines, steps, made_up, None, refusal, _named_notes(runs.notes, folders))
+        refusal = named_without_folder(error, context).note
+        return Measured(True, lines, steps, made_up, None, refusal, _named_notes(runs.notes, context))
     return Measured(True, lines, steps, made_up, curves, _NOTHING, tuple(map(note_of, curves.notes)))
 
 
 def _kinds(paths: Sequence[Path]) -> str:
-    from viscofric.files import read_bytes
-    from viscofric.readers.mtm.read import format_name
-    from viscofric.readers.source import Source
-
     return "; ".join(dict.fromkeys(format_name(Source(str(path), read_bytes(path))) for path in paths))
 
 
-def _named(curves: FrictionCurves, folders: Folders) -> FrictionCurves:
+def _named(curves: FrictionCurves, context: Context) -> FrictionCurves:
     """Return curves that name uploaded files as the user named them."""
-    notes = _named_notes(curves.notes, folders)
-    return replace(curves, source=without_folder(curves.source, folders), notes=notes)
+    notes = _named_notes(curves.notes, context)
+    return replace(curves, source=without_folder(curves.source, context), notes=notes)
 
 
-def _named_notes(notes: Iterable[str], folders: Folders) -> tuple[Note, ...]:
-    return tuple(note_of(note).reworded(lambda text: without_folder(text, folders)) for note in notes)
+def _named_notes(notes: Iterable[str], context: Context) -> tuple[Note, ...]:
+    return tuple(note_of(note).reworded(lambda text: without_folder(text, context)) for note in notes)
 
 
 def _is_made_up(path: Path) -> bool:
@@ -136,15 +119,11 @@ class _IndenterTables(Table):
     indenter: IndenterTable
 
 
-def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[str]) -> dict[str, Any]:
-    """Return [measurement] as it stands with other files: runs or friction curves, as they are recognised.
-
-    `study`: tables of a run file; how runs are to be separated is kept; `names`: of uploaded files.  Raises
-    `StudyError` if a file is none of the uploaded ones, or the kinds are mixed.
-    """
+def table_of_files(study: Mapping[str, Any], context: Context, names: Sequence[str]) -> dict[str, Any]:
+    """Return [measurement] with other uploaded files, recognised as runs or friction curves, not both."""
     for name in names:
-        _insist_on_upload(folders.files / name, folders.files)
-    tables = [name for name in names if holds_friction_curves(folders.files / name)]
+        _insist_on_upload(context.files / name, context.files)
+    tables = [name for name in names if holds_friction_curves(context.files / name)]
     if not tables:
         before = {
             key: value
@@ -160,26 +139,19 @@ def table_of_files(study: Mapping[str, Any], folders: Folders, names: Sequence[s
     return {"curves": tables[0]}
 
 
-def measurement_table(study: Mapping[str, Any], folders: Folders) -> MeasurementTable:
-    """Check [measurement] of a run file, without the other tables.
-
-    It is returned with the paths of uploaded files.  Raises `StudyError` with every wrong key, unit and range, or if a
-    file is none of the uploaded ones.
-    """
+def measurement_table(study: Mapping[str, Any], context: Context) -> MeasurementTable:
+    """Check [measurement] of a run file alone; paths are those of uploaded files."""
     if not study.get("measurement"):
         raise StudyError(Note("no-measurement", f"there is none; {_ABOUT}.", "measurement"))
     values = {"measurement": study["measurement"]}
     table = validated(_MeasurementTables, values).measurement
-    insist_on_uploads("measurement.mtm", table.mtm, folders.files)
-    insist_on_uploads("measurement.curves", table.curves, folders.files)
-    return table.relative_to(folders.files)
+    insist_on_uploads("measurement.mtm", table.mtm, context.files)
+    insist_on_uploads("measurement.curves", table.curves, context.files)
+    return table.relative_to(context.files)
 
 
 def indenter_of(study: Mapping[str, Any]) -> Indenter | None:
-    """Return what [indenter] says that friction was measured with; None where there is no such table.
-
-    Raises `StudyError` if the table is wrong, or says more than one size.
-    """
+    """Return the one indenter of [indenter]; None without such a table."""
     if not study.get("indenter"):
         return None
     values = {"indenter": study["indenter"]}

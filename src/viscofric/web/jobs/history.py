@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.datasets import plain
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
+from viscofric.motion.history import History
 from viscofric.study.histories import case_histories, checked_table
+from viscofric.study.run_file.study import Study
 from viscofric.web.jobs.combinations import of_combination, page_sweep
-from viscofric.web.jobs.context import JobError
+from viscofric.web.jobs.context import Context, JobError
 from viscofric.web.jobs.motion import MOST_ROWS, Rows
 from viscofric.web.study_text import study_of
-
-if TYPE_CHECKING:
-    from viscofric.motion.history import History
-    from viscofric.study.run_file.study import Study
-    from viscofric.web.jobs.context import Context
 
 #: Name of the table of a history that is none of stages.
 TABLE = "history_of_the_page.csv"
@@ -32,14 +29,9 @@ class Options(Rows):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Return the table [history] of a study with the page's history, or the page's form of the one that it has.
+    """Return the page's history as [history]: stages where it has these, else a table among the page's files.
 
-    Returns
-    -------
-    dict
-        ``history``: ``load_time``, ``dwell``, ``slide`` and ``strokes`` where the history has these stages, at the
-        loads and speeds of the study; else ``file``, a table among the files of the page.  Or ``rows``, ``control``,
-        ``path`` and ``before``, of the study's first case.
+    Without rows, return the history of the study's first case as the page has it.
     """
     if not options.rows:
         return _of_study(study_of(study, context.files)[1])

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from viscofric.datasets import plain, record
-from viscofric.web.jobs.context import JobOptions
-
-if TYPE_CHECKING:
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.identification.anchors import Anchor
-    from viscofric.friction.identification.result import IdentifiedMaterial
-    from viscofric.rheology.material import Material
-    from viscofric.web.jobs.context import Context
-
+from viscofric.errors import InputError
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
+from viscofric.friction.identification.identify import LEVELS, identify_material
+from viscofric.friction.identification.result import IdentifiedMaterial
+from viscofric.notes import Note
+from viscofric.rheology.cards import write_card
+from viscofric.rheology.material import Material
+from viscofric.units import angular_frequency, positive, to_si
+from viscofric.web.figures.friction import identified_view
+from viscofric.web.jobs.context import Context, JobError, JobOptions
+from viscofric.web.jobs.friction_data import by_temperature, measured_points, texts
+from viscofric.web.jobs.friction_input import friction_curves, indenter_of, measured
+from viscofric.web.jobs.rubbers import made_rubber
 
 _DOWNLOAD = "rubber_from_friction.json"
 _DIGITS = 6
@@ -35,32 +40,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Identify the rubber behind the friction of [measurement].
-
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file; [measurement] and [indenter] are used, and [material] where the options request it.
-
-    Returns
-    -------
-    dict
-        ``reference``; ``modulus``, as of `IdentifiedMaterial.to_dataset`;
-        ``identified``: ``low``, ``high``, ``limit``, ``relative`` and ``decades``; ``frequency_range`` of the contacts,
-        ``middle`` of it; ``anchored``; ``anchor`` (its modulus, angular frequency and temperature, or null);
-        ``factors``, as of `IdentifiedMaterial.shift_dataset` (null where there is one temperature only); ``known``:
-        ``name``, ``storage_modulus`` and ``loss_modulus`` of the page's rubber, or null; ``fit``: by temperature
-        ``fitted``, ``lower``, ``upper`` and ``residual``; ``family``; ``rms``; ``sentences``; ``download``; and what
-        is shown (`identified_view`).
-    """
-    from viscofric.friction.identification.identify import LEVELS, identify_material
-    from viscofric.notes import Note
-    from viscofric.web.figures.friction import identified_view
-    from viscofric.web.jobs.context import JobError
-    from viscofric.web.jobs.friction_data import measured_points
-    from viscofric.web.jobs.friction_input import friction_curves, indenter_of, measured
-    from viscofric.web.jobs.rubbers import made_rubber
-
+    """Identify the rubber behind the friction of [measurement]; [material] counts where the options request it."""
     curves = friction_curves(study, context)
     indenter = indenter_of(study)
     if indenter is None:
@@ -115,9 +95,6 @@ def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:
 def _reply(
     found: IdentifiedMaterial, curves: FrictionCurves, rubber: Material | None, anchor: Anchor | None, context: Context
 ) -> dict[str, Any]:
-    from viscofric.rheology.cards import write_card
-    from viscofric.web.jobs.friction_data import texts
-
     write_card(found.material, context.downloads / _DOWNLOAD, format="json")
     modulus, factors = record(found.to_dataset(), _DIGITS), found.shift_dataset()
     at = None
@@ -154,8 +131,6 @@ def _known(rubber: Material, found: IdentifiedMaterial) -> dict[str, Any]:
 
 def _fit(found: IdentifiedMaterial, curves: FrictionCurves) -> list[dict[str, Any]]:
     """Return how well the identified rubber meets the friction, by temperature."""
-    from viscofric.web.jobs.friction_data import by_temperature
-
     fit = found.friction
     # ln μ is what is fitted, so that a residual times its error is a relative difference.
     return by_temperature(
@@ -194,9 +169,6 @@ def make_anchor(requested: AnchorOptions, rubber: Material | None, load_unit: st
     `rubber`: whose modulus is taken, if it is; `load_unit`: of the friction curves.  Raises `JobError` if a
     quantity is missing or cannot be used.
     """
-    from viscofric.errors import InputError
-    from viscofric.web.jobs.context import JobError
-
     try:
         return (
             _of_modulus(requested, rubber)
@@ -208,8 +180,6 @@ def make_anchor(requested: AnchorOptions, rubber: Material | None, load_unit: st
 
 
 def _given(requested: AnchorOptions, *names: str) -> list[str]:
-    from viscofric.errors import InputError
-
     missing = [_NAMES.get(name, f"the {name}") for name in names if not getattr(requested, name)]
     if missing:
         raise InputError(f"{' and '.join(missing)} of the anchor is missing.", code="missing")
@@ -217,10 +187,6 @@ def _given(requested: AnchorOptions, *names: str) -> list[str]:
 
 
 def _of_modulus(requested: AnchorOptions, rubber: Material | None) -> Anchor:
-    from viscofric.errors import InputError
-    from viscofric.friction.identification.anchors import ModulusAnchor
-    from viscofric.units import angular_frequency
-
     (frequency,) = _given(requested, "frequency")
     if requested.of == "modulus":
         (modulus,) = _given(requested, "modulus")
@@ -233,9 +199,6 @@ def _of_modulus(requested: AnchorOptions, rubber: Material | None) -> Anchor:
 
 
 def _of_contact(requested: AnchorOptions, load_unit: str) -> Anchor:
-    from viscofric.friction.identification.anchors import ContactAnchor
-    from viscofric.units import positive, to_si
-
     size, speed, load = _given(requested, "size", "speed", "load")
     place: dict[str, Any] = {"speed": speed, "temperature": requested.temperature, "error": requested.error}
     place["load"] = positive(load, load_unit, "load")

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BeforeValidator, Field
 
 from viscofric.datasets import plain
 from viscofric.rheology.superposition.overlap import LogSweep, join_at
+from viscofric.rheology.superposition.result import Superposition
 from viscofric.study.run_file.tables import kelvin
-from viscofric.web.jobs.context import JobError, JobOptions
+from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.rubbers import made_rubber
-
-if TYPE_CHECKING:
-    from viscofric.rheology.superposition.result import Superposition
-    from viscofric.web.jobs.context import Context
 
 #: An isotherm is named to this, K.
 _NAMED = 0.05
@@ -30,21 +27,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Slide one isotherm over its neighbours, which stay where they are.
-
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file; [material] counts.
-    options : Options
-        ``temperature`` of the isotherm in words; ``reach`` and ``step`` in decades.
-
-    Returns
-    -------
-    dict
-        ``temperature`` (K), ``log10_shift`` as it is now, ``moved`` (n decades to either side) and ``misfit`` (n, joint
-        rms of log10 E' and log10 E'' where it overlaps its neighbours, decades; None where it overlaps neither).
-    """
+    """Slide one isotherm over its neighbours, which stay where they are; return the misfit (decades) at each place."""
     fit = made_rubber(study, context).fit
     if fit is None:
         raise JobError("Only isotherms of sweeps can be shifted; this rubber is made of none.", code="no-isotherms")

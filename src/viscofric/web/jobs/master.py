@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
+import numpy as np
 from pydantic import Field
 
 from viscofric.datasets import plain
+from viscofric.errors import InputError, SuperpositionError
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+from viscofric.friction.shifting.shift import chosen_law, shift_friction
+from viscofric.friction.shifting.shift_agreement import LIKELY, compare_shift_factors
 from viscofric.notes import listed
-from viscofric.web.jobs.context import JobOptions
-
-if TYPE_CHECKING:
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.web.jobs.context import Context
+from viscofric.report.data import FARTHER, law_line, measured_line
+from viscofric.report.texts.inverse import shift_words
+from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.web.figures.friction import master_figures
+from viscofric.web.jobs.context import Context, JobOptions
+from viscofric.web.jobs.friction_data import by_temperature, drawn_line, pairs
+from viscofric.web.jobs.friction_input import friction_curves, indenter_of, measured
+from viscofric.web.jobs.rubbers import made_rubber
+from viscofric.web.jobs.shift_numbers import with_bars
 
 _DOWNLOAD = "shift_factors_from_friction.csv"
 
@@ -33,29 +42,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Shift measured friction onto master curves: with the material's shift factors, and with those found from it.
-
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file; uses [measurement], [indenter] and, for the comparison, [material].
-
-    Returns
-    -------
-    dict
-        ``by_rubber`` and ``found``, each a master curve or null: ``reference``, ``points``
-        (by temperature over the reduced speed), ``line`` (smoothed, with its band), ``overlap`` (a sentence) and
-        ``words`` (name and value).  ``found`` has ``factors`` and ``law`` (or null) as their data sets name
-        them (`shift_numbers.with_bars`), ``agreement`` (a sentence, or null) and ``download`` too.  ``refusal``: why
-        friction determines no shift factors, or null.  ``known``: the rubber's about the same reference, as ``points``
-        (or null) and ``line``; null without a rubber, and at one
-        temperature.  ``notes``, ``figures``.
-    """
-    from viscofric.errors import SuperpositionError
-    from viscofric.web.figures.friction import master_figures
-    from viscofric.web.jobs.friction_input import friction_curves, indenter_of, measured
-    from viscofric.web.jobs.rubbers import made_rubber
-
+    """Shift measured friction onto master curves: with the material's shift factors, and with those found from it."""
     curves = friction_curves(study, context)
     rubber = made_rubber(study, context).material if options.beside else None
     known = None if rubber is None else rubber.shift
@@ -100,15 +87,10 @@ def _reference(curves: FrictionCurves, known: ShiftLaw | None) -> float | None:
 
 
 def _shifted(curves: FrictionCurves, settings: dict[str, Any], **chosen: Any) -> FrictionMasterCurve:
-    from viscofric.friction.shifting.shift import shift_friction
-
     return shift_friction(curves, **settings, **chosen)
 
 
 def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
-    from viscofric.report.data import measured_line
-    from viscofric.web.jobs.friction_data import by_temperature, drawn_line
-
     columns = {
         "friction": master.friction_coefficient,
         "error": master.friction_error,
@@ -123,9 +105,6 @@ def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
 
 
 def _words(master: FrictionMasterCurve, *found: Any) -> list[dict[str, str]]:
-    from viscofric.report.texts.inverse import shift_words
-    from viscofric.web.jobs.friction_data import pairs
-
     law, agreement, why = found or (None, None, "")
     rows = [(name, words) for name, words in shift_words(master, law, agreement, why) if name != "reduced speed"]
     return pairs((name or "law, why", words) for name, words in rows)
@@ -135,12 +114,6 @@ def _found(
     master: FrictionMasterCurve, known: ShiftLaw | None, options: Options, context: Context
 ) -> tuple[dict[str, Any], list[str]]:
     """Return the master curve and shift factors found from friction alone, and their notes."""
-    from viscofric.errors import InputError
-    from viscofric.friction.shifting.shift import chosen_law
-    from viscofric.friction.shifting.shift_agreement import LIKELY, compare_shift_factors
-    from viscofric.report.data import law_line
-    from viscofric.web.jobs.shift_numbers import with_bars
-
     law, why, refused = chosen_law(master, options.law)
     notes, agreement = [*master.notes, *([refused] if refused else [])], None
     if known is not None:
@@ -166,13 +139,6 @@ def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any] | None:
 
     None where there is one temperature only, which has nothing to be shifted to.
     """
-    import numpy as np
-
-    from viscofric.report.data import law_line
-    from viscofric.report.figures.shift_factors import FARTHER
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.web.jobs.shift_numbers import with_bars
-
     law = known.at_reference(beside["reference"])
     warm = np.array([one["temperature"] for one in beside["points"]])
     if warm.size < 2:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import Field
 
 from viscofric.datasets import plain
+from viscofric.friction.curve_files import write_friction_curves
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import listed
-from viscofric.web.jobs.context import JobOptions
-
-if TYPE_CHECKING:
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.web.jobs.context import Context
+from viscofric.report.texts.checks import consistency_shown
+from viscofric.report.texts.friction import friction_lines
+from viscofric.web.figures.friction import measured_figures
+from viscofric.web.jobs.context import Context, JobOptions
+from viscofric.web.jobs.friction_data import measured_points, pairs
+from viscofric.web.jobs.friction_input import measured, table_of_files
 
 _DOWNLOAD = "friction_curves.csv"
 
@@ -25,21 +28,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Read and separate the files of [measurement]; no other table is looked at.
-
-    Returns
-    -------
-    dict
-        ``table`` ([measurement], with the dropped files in it), ``recognised`` and ``lines`` (name and value),
-        ``steps`` (number and text of each), ``synthetic`` (whether a file says that it was made up), ``runs`` (whether
-        they are a tribometer's), ``refusal`` (why they cannot be separated, or null), ``notes``, and unless refused
-        ``curves`` (by temperature, see `viscofric.web.jobs.friction_data`), ``checks`` (name, verdict and words) and
-        ``download``; ``figures`` and ``summary``.
-    """
-    from viscofric.web.figures.friction import measured_figures
-    from viscofric.web.jobs.friction_data import measured_points, pairs
-    from viscofric.web.jobs.friction_input import measured, table_of_files
-
+    """Read and separate the files of [measurement]; no other table is looked at."""
     table = table_of_files(study, context, options.files) if options.files else study.get("measurement")
     context.progress(0, 1, "Reading the files")
     found = measured({**study, "measurement": table}, context)
@@ -68,21 +57,15 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     """Return a summary of the friction as a whole, without notes and checks."""
-    from viscofric.report.texts.friction import friction_lines
-
     return [(name, value) for name, value in friction_lines(curves) if name not in ("assumed", "residual")]
 
 
 def _checks(curves: FrictionCurves) -> list[dict[str, Any]]:
     """Judge whether the four sign configurations agree with each other."""
-    from viscofric.report.texts.checks import consistency_shown
-
     check = curves.consistency_check
     return [] if check is None else [consistency_shown(check).record("page")]
 
 
 def _written(curves: FrictionCurves, context: Context) -> str:
-    from viscofric.friction.curve_files import write_friction_curves
-
     write_friction_curves(curves, context.downloads / _DOWNLOAD)
     return _DOWNLOAD

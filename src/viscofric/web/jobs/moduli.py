@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BeforeValidator
 
 from viscofric.datasets import plain
+from viscofric.study.rubber import Rubber
 from viscofric.study.run_file.tables import kelvin
 from viscofric.web.figures.spectrum import moduli_figures
-from viscofric.web.jobs.context import JobError, JobOptions
+from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.rubbers import friction_bands, made_rubber
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, moduli
-
-if TYPE_CHECKING:
-    from viscofric.study.rubber import Rubber
-    from viscofric.web.jobs.context import Context
 
 #: The isotherm within this of the temperature counts as measured there, K.
 _NEAR = 1.0
@@ -30,22 +27,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Return E'(ω) and E''(ω) of the rubber at a temperature.
-
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file; [material] and [uncertainty] count.
-    options : Options
-        ``temperature`` in words ("60 degC").
-
-    Returns
-    -------
-    dict
-        ``temperature`` (K), ``modulus``, ``band`` or None, ``moved`` (all measured points, brought there by α and b) or
-        None, ``isotherm`` (the sweep measured there, as it was read) or None, ``extrapolated`` (whether α is), and
-        ``figures``.
-    """
+    """Return E'(ω) and E''(ω) of the rubber at a temperature, with band and the measured points brought there."""
     rubber = made_rubber(study, context)
     material, at = rubber.material, options.temperature
     if material.shift is None:

@@ -3,31 +3,29 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, ConfigDict, Field
 
 from viscofric.datasets import plain, record
-from viscofric.friction.cases.case import moved
+from viscofric.friction.cases.case import Case, moved
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import surface_of
+from viscofric.motion.history import History, dense_times
+from viscofric.motion.impact import solve_impact
+from viscofric.motion.impact_solution import ImpactSolution
+from viscofric.motion.solution import TransientSolution
+from viscofric.motion.solve import solve_transient
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import prefixed
+from viscofric.rheology.material import Material
 from viscofric.study.run_file.tables import kelvin
 from viscofric.web.figures.motion import motion_view, pressures
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
-from viscofric.web.jobs.context import JobError, JobOptions
+from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.rubbers import notes_without_folder, study_rubber
 from viscofric.web.study_text import study_of
-
-if TYPE_CHECKING:
-    from viscofric.friction.cases.case import Case
-    from viscofric.motion.history import History
-    from viscofric.motion.impact_solution import ImpactSolution
-    from viscofric.motion.solution import TransientSolution
-    from viscofric.rheology.material import Material
-    from viscofric.web.jobs.context import Context
 
 _DIGITS = 7
 #: Rows of a history on the page.
@@ -67,8 +65,6 @@ class Rows(JobOptions):
 
     def history(self, **more: Any) -> History:
         """Return the history; `more` is passed on to it."""
-        from viscofric.motion.history import History
-
         along = [row.along for row in self.rows]
         values: dict[str, Any] = {self.control: [row.value for row in self.rows]}
         path = {self.path: along} if any(along) else {}
@@ -89,15 +85,7 @@ class Options(Rows):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Solve the contact over time; an interruption keeps what was found.
-
-    Returns
-    -------
-    dict
-        The data set of the solution as plain types, ``steps``, ``rejected_steps``, ``temperature`` (K), ``warnings``
-        and ``notes``; of an impact also ``contacts``, what each of them has done.  Then what is shown (`motion_view`,
-        `pressures`).
-    """
+    """Solve the contact over time, or an impact; an interruption keeps what was found."""
     _, checked = study_of(study, context.files)
     first = of_combination(page_sweep(checked), 0)
     case = first if options.temperature is None else moved(first, temperature=options.temperature)
@@ -139,9 +127,6 @@ def _transient(
     material: Material, case: Case, options: Options, accuracy: float, context: Context
 ) -> TransientSolution:
     """Solve the contact of a case through the history of the options."""
-    from viscofric.motion.history import dense_times
-    from viscofric.motion.solve import solve_transient
-
     assert isinstance(case, (IndenterCase, SurfaceCase))
     angle = case.direction if isinstance(case, SurfaceCase) else 0.0
     history = options.history(temperature=case.temperature, direction=(math.cos(angle), math.sin(angle)))
@@ -166,8 +151,6 @@ def _transient(
 
 def _impact(material: Material, case: Case, impact: Impact) -> ImpactSolution:
     """Solve the impact of the indenter of a case."""
-    from viscofric.motion.impact import solve_impact
-
     if not isinstance(case, IndenterCase):
         raise JobError("An impact needs an indenter; choose a ball or a cone.", "surface", code="rough-surface")
     if case.layer is not None:

@@ -6,8 +6,8 @@ import io
 import zipfile
 import zlib
 from fnmatch import fnmatchcase
-from pathlib import PureWindowsPath
-from typing import TYPE_CHECKING, Any
+from pathlib import Path, PureWindowsPath
+from typing import Any
 
 from pydantic import Field
 
@@ -15,15 +15,10 @@ from viscofric.datasets import plain
 from viscofric.errors import DataFileError, StudyError
 from viscofric.files import parse_toml, read_bytes
 from viscofric.study.run_file.study import LONGEST_RUN_FILE, parse_study
-from viscofric.web.jobs.context import JobOptions
+from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.study_files import named_files
 from viscofric.web.study_text import RUN_FILE
 from viscofric.web.workspace import LARGEST_UPLOAD, Workspace, checked_name
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from viscofric.web.jobs.context import Context
 
 
 class Options(JobOptions):
@@ -35,14 +30,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Read a run file; what is wrong with its values is left for the page to show beside its fields.
-
-    Returns
-    -------
-    dict
-        ``study``, its tables; ``missing``, names of data files that are not among the page's own; ``files``, names of
-        those that came with it.
-    """
+    """Read a run file; what is wrong with its values is left for the page to show beside its fields."""
     text, files = _unpacked(options.archive, context) if options.archive else (options.text, [])
     text = text.removeprefix("\ufeff")
     try:

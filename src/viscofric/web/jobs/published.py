@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import itertools
 import time
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from viscofric.verification import run_checks
+from viscofric.verification import Comparison, Outcome, run_checks
 from viscofric.verification.published import PUBLISHED
 from viscofric.web.figures.spec import Spec, table
-from viscofric.web.jobs.context import JobOptions
-
-if TYPE_CHECKING:
-    from viscofric.verification import Comparison, Outcome
-    from viscofric.web.jobs.context import Context
+from viscofric.web.jobs.context import Context, JobOptions
 
 _HEAD = ["case", "quantity", "published", "computed", "difference", "allowed"]
 _SIGNS = {"at least": "≥ ", "at most": "≤ "}
@@ -23,11 +19,7 @@ Options = JobOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Compute all comparisons of ``viscofric verify --published``; the study is not used.
-
-    Returned: ``said``, how many numbers agree, where and when they were computed; ``checks``, each with
-    ``title``, ``verdict``, ``origin`` (sentences) and ``table``.
-    """
+    """Compute all comparisons of ``viscofric verify --published``; the study is not used."""
     from viscofric import __version__
 
     begun, number = time.perf_counter(), itertools.count()

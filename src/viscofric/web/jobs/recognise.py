@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import Field
 
 from viscofric.errors import InputError
-from viscofric.web.jobs.context import JobOptions
+from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.rubbers import insist_on_uploads, named_without_folder
-
-if TYPE_CHECKING:
-    from viscofric.web.jobs.context import Context
 
 
 class Options(JobOptions):
@@ -22,11 +19,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Sort uploaded files by the kind of test that they hold.
-
-    Returned: ``kinds``: ``"dma"``, ``"ramps"``, ``"creep"``, ``"relaxation"`` or ``"amplitude"`` -> names of
-    files.  Raises `InputError` if a file is none of these tests.
-    """
+    """Sort uploaded files by the kind of test that they hold."""
     from viscofric.readers.recognise import by_kind
 
     insist_on_uploads("material", tuple(map(Path, options.files)), context.files)

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.datasets import plain, record
 from viscofric.notes import listed
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.study.rubber import Rubber
 from viscofric.web.figures.rubber import rubber_view
-from viscofric.web.jobs.context import JobOptions
+from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber, notes_without_folder, without_folder
 from viscofric.web.jobs.shift_numbers import shift_numbers
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, spectrum_numbers
-
-if TYPE_CHECKING:
-    from viscofric.rheology.superposition.result import Superposition
-    from viscofric.study.rubber import Rubber
-    from viscofric.web.jobs.context import Context
 
 
 class Options(JobOptions):
@@ -27,23 +24,7 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Make the rubber of [material].
-
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file; [material] and [uncertainty] count.
-    context : Context
-        Receives the reply without bands as a part, before the rubber is drawn.
-
-    Returns
-    -------
-    dict
-        ``name``, ``synthetic``, ``source``; ``notes`` (but those on files, which the job ``sweeps`` returns); ``shift``
-        (`shift_numbers`), ``check`` (`check_numbers`; of ramps and step tests alone its verdict; else None),
-        ``spectrum`` (`spectrum_numbers`) and ``band`` (`band_numbers`; None where the material's uncertainty is
-        unknown, and ``no_band`` then says why).  Then what is shown (`rubber_view`).
-    """
+    """Make the rubber of [material]; what is known before it is drawn for its bands is sent as a part."""
     table, wanted = checked_tables(study, context)
     context.progress(
         0, 2, "shifting the isotherms" if table.dma or table.steps or table.ramps else "reading the rubber"
@@ -115,11 +96,7 @@ _VERDICTS = {
 
 
 def check_numbers(fit: Superposition) -> dict[str, Any]:
-    """Return the verdict on a superposition with what it rests on.
-
-    Returned: ``verdict`` (`SuperpositionCheck.verdict`), its ``kind``, ``headline`` and ``sentences``; distances
-    of ``neighbours`` in decades; ``kramers_kronig`` or None.
-    """
+    """Return the verdict on a superposition with what it rests on."""
     check, found = fit.check, fit.check.kramers_kronig
     return {
         **_verdict(check.verdict, list(check.sentences)),

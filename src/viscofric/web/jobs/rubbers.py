@@ -7,7 +7,9 @@ import hashlib
 import json
 import pickle
 from collections import OrderedDict
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
 
 from pydantic import Field
 
@@ -15,36 +17,20 @@ from viscofric.errors import DataFileError, InputError, StudyError
 from viscofric.files import read_bytes, write_atomically
 from viscofric.notes import Note, note_of
 from viscofric.study.make_rubber import make_rubber
+from viscofric.study.rubber import Rubber
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.settings import UncertaintyTable
 from viscofric.study.run_file.study import validated
 from viscofric.study.run_file.tables import Table, files_of
+from viscofric.study.study_rubber import FrictionBands, StudyRubber
+from viscofric.web.jobs.context import Context
 from viscofric.web.study_files import FILE_KEYS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
-    from pathlib import Path
-
-    from viscofric.study.rubber import Rubber
-    from viscofric.study.study_rubber import FrictionBands, StudyRubber
 
 Made = TypeVar("Made")
 
 #: Rubbers that one child keeps in memory; a made rubber with its draws takes some 300 kB.
 _KEPT = 16
 _memory: OrderedDict[str, Any] = OrderedDict()
-
-
-class Folders(Protocol):
-    """Where a workspace keeps its files, as in `jobs.context.Context`."""
-
-    @property
-    def files(self) -> Path:
-        """Folder of the uploaded files."""
-
-    @property
-    def cache(self) -> Path:
-        """Folder of the cache."""
 
 
 class _RubberTables(Table):
@@ -54,12 +40,8 @@ class _RubberTables(Table):
     uncertainty: UncertaintyTable = Field(UncertaintyTable())
 
 
-def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[MaterialTable, UncertaintyTable]:
-    """Check [material] and [uncertainty] of a run file, without the other tables.
-
-    `study`: tables of a run file; of several materials the first counts.  It is returned with the paths of uploaded
-    files.  Raises `StudyError` with every wrong key, unit and range, or if a file is none of the uploaded ones.
-    """
+def checked_tables(study: Mapping[str, Any], context: Context) -> tuple[MaterialTable, UncertaintyTable]:
+    """Check [material] (the first of several) and [uncertainty] alone; paths are those of uploaded files."""
     material = study.get("material")
     if isinstance(material, list) and material:
         material = material[0]
@@ -67,65 +49,48 @@ def checked_tables(study: Mapping[str, Any], folders: Folders) -> tuple[Material
     values |= {name: study[name] for name in ("uncertainty",) if name in study}
     tables = validated(_RubberTables, values)
     for key in FILE_KEYS["material"]:
-        insist_on_uploads(f"material.{key}", getattr(tables.material, key), folders.files)
-    return tables.material.relative_to(folders.files), tables.uncertainty
+        insist_on_uploads(f"material.{key}", getattr(tables.material, key), context.files)
+    return tables.material.relative_to(context.files), tables.uncertainty
 
 
-def made_rubber(study: Mapping[str, Any], folders: Folders) -> Rubber:
-    """Return the rubber of [material], made by `make_rubber` or found where an earlier job left it.
-
-    Raises
-    ------
-    StudyError, DataFileError, SuperpositionError, InputError
-        As `make_rubber` does; files are named without their folder.
-    """
-    table, _ = checked_tables(study, folders)
-    return kept("rubber", [table], table.inputs, folders, lambda: _made(table, folders))
+def made_rubber(study: Mapping[str, Any], context: Context) -> Rubber:
+    """Return the rubber of [material], made by `make_rubber` or found where an earlier job left it."""
+    table, _ = checked_tables(study, context)
+    return kept("rubber", [table], table.inputs, context, lambda: _made(table, context))
 
 
-def friction_bands(study: Mapping[str, Any], folders: Folders) -> FrictionBands:
-    """Return the draws of the rubber of [uncertainty], as bands of friction are made of them.
-
-    Its `samples` (a `MaterialSamples`) is None where the material's uncertainty is unknown.
-    """
+def friction_bands(study: Mapping[str, Any], context: Context) -> FrictionBands:
+    """Return the draws of the rubber of [uncertainty]; `samples` is None where none can be drawn."""
     from viscofric.study.study_rubber import FrictionBands
 
-    table, wanted = checked_tables(study, folders)
-    rubber = made_rubber(study, folders)
+    table, wanted = checked_tables(study, context)
+    rubber = made_rubber(study, context)
     settings = [table, wanted.draws, wanted.seed]
-    return kept("bands", settings, table.inputs, folders, lambda: FrictionBands(rubber, wanted.draws, wanted.seed))
+    return kept("bands", settings, table.inputs, context, lambda: FrictionBands(rubber, wanted.draws, wanted.seed))
 
 
-def study_rubber(study: Mapping[str, Any], folders: Folders, temperatures: Sequence[float] = ()) -> StudyRubber:
-    """Return the rubber ready to be solved with, as a study has it, but for members of its posterior.
-
-    `temperatures`: K; each must have a shift factor.  Raises `StudyError` or `InputError` as `StudyRubber.of`
-    does.
-    """
+def study_rubber(study: Mapping[str, Any], context: Context, temperatures: Sequence[float] = ()) -> StudyRubber:
+    """Return the rubber as a study has it, without members; raise where a temperature (K) has no shift factor."""
     import numpy as np
 
     from viscofric.study.rubber import shift_of
     from viscofric.study.study_rubber import StudyRubber
 
-    rubber = made_rubber(study, folders)
+    rubber = made_rubber(study, context)
     shift = shift_of(rubber)
     shift(np.array(temperatures, dtype=float))
-    return StudyRubber(rubber, friction_bands(study, folders), (), shift)
+    return StudyRubber(rubber, friction_bands(study, context), (), shift)
 
 
 def kept(
-    name: str, settings: Sequence[object], inputs: Sequence[Path], folders: Folders, make: Callable[[], Made]
+    name: str, settings: Sequence[object], inputs: Sequence[Path], context: Context, make: Callable[[], Made]
 ) -> Made:
-    """Return what was made before of the same settings and the same files, in this process or another; else make it.
-
-    `name`: kind of thing; `settings`: what it depends on, each a table or something that JSON holds; `inputs`:
-    files that it depends on; their contents count; `make`: returns it.
-    """
+    """Return what was made before of the same settings and contents of files, by any process; else make it."""
     key = _key(name, settings, inputs)
     if key in _memory:
         _memory.move_to_end(key)
         return _memory[key]  # type: ignore[no-any-return]
-    path = folders.cache / f"{key}.pickle"
+    path = context.cache / f"{key}.pickle"
     found = _loaded(path)
     if found is None:
         found = make()
@@ -136,26 +101,26 @@ def kept(
     return found  # type: ignore[no-any-return]
 
 
-def without_folder(text: str, folders: Folders) -> str:
+def without_folder(text: str, context: Context) -> str:
     """Return a sentence that names uploaded files as the user named them."""
-    return text.replace(f"{folders.files}/", "").replace(f"{folders.files.resolve()}/", "")
+    return text.replace(f"{context.files}/", "").replace(f"{context.files.resolve()}/", "")
 
 
-def notes_without_folder(notes: Iterable[str], folders: Folders) -> list[Note]:
+def notes_without_folder(notes: Iterable[str], context: Context) -> list[Note]:
     """Return notes that name uploaded files as the user named them."""
-    return [note_of(note).reworded(lambda text: without_folder(text, folders)) for note in notes]
+    return [note_of(note).reworded(lambda text: without_folder(text, context)) for note in notes]
 
 
-def named_without_folder(error: InputError, folders: Folders) -> InputError:
+def named_without_folder(error: InputError, context: Context) -> InputError:
     """Return an error of the same kind that names uploaded files as the user named them."""
-    return error.reworded(lambda text: without_folder(text, folders))
+    return error.reworded(lambda text: without_folder(text, context))
 
 
-def _made(table: MaterialTable, folders: Folders) -> Rubber:
+def _made(table: MaterialTable, context: Context) -> Rubber:
     try:
         rubber = make_rubber(table, liquids=True)
     except InputError as error:
-        raise named_without_folder(error, folders) from None
+        raise named_without_folder(error, context) from None
     for fit in (rubber.fit, rubber.step_fit):
         if fit is not None:
             _ = fit.check  # found once, and kept with the rest
@@ -163,11 +128,7 @@ def _made(table: MaterialTable, folders: Folders) -> Rubber:
 
 
 def insist_on_uploads(place: str, given: Path | tuple[Path, ...] | None, folder: Path) -> None:
-    """Refuse files outside the folder of uploads: a page reads nothing else of the machine that it runs on.
-
-    `place`: key of the run file that names them; `given`: as the run file names them; patterns stand for the
-    files that they match.  Raises `StudyError` if one of them is none of the uploaded ones.
-    """
+    """Refuse files (or patterns) outside the folder of uploads, named at a `place` of the run file."""
     paths = given if isinstance(given, tuple) else () if given is None else (given,)
     for path in paths:
         outside = path.is_absolute() or len(path.parts) != 1

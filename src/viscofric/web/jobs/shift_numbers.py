@@ -10,7 +10,7 @@ from viscofric.datasets import plain, record
 from viscofric.report.data import law_line, law_residuals, shift_table
 from viscofric.rheology.shifts.parametric_law import LEVEL_95, ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
+from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.rheology.shifts.law_comparison import LawRow
     from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.rheology.superposition.result import Superposition
     from viscofric.study.rubber import Rubber
 
@@ -45,11 +44,7 @@ def _not_correctable(rubber: Rubber) -> str:
 
 
 def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any] | None:
-    """Return α(T) of a rubber: what was found, the laws, and the isotherms shifted.
-
-    `held`: temperatures (K) whose log10 α was held.  Numbers are in SI units; shift factors, lines of laws and
-    vertical shift as their data sets name them, see `with_bars`. None where the rubber has no shift.
-    """
+    """Return α(T) of a rubber, its laws and shifted isotherms, None without; `held`: K whose log10 α was held."""
     law = rubber.material.shift
     if law is None:
         return None

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array, ComplexArray
+from viscofric.data import MasterCurve
 from viscofric.datasets import plain, record
 from viscofric.errors import InputError
+from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.data import MasterCurve
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-    from viscofric.study.rubber import Rubber
-
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.study.rubber import Rubber
 
 _DIGITS = 6
 #: Lines go so far beyond the measured frequencies, as a factor.
@@ -29,15 +26,7 @@ _BEYOND_MODES = 30.0
 
 
 def spectrum_numbers(rubber: Rubber) -> dict[str, Any]:
-    """Return modes, moduli over frequency at the reference, and what the fit leaves unexplained.
-
-    Returns
-    -------
-    dict
-        ``modes`` and ``relaxation``, as their data sets name them, are None where the rubber is a table that no modes
-        describe, ``measured`` and ``residual`` where it comes from no master curve, ``fit`` where its spectrum was not
-        fitted.
-    """
+    """Return modes, moduli over frequency at the reference, and what the fit leaves unexplained; None where unknown."""
     material = rubber.material
     modes, why = _modes(material)
     fit = None if modes is None else modes.fit
@@ -121,10 +110,7 @@ def _residual(curve: MasterCurve, material: Material) -> dict[str, Any] | None:
 def band_numbers(
     samples: MaterialSamples, angular_frequency: Array, temperature: float | None = None
 ) -> dict[str, Any]:
-    """Return the 95 % band of the moduli, of the modes and of E0 and E_inf.
-
-    `angular_frequency` (n,), rad/s; `temperature`: K; the reference if not given.
-    """
+    """Return the 95 % band of the moduli at frequencies (rad/s) and a temperature (K), of the modes, E0 and E_inf."""
 
     def tangent(material: Material) -> Array:
         moduli_there = material.complex_modulus(angular_frequency, temperature)

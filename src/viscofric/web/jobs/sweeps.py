@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.datasets import plain, record
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import listed, note_of
-from viscofric.readers.dma.isotherms import REPEATS_DIFFER
+from viscofric.ramps import TemperatureRamps
+from viscofric.readers.dma.isotherms import REPEATS_DIFFER, TracedSweeps
 from viscofric.readers.dma.read import trace_dma
+from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.sweep_checks import outliers
+from viscofric.step_tests import StepTests
 from viscofric.study.make_rubber import read_ramps_of, read_steps_of
+from viscofric.study.run_file.material import MaterialTable
 from viscofric.web.figures.sweeps import sweeps_view
 from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
 from viscofric.web.jobs.spectrum_numbers import moduli
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.ramps import TemperatureRamps
-    from viscofric.readers.dma.isotherms import TracedSweeps
-    from viscofric.readers.dma.readings import Readings
-    from viscofric.step_tests import StepTests
-    from viscofric.study.run_file.material import MaterialTable
-    from viscofric.web.jobs.rubbers import Folders
 
 #: More readings that were left out are counted, not drawn.
 _MOST_FLAGGED = 2_000
@@ -45,23 +40,7 @@ Options = JobOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Read what [material] names.
-
-    Parameters
-    ----------
-    study : dict
-        The tables of a run file; [material] alone counts, and needs no reference temperature yet.
-
-    Returns
-    -------
-    dict
-        ``source``: "dma", "ramps", "creep", "relaxation", "master_curve", "file" or "catalogue".  Of sweeps ``files``
-        (what each was taken for), ``left_open`` (keys of [material] that the files leave open), ``isotherms``,
-        ``flagged`` readings, ``notes``, ``reference`` (a temperature that would do, K), their ``range``
-        (K), ``specimens`` (files that differ where they should agree), and ``steps`` (`_step_curves`) of tests beside
-        them; of ramps and step tests see `_read_other`.  Of other sources ``about`` (words), ``synthetic`` and
-        ``notes``.  Then what is shown (`sweeps_view`).
-    """
+    """Read what [material] names, which needs no reference temperature yet."""
     table, _ = checked_tables(_with_reference(study), context)
     found = _read(table, study, context)
     return found | {"range": _measured_range(found)} | sweeps_view(found, table.deformation)
@@ -238,20 +217,8 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
 _PER_DECADE = 40
 
 
-def _read_other(table: MaterialTable, folders: Folders, near: float) -> dict[str, Any]:
-    """Return the ramps or the step tests of [material].
-
-    Returns
-    -------
-    dict
-        As of sweeps, with ``ramps`` or ``steps`` instead of isotherms: curves with ``temperature`` or
-        ``angular_frequency``.
-
-    Raises
-    ------
-    InputError
-        If a file cannot be used; its field is the key of [material] that states what is missing.
-    """
+def _read_other(table: MaterialTable, context: Context, near: float) -> dict[str, Any]:
+    """Return the ramps or step tests of [material]; the field of an `InputError` is the key of what is not stated."""
     common: dict[str, Any] = {"isotherms": [], "files": [], "flagged": [], "left_out": 0, "synthetic": False}
     if table.ramps is not None:
         ramps = read_ramps_of(table)
@@ -264,7 +231,7 @@ def _read_other(table: MaterialTable, folders: Folders, near: float) -> dict[str
             "left_open": [*_given(table), *asked],
             "ramps": _ramps(ramps),
             "reference": plain(round(float(np.clip(near, low, high)), 2)),
-            **listed("notes", notes_without_folder(ramps.notes, folders)),
+            **listed("notes", notes_without_folder(ramps.notes, context)),
         }
     tests = read_steps_of(table)
     return common | {
@@ -274,7 +241,7 @@ def _read_other(table: MaterialTable, folders: Folders, near: float) -> dict[str
         "left_open": _given(table),
         "steps": _step_curves(tests),
         "reference": plain(round(_nearest(tests.temperatures, near), 2)),
-        **listed("notes", notes_without_folder(tests.notes, folders)),
+        **listed("notes", notes_without_folder(tests.notes, context)),
     }
 
 
