@@ -268,10 +268,7 @@ def elastic_record(parameters: dict[str, Any]) -> dict[str, Any] | None:
     settings = elastic_settings(parameters)
     if settings["indenter_modulus"] is None:
         return None
-    return {
-        "modulus": to_si(settings["indenter_modulus"], "Pa"),
-        "poisson_ratio": settings["indenter_poisson_ratio"],
-    }
+    return {"modulus": to_si(settings["indenter_modulus"], "Pa"), "poisson_ratio": settings["indenter_poisson_ratio"]}
 
 
 def chosen_direction(text: str) -> tuple[float, float]:

@@ -19,7 +19,7 @@ from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import CSV, DASH, refuse_to_overwrite
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, write_files
-from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.cli.run import NOT_ACCURATE
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from viscofric.cli.rubber_options import NamedRubber
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -64,12 +63,7 @@ Example:
 @out_option("Write the friction curves (CSV); `-` prints them instead of the table.", endings=CSV)
 @picture_option("Draw friction against speed")
 @json_option("Print the friction curves as JSON, in SI units.")
-def command(
-    out: Path | None,
-    picture: Path | None,
-    as_json: bool,
-    **parameters: Any,
-) -> None:
+def command(out: Path | None, picture: Path | None, as_json: bool, **parameters: Any) -> None:
     """Predict viscoelastic friction against speed, at one or several temperatures.
 
     Quantities carry their unit. Each contact is solved to the requested accuracy.

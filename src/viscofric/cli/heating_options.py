@@ -9,10 +9,9 @@ import click
 
 from viscofric.cli.contact_options import option
 from viscofric.cli.errors import placed_at, typed_as
-from viscofric.cli.output import together
+from viscofric.cli.output import Decorator, together
 
 if TYPE_CHECKING:
-    from viscofric.cli.output import Decorator
     from viscofric.heat.heating import Heating
     from viscofric.thermal import ThermalProperties
 

@@ -37,9 +37,7 @@ GROUPS = {
         "measure": "Separate Coulomb and viscoelastic friction (MTM).",
         "master": "Friction master curve, and shift factors from friction.",
     },
-    "Page": {
-        "web": "Open the local page in the browser (no coding needed).",
-    },
+    "Page": {"web": "Open the local page in the browser (no coding needed)."},
     "Program": {
         "verify": "Verify the contact engine on this machine, in a minute.",
         "completion": "Print the completion script for a shell.",

@@ -26,7 +26,6 @@ from viscofric.datasets import plain
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from types import TracebackType
     from typing import Self
 
     from viscofric.study.running.running import Event
@@ -51,12 +50,7 @@ _OF_TIME = "t = {:.4g} of {:.4g} s"
 class Silent(contextlib.AbstractContextManager["Silent"]):
     """Shows nothing; the base of the others."""
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         pass
 
     def __call__(self, event: Event) -> None:
@@ -89,9 +83,7 @@ class TerminalProgress(Silent):
             self._bars.start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         if self._console.is_terminal:  # stopping bars that never started prints an empty line
             self._bars.stop()
 

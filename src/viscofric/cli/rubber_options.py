@@ -10,10 +10,9 @@ import click
 from viscofric.cli.contact_options import option
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import DASH, Source, plainly
-from viscofric.cli.output import together
+from viscofric.cli.output import Decorator, together
 
 if TYPE_CHECKING:
-    from viscofric.cli.output import Decorator
     from viscofric.contact.bodies import Layer
     from viscofric.rheology.material import Material
     from viscofric.study.rubber import Rubber

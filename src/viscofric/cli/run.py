@@ -51,34 +51,13 @@ _REPORTED_OTHERWISE = (
 @pdf_option
 @json_option(RUN_JSON)
 @click.option("-q", "--quiet", is_flag=True, help="Print only errors, warnings and failed cases.")
-def command(
-    study: Path,
-    out: Path | None,
-    resume: bool,
-    finished_only: bool,
-    workers: int | None,
-    scheduler: str | None,
-    pdf: bool,
-    as_json: bool,
-    quiet: bool,
-) -> None:
+def command(study: Path, out: Path | None, **how: Any) -> None:
     """Run a study: from DMA sweeps to friction, figures and a report.
 
     STUDY is a run file (TOML). Every contact is stored as soon as it is solved: --resume continues an interrupted
     study, with identical results. The results do not depend on the number of workers.
     """
-    folder = study.with_suffix(".results") if out is None else out
-    run_and_report(
-        study,
-        folder,
-        resume=resume,
-        finished_only=finished_only,
-        workers=workers,
-        scheduler=scheduler,
-        pdf=pdf,
-        as_json=as_json,
-        quiet=quiet,
-    )
+    run_and_report(study, study.with_suffix(".results") if out is None else out, **how)
 
 
 def run_and_report(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.contact_options import (
+    NamedIndenter,
     chosen_indenter,
     contact_options,
     contact_settings,
@@ -20,7 +21,7 @@ from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
-from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.contact.settings import ContactSettings
 
 if TYPE_CHECKING:
@@ -28,8 +29,6 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from viscofric.cli.contact_options import NamedIndenter
-    from viscofric.cli.rubber_options import NamedRubber
     from viscofric.contact.solution import ContactSolution
 
 _INFINITE = ("inf", "infinite", "infinity", "∞")

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 import numpy as np
 
-from viscofric.cli.output import together
-
-if TYPE_CHECKING:
-    from viscofric.cli.output import Decorator
+from viscofric.cli.output import Decorator, together
 
 _MOST_POINTS = 10_000
 

@@ -9,6 +9,7 @@ import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.contact_options import (
+    NamedIndenter,
     chosen_body,
     direction_option,
     elastic_options,
@@ -19,28 +20,17 @@ from viscofric.cli.contact_options import (
     surface_options,
 )
 from viscofric.cli.errors import print_notes, reported_errors
-from viscofric.cli.files import (
-    DASH,
-    DATA,
-    FILE,
-    PICTURES,
-    Source,
-    check_ending,
-    refuse_to_overwrite,
-    write_dataset,
-)
+from viscofric.cli.files import DASH, DATA, FILE, PICTURES, Source, check_ending, refuse_to_overwrite, write_dataset
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.history_options import chosen_history, chosen_times, history_inputs, history_options
 from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
-from viscofric.cli.rubber_options import chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from matplotlib.figure import Figure
 
-    from viscofric.cli.contact_options import NamedIndenter
-    from viscofric.cli.rubber_options import NamedRubber
     from viscofric.contact.bodies import Layer
     from viscofric.motion.cycle_solution import CycleSolution
     from viscofric.motion.history import History
@@ -87,11 +77,7 @@ Examples:
 @out_option("Write the results over time (.csv or .nc); `-` prints the table.", endings=DATA)
 @picture_option("Draw forces, indentation, contact and pressures")
 @click.option("--pressures", type=FILE, help="Draw the pressure at --times, or at five times (PNG, SVG or PDF).")
-@click.option(
-    "--animation",
-    type=FILE,
-    help="Draw the pressure over time beside the friction (GIF).",
-)
+@click.option("--animation", type=FILE, help="Draw the pressure over time beside the friction (GIF).")
 def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     """Solve one contact over time: loading, dwell, start, sliding, return.
 

@@ -37,10 +37,7 @@ _PERCENT = click.FloatRange(0.0, 1000.0)
 @reading_options
 @click.option("--material", metavar="NAME|FILE", help="Material of frequency sweeps, to be scaled to a larger strain.")
 @click.option(
-    "--strain",
-    type=_PERCENT,
-    metavar="%",
-    help="Tensile strain amplitude to scale --material to, in percent.",
+    "--strain", type=_PERCENT, metavar="%", help="Tensile strain amplitude to scale --material to, in percent."
 )
 @click.option(
     "--measured-at",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -50,10 +50,8 @@ def command(
     out: Path | None,
     as_json: bool,
     form: CardFormat,
-    poisson_ratio: float | None,
-    modulus_unit: Literal["Pa", "MPa"],
-    density: str | None,
     card_law: CardLaw | None,
+    **more: Any,
 ) -> None:
     """Write MATERIAL as a material card of another program to the file OUTPUT.
 
@@ -70,15 +68,7 @@ def command(
     with reported_errors():
         material = find_rubber(rubber, "rubber")
         with warned() as notes:
-            write_card(
-                material,
-                target,
-                format=form,
-                poisson_ratio=poisson_ratio,
-                density=density,
-                modulus_unit=modulus_unit,
-                law=card_law,
-            )
+            write_card(material, target, format=form, law=card_law, **more)
     if as_json:
         print_json({"card": target, "format": form, **listed("notes", notes)})
     else:

@@ -80,11 +80,7 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
     show_default=True,
     help="Shift factors of the material: as measured, or a fitted law.",
 )
-@click.option(
-    "--shift-factors",
-    type=FILE,
-    help="Use the shift factors of this file instead of fitting them.",
-)
+@click.option("--shift-factors", type=FILE, help="Use the shift factors of this file instead of fitting them.")
 @shift_factor_options
 @click.option("--fix", metavar="T=LOG10", multiple=True, help="Fix one factor, e.g. '-20 degC=4.2'.")
 @click.option(

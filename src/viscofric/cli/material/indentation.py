@@ -143,11 +143,7 @@ def command(
 
 def _records(path: Path, temperature: str | None, parameters: dict[str, Any]) -> list[Any]:
     """Return the records of a file."""
-    from viscofric.friction.identification.indentation.reading import (
-        read_indentation,
-        read_oscillation,
-        read_rebound,
-    )
+    from viscofric.friction.identification.indentation.reading import read_indentation, read_oscillation, read_rebound
 
     common = {name: parameters[name] for name in ("columns", "sheet")} | {"temperature": temperature}
     if parameters["control"] is not None:

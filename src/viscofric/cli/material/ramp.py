@@ -84,11 +84,7 @@ def command(files: tuple[Path, ...], as_json: bool, out: Path | None, **chosen: 
 
 
 def _material(
-    files: tuple[Path, ...],
-    reading: dict[str, Any],
-    out: Path | None,
-    chosen: dict[str, Any],
-    quiet: bool,
+    files: tuple[Path, ...], reading: dict[str, Any], out: Path | None, chosen: dict[str, Any], quiet: bool
 ) -> None:
     """Superpose the ramps as a run file would, and say what was written."""
     from viscofric.report import write_figures_and_report

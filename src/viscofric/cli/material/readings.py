@@ -11,14 +11,10 @@ from viscofric.notes import listed
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
     from pathlib import Path
 
-    from viscofric.amplitudes import AmplitudeSweep
-    from viscofric.data import IsothermalSweeps
-    from viscofric.ramps import TemperatureRamps
     from viscofric.readers.recognise import TestKind
-    from viscofric.step_tests import StepTests
 
 
 def read_kind(kind: TestKind, files: Sequence[Path], reading: dict[str, Any]) -> Any:
@@ -40,134 +36,82 @@ def read_kind(kind: TestKind, files: Sequence[Path], reading: dict[str, Any]) ->
     return read_dma(*files, temperature=temperature, **chosen)
 
 
+_STEP = ("temperature", "points", "time")
+#: Kind of test -> what its rows are, where it has them, and their quantities.
+_CONTENT: dict[TestKind, tuple[str, Callable[[Any], Iterable[Any]], tuple[str, ...]]] = {
+    "dma": (
+        "isotherms",
+        lambda test: test.isotherms,
+        ("temperature", "points", "angular_frequency", "storage_modulus", "loss_tangent"),
+    ),
+    "ramps": (
+        "frequencies",
+        lambda test: test.ramps,
+        ("angular_frequency", "points", "temperature", "storage_modulus", "loss_tangent"),
+    ),
+    "amplitude": (
+        "amplitudes",
+        lambda test: [test],
+        ("temperature", "angular_frequency", "points", "strain_amplitude", "storage_modulus", "loss_tangent"),
+    ),
+    "creep": ("creep_tests", lambda test: test.tests, (*_STEP, "creep_compliance")),
+    "relaxation": ("relaxation_tests", lambda test: test.tests, (*_STEP, "relaxation_modulus")),
+}
+#: Quantity -> heading (in tension, in shear), width of a range, factor and offset to what is printed.
+_PRINTED = {
+    "temperature": (("T (°C)",), 16, 1.0, -273.15),
+    "points": (("points",), 6, 1, 0),
+    "angular_frequency": (("f (Hz)",), 19, 1.0 / (2.0 * math.pi), 0.0),
+    "storage_modulus": (("E' (MPa)", "G' (MPa)"), 19, 1e-6, 0.0),
+    "loss_tangent": (("tan δ",), 15, 1.0, 0.0),
+    "strain_amplitude": (("strain (%)",), 19, 100.0, 0.0),
+    "time": (("t (s)",), 19, 1.0, 0.0),
+    "creep_compliance": (("D(t) (1/MPa)", "J(t) (1/MPa)"), 21, 1e6, 0.0),
+    "relaxation_modulus": (("E(t) (MPa)", "G(t) (MPa)"), 21, 1e-6, 0.0),
+}
+_WIDTH = 8  # of a single number
+
+
 def described(kind: TestKind, test: Any, files: Iterable[str]) -> tuple[dict[str, Any], list[str]]:
     """Return a test as a record in SI units, and in lines."""
-    columns, rows = _CONTENT[kind](test)
+    noun, parts, names = _CONTENT[kind]
+    rows = [{name: _value(one, name) for name in names} for one in parts(test)]
     found: dict[str, Any] = {
         "test": kind,
         "files": [*files],
         "format": test.format,
         "deformation": test.deformation,
         "points": sum(row["points"] for row in rows),
-        _ROWS[kind]: rows,
+        noun: rows,
         **listed("notes", test.notes),
     }
     what = "moduli" if kind not in ("creep", "relaxation") else "responses"
-    count = "an amplitude sweep" if kind == "amplitude" else f"{len(rows)} {_ROWS[kind].replace('_', ' ')}"
+    count = "an amplitude sweep" if kind == "amplitude" else f"{len(rows)} {noun.replace('_', ' ')}"
     lines = [f"{test.format}; {what} in {test.deformation}; {count}"]
-    lines.append("  ".join(f"{name:>{width}}" for name, width in columns))
-    for row in rows:
-        cells = [_cell(value, width) for value, (_, width) in zip(_shown(row), columns, strict=True)]
-        lines.append("  ".join(cells))
+    shear = test.deformation == "shear"
+    cells = [[_PRINTED[name][0][-1 if shear else 0] for name in names]]
+    cells += [[_cell(name, value) for name, value in row.items()] for row in rows]
+    widths = [_PRINTED[name][1] if isinstance(rows[0][name], (list, int)) else _WIDTH for name in names]
+    lines += ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in cells]
     return found, lines
 
 
-#: Kind -> what its rows are.
-_ROWS: dict[TestKind, str] = {
-    "dma": "isotherms",
-    "ramps": "frequencies",
-    "amplitude": "amplitudes",
-    "creep": "creep_tests",
-    "relaxation": "relaxation_tests",
-}
-#: Quantity -> factor and offset to what is printed.
-_PRINTED = {
-    "temperature": (1.0, -273.15),
-    "angular_frequency": (1.0 / (2.0 * math.pi), 0.0),
-    "storage_modulus": (1e-6, 0.0),
-    "relaxation_modulus": (1e-6, 0.0),
-    "creep_compliance": (1e6, 0.0),
-    "strain_amplitude": (100.0, 0.0),
-}
+def _value(one: Any, name: str) -> Any:
+    """Return a quantity of a part of a test: a number, or both ends of its range."""
+    if name == "points":
+        return len(one)
+    if name == "loss_tangent":
+        values = one.loss_modulus / one.storage_modulus
+    else:
+        values = getattr(one, "response" if name in ("creep_compliance", "relaxation_modulus") else name)
+    return [float(np.min(values)), float(np.max(values))] if np.ndim(values) else values
 
 
-def _sweeps(test: IsothermalSweeps) -> tuple[list[tuple[str, int]], list[dict[str, Any]]]:
-    letter = "G" if test.deformation == "shear" else "E"
-    columns = [("T (°C)", 8), ("points", 6), ("f (Hz)", 19), (f"{letter}' (MPa)", 19), ("tan δ", 15)]
-    rows = [
-        {
-            "temperature": one.temperature,
-            "points": len(one),
-            "angular_frequency": _span(one.angular_frequency),
-            "storage_modulus": _span(one.storage_modulus),
-            "loss_tangent": _span(one.loss_modulus / one.storage_modulus),
-        }
-        for one in test.isotherms
-    ]
-    return columns, rows
-
-
-def _ramps(test: TemperatureRamps) -> tuple[list[tuple[str, int]], list[dict[str, Any]]]:
-    letter = "G" if test.deformation == "shear" else "E"
-    columns = [("f (Hz)", 8), ("points", 6), ("T (°C)", 16), (f"{letter}' (MPa)", 19), ("tan δ", 15)]
-    rows = [
-        {
-            "angular_frequency": one.angular_frequency,
-            "points": len(one),
-            "temperature": _span(one.temperature),
-            "storage_modulus": _span(one.storage_modulus),
-            "loss_tangent": _span(one.loss_tangent),
-        }
-        for one in test.ramps
-    ]
-    return columns, rows
-
-
-def _amplitudes(test: AmplitudeSweep) -> tuple[list[tuple[str, int]], list[dict[str, Any]]]:
-    letter = "G" if test.deformation == "shear" else "E"
-    columns = [("T (°C)", 8), ("f (Hz)", 8), ("points", 6), ("strain (%)", 19), (f"{letter}' (MPa)", 19), ("tan δ", 15)]
-    row = {
-        "temperature": test.temperature,
-        "angular_frequency": test.angular_frequency,
-        "points": len(test),
-        "strain_amplitude": _span(test.strain_amplitude),
-        "storage_modulus": _span(test.storage_modulus),
-        "loss_tangent": _span(test.loss_modulus / test.storage_modulus),
-    }
-    return columns, [row]
-
-
-def _steps(test: StepTests) -> tuple[list[tuple[str, int]], list[dict[str, Any]]]:
-    creep = test.kind == "creep"
-    letter = ("J" if creep else "G") if test.deformation == "shear" else ("D" if creep else "E")
-    columns = [("T (°C)", 8), ("points", 6), ("t (s)", 19), (f"{letter}(t) ({'1/MPa' if creep else 'MPa'})", 21)]
-    name = "creep_compliance" if creep else "relaxation_modulus"
-    rows = [
-        {"temperature": one.temperature, "points": len(one), "time": _span(one.time), name: _span(one.response)}
-        for one in test.tests
-    ]
-    return columns, rows
-
-
-_CONTENT: dict[TestKind, Any] = {
-    "dma": _sweeps,
-    "ramps": _ramps,
-    "amplitude": _amplitudes,
-    "creep": _steps,
-    "relaxation": _steps,
-}
-
-
-def _span(values: Any) -> list[float]:
-    return [float(np.min(values)), float(np.max(values))]
-
-
-def _shown(row: dict[str, Any]) -> list[Any]:
-    return [_in_print(name, value) for name, value in row.items()]
-
-
-def _in_print(name: str, value: Any) -> Any:
+def _cell(name: str, value: Any) -> str:
+    """Return a quantity as it is printed."""
+    *_, factor, offset = _PRINTED[name]
+    if isinstance(value, list):
+        return " to ".join(f"{factor * one + offset:.3g}" for one in value)
     if name == "temperature":
-        return [celsius(one) for one in value] if isinstance(value, list) else f"{celsius(value):z.1f}"
-    factor, offset = _PRINTED.get(name, (1.0, 0.0))
-    if isinstance(value, list):
-        return [factor * one + offset for one in value]
-    return value if name == "points" else factor * value + offset
-
-
-def _cell(value: Any, width: int) -> str:
-    if isinstance(value, list):
-        value = f"{value[0]:.3g} to {value[1]:.3g}"
-    elif isinstance(value, float):
-        value = f"{value:.3g}"
-    return f"{value:>{width}}"
+        return f"{celsius(value):z.1f}"
+    return str(value) if isinstance(value, int) else f"{factor * value + offset:.3g}"
