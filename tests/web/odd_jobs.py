@@ -137,7 +137,8 @@ def report(amount: float, context: Context) -> dict[str, Any]:
     """Say a lot."""
     for number in range(1_000):
         context.progress(number, 1_000, f"{number}")
-    return {"text": "x" * int(amount), "not a number": float("nan"), "numbers": (1, 2.5)}
+    named = f"{context.files / 'sweeps.csv'}, line 3"
+    return {"text": "x" * int(amount), "not a number": float("nan"), "numbers": (1, 2.5), "note": named}
 
 
 def print_(amount: float, context: Context) -> dict[str, Any]:

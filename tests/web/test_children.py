@@ -100,7 +100,8 @@ def test_job_is_queued_started_reported_and_answered(bench: Callable[..., Any]) 
     async def work(bench: Bench) -> None:
         reported = await bench.all("report", 10)
         assert [one["event"] for one in reported[:3]] == ["queued", "started", "part"]
-        assert reported[-1]["result"] == {"text": "x" * 10, "not a number": None, "numbers": [1, 2.5]}
+        expected = {"text": "x" * 10, "not a number": None, "numbers": [1, 2.5]}
+        assert reported[-1]["result"] == {**expected, "note": "sweeps.csv, line 3"}  # as the user named the file
         progress = [one for one in reported if one["event"] == "progress"]
         assert progress[0] == {"event": "progress", "done": 0, "total": 1_000, "label": "0"}
         assert len(progress) < 100  # of a thousand: a browser could not show more

@@ -112,9 +112,8 @@ def test_a_test_that_cannot_be_separated_says_what_to_do_on_the_page(context: Co
     ],
 )
 def test_files_that_are_no_measurement_are_refused(context: Context, files: list[str], code: str) -> None:
-    with refused(code, naming=files[-1].rpartition("/")[2]) as caught:
+    with refused(code, naming=files[-1].rpartition("/")[2]):
         done("measured", context, STUDY, files=files)
-    assert str(context.files) not in str(caught.value)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from refusals import refused
-from viscofric.errors import DataFileError, StudyError
+from viscofric.errors import StudyError
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.study import validated
 from viscofric.web.jobs import rubbers
@@ -121,14 +121,6 @@ def test_what_is_wrong_is_reported_with_its_field(
 ) -> None:
     with refused(refusal[0], StudyError, naming=refusal[1:]):
         rubbers.made_rubber({"material": material}, workspace)
-
-
-def test_errors_name_files_without_the_folder_of_the_page(workspace: Context) -> None:
-    (workspace.files / "notes.txt").write_text("nothing of use\n")
-    with pytest.raises(DataFileError) as caught:
-        rubbers.made_rubber({"material": {**SWEEPS, "dma": "notes.txt"}}, workspace)
-    assert str(caught.value).startswith("notes.txt")
-    assert str(workspace.files) not in str(caught.value)
 
 
 def test_a_damaged_file_in_the_cache_is_made_anew(workspace: Context) -> None:

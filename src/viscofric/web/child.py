@@ -17,6 +17,7 @@ import sys
 import threading
 import time
 import traceback
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -128,9 +129,11 @@ class Desk:
             if not message:
                 os._exit(0)
 
-    def send(self, number: int, event: str, message: dict[str, Any], stays: bool = True) -> None:
-        """Send a message of a job."""
-        body = _json({"event": event, **message})
+    def send(
+        self, number: int, event: str, message: dict[str, Any], stays: bool = True, files: Path | None = None
+    ) -> None:
+        """Send a message of a job, in which its files are named without their folder."""
+        body = _json({"event": event, **message}, files)
         if len(body) > LARGEST_MESSAGE:
             raise ViscofricError(
                 f"The reply has {len(body) / 1e6:.0f} MB, more than is sent to a browser "
@@ -141,18 +144,18 @@ class Desk:
 
     def work(self, job: dict[str, Any]) -> None:
         """Do a job and send its result or its error."""
-        number = job["job"]
+        number, files = job["job"], Path(job["folder"]) / "files"
+        send = partial(self.send, number, files=files)
         stays = True
         try:
             with self._interruptible(number):
-                result = _result(job, lambda event, message: self.send(number, event, message))
-                self.send(number, "result", {"result": result})
+                send("result", {"result": _result(job, send)})
         except KeyboardInterrupt as stop:
             stays = not _was_importing(stop.__traceback__)
-            self.send(number, "cancelled", {}, stays)
+            send("cancelled", {}, stays)
         except BaseException as error:  # noqa: BLE001 - the page shows it
             stays = not isinstance(error, MemoryError)
-            self.send(number, "error", _error_of(error, Path(job["folder"]) / "files"), stays)
+            send("error", _error_of(error, files), stays)
         if not stays:
             self._replies.put(b"")
             threading.Event().wait()
@@ -180,12 +183,12 @@ def _result(job: dict[str, Any], send: Any) -> Any:
     return module.run(job["study"], module.Options.model_validate(job["options"]), context)
 
 
-def _json(message: dict[str, Any]) -> bytes:
+def _json(message: dict[str, Any], files: Path | None) -> bytes:
     try:
         text = json.dumps(message, allow_nan=False, separators=(",", ":"))
     except (TypeError, ValueError):
         text = json.dumps(plain(message, digits=None), allow_nan=False, separators=(",", ":"))
-    return text.encode() + b"\n"
+    return (text if files is None else _without_folder(text, files)).encode() + b"\n"
 
 
 def _was_importing(trace: TracebackType | None) -> bool:
@@ -200,14 +203,13 @@ def _was_importing(trace: TracebackType | None) -> bool:
 def _error_of(error: BaseException, files: Path) -> dict[str, Any]:
     """Return what the page says of an error: a sentence, and the field of the study that it is about."""
     if isinstance(error, ViscofricError):
-        shown = error.reworded(lambda text: _without_folder(text, files))
-        words, problems = shown.words("page"), [beside_field(one) for one in getattr(shown, "mistakes", ())]
+        words, problems = error.words("page"), [beside_field(one) for one in getattr(error, "mistakes", ())]
         return {
             "message": words,
-            "code": shown.code,
-            "field": shown.field,
-            "problems": problems or [{"field": shown.field, "message": words}],
-            "values": dict(shown.note.values),
+            "code": error.code,
+            "field": error.field,
+            "problems": problems or [{"field": error.field, "message": words}],
+            "values": dict(error.note.values),
         }
     if isinstance(error, MemoryError):
         return {"message": _NO_MEMORY, "code": "no-memory", "field": None}
@@ -221,11 +223,12 @@ def _error_of(error: BaseException, files: Path) -> dict[str, Any]:
     return {"message": said, "code": "internal-error", "field": None}
 
 
-def _without_folder(words: str, files: Path) -> str:
-    """Name files as the user named them."""
-    for folder in (files, files.parent):
-        words = words.replace(f"{folder}{os.sep}", "")
-    return words
+def _without_folder(text: str, files: Path) -> str:
+    """Name files as the user named them, in words or in JSON."""
+    for folder in (files, files.resolve(), files.parent):
+        beginning = f"{folder}{os.sep}"
+        text = text.replace(json.dumps(beginning)[1:-1], "").replace(beginning, "")
+    return text
 
 
 def end_all() -> None:

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from viscofric.datasets import plain, record
-from viscofric.errors import InputError
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.contact_strain import solve_at_contact_strain
 from viscofric.notes import listed
@@ -16,7 +15,7 @@ from viscofric.study.at_strain import payne_of
 from viscofric.web.figures.spec import MODULUS, Spec, axis, figure, line, points, quantity
 from viscofric.web.jobs.combinations import of_combination, page_sweep
 from viscofric.web.jobs.context import Context, JobError, JobOptions
-from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
+from viscofric.web.jobs.rubbers import checked_tables, made_rubber
 from viscofric.web.study_text import study_of
 
 _DIGITS = 6
@@ -33,10 +32,7 @@ class Options(JobOptions):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Fit Kraus's law to the amplitude sweep of [material]; return both, and the strain of the study's contact."""
     table, _ = checked_tables(study, context)
-    try:
-        fit = payne_of(table)
-    except InputError as error:
-        raise named_without_folder(error, context) from None
+    fit = payne_of(table)
     if fit is None:
         raise JobError("The study has no amplitude sweep; drop one under “Data”.", "material.amplitude_sweep")
     found = record(fit.to_dataset(), _DIGITS)
@@ -46,7 +42,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "words": str(fit.law),
         "linear": [str(one) for one in fit.linear_ranges],
         "contact": _contact(study, fit, table.measured_at, context) if options.contact else None,
-        **listed("notes", notes_without_folder(fit.notes, context)),
+        **listed("notes", fit.notes),
     }
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -22,7 +23,7 @@ from viscofric.study.run_file.measurement import MeasurementTable
 from viscofric.study.run_file.study import validated
 from viscofric.study.run_file.tables import Table
 from viscofric.web.jobs.context import Context
-from viscofric.web.jobs.rubbers import insist_on_uploads, kept, named_without_folder, without_folder
+from viscofric.web.jobs.rubbers import insist_on_uploads, kept
 
 _NOTHING = Note("", "")
 
@@ -55,10 +56,7 @@ def friction_curves(study: Mapping[str, Any], context: Context) -> FrictionCurve
 
 
 def _measured(table: MeasurementTable, context: Context) -> Measured:
-    try:
-        return _of_curves(table, table.curves, context) if table.curves is not None else _of_runs(table, context)
-    except DataFileError as error:
-        raise named_without_folder(error, context) from None
+    return _of_curves(table, table.curves, context) if table.curves is not None else _of_runs(table, context)
 
 
 def _of_curves(table: MeasurementTable, path: Path, context: Context) -> Measured:
@@ -71,13 +69,12 @@ def _of_runs(table: MeasurementTable, context: Context) -> Measured:
     runs = read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet)
     lines = [("files" if len(table.mtm) > 1 else "file", ", ".join(path.name for path in table.mtm))]
     lines += [("recognised as", _kinds(table.mtm)), *runs_lines(runs)]
-    steps = [(step.number, without_folder(str(step), context)) for step in runs.steps]
+    steps = [(step.number, str(step)) for step in runs.steps]
     made_up = any(_is_made_up(path) for path in table.mtm)
     try:
         curves = _named(separated(runs, table), context)
     except InputError as error:
-        refusal = named_without_folder(error, context).note
-        return Measured(True, lines, steps, made_up, None, refusal, _named_notes(runs.notes, context))
+        return Measured(True, lines, steps, made_up, None, error.note, tuple(map(note_of, runs.notes)))
     return Measured(True, lines, steps, made_up, curves, _NOTHING, tuple(map(note_of, curves.notes)))
 
 
@@ -86,13 +83,13 @@ def _kinds(paths: Sequence[Path]) -> str:
 
 
 def _named(curves: FrictionCurves, context: Context) -> FrictionCurves:
-    """Return curves that name uploaded files as the user named them."""
-    notes = _named_notes(curves.notes, context)
-    return replace(curves, source=without_folder(curves.source, context), notes=notes)
+    """Return curves that name uploaded files without their folder, as downloads of them do."""
 
+    def plain(text: str) -> str:
+        return text.replace(f"{context.files}{os.sep}", "")
 
-def _named_notes(notes: Iterable[str], context: Context) -> tuple[Note, ...]:
-    return tuple(note_of(note).reworded(lambda text: without_folder(text, context)) for note in notes)
+    notes = tuple(note_of(note).reworded(plain) for note in curves.notes)
+    return replace(curves, source=plain(curves.source), notes=notes)
 
 
 def _is_made_up(path: Path) -> bool:

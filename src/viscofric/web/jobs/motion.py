@@ -24,7 +24,7 @@ from viscofric.study.run_file.tables import kelvin
 from viscofric.web.figures.motion import motion_view, pressures
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
 from viscofric.web.jobs.context import Context, JobError, JobOptions
-from viscofric.web.jobs.rubbers import notes_without_folder, study_rubber
+from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
 _DIGITS = 7
@@ -118,8 +118,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "steps": whole.steps,
         "rejected_steps": whole.rejected_steps,
         "temperature_of_contact": plain(case.temperature),
-        **listed("warnings", notes_without_folder(dict.fromkeys(warnings), context)),
-        **listed("notes", notes_without_folder(dict.fromkeys(notes), context)),
+        **listed("warnings", dict.fromkeys(warnings)),
+        **listed("notes", dict.fromkeys(notes)),
     }
 
 

@@ -7,9 +7,8 @@ from typing import Any
 
 from pydantic import Field
 
-from viscofric.errors import InputError
 from viscofric.web.jobs.context import Context, JobOptions
-from viscofric.web.jobs.rubbers import insist_on_uploads, named_without_folder
+from viscofric.web.jobs.rubbers import insist_on_uploads
 
 
 class Options(JobOptions):
@@ -23,8 +22,5 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     from viscofric.readers.recognise import by_kind
 
     insist_on_uploads("material", tuple(map(Path, options.files)), context.files)
-    try:
-        found = by_kind([context.files / name for name in options.files])
-    except InputError as error:
-        raise named_without_folder(error, context) from None
+    found = by_kind([context.files / name for name in options.files])
     return {"kinds": {kind: [path.name for path in paths] for kind, paths in found.items()}}

@@ -12,7 +12,7 @@ from viscofric.rheology.superposition.result import Superposition
 from viscofric.study.rubber import Rubber
 from viscofric.web.figures.rubber import rubber_view
 from viscofric.web.jobs.context import Context, JobOptions
-from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber, notes_without_folder, without_folder
+from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber
 from viscofric.web.jobs.shift_numbers import shift_numbers
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, spectrum_numbers
 
@@ -30,7 +30,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         0, 2, "shifting the isotherms" if table.dma or table.steps or table.ramps else "reading the rubber"
     )
     rubber = made_rubber(study, context)
-    found = _without_bands(rubber, table.fixed_shift_factors, context)
+    found = _without_bands(rubber, table.fixed_shift_factors)
     reply = found | rubber_view(found)
     if not options.bands or wanted.draws == 0 or rubber.superposed is None:
         why = (
@@ -48,17 +48,17 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     return found | rubber_view(found)
 
 
-def _without_bands(rubber: Rubber, held: dict[float, float], context: Context) -> dict[str, Any]:
+def _without_bands(rubber: Rubber, held: dict[float, float]) -> dict[str, Any]:
     # notes on reading are those of the job `sweeps`
     tests = (rubber.sweeps, rubber.step_tests, None if rubber.ramps is None else rubber.ramps.ramps)
     read = [note for one in tests if one is not None for note in one.notes]
     return {
         "name": rubber.material.name,
-        "source": without_folder(rubber.source, context),
+        "source": rubber.source,
         "citation": rubber.material.citation,
         "synthetic": rubber.synthetic,
         "deformation": None if rubber.sweeps is None else rubber.sweeps.deformation,
-        **listed("notes", notes_without_folder((one for one in rubber.notes if one not in read), context)),
+        **listed("notes", [one for one in rubber.notes if one not in read]),
         "shift": shift_numbers(rubber, held),
         "check": _check(rubber),
         "spectrum": spectrum_numbers(rubber),

@@ -7,15 +7,15 @@ import hashlib
 import json
 import pickle
 from collections import OrderedDict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
 from pydantic import Field
 
-from viscofric.errors import DataFileError, InputError, StudyError
+from viscofric.errors import DataFileError, StudyError
 from viscofric.files import read_bytes, write_atomically
-from viscofric.notes import Note, note_of
+from viscofric.notes import Note
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber import Rubber
 from viscofric.study.run_file.material import MaterialTable
@@ -56,7 +56,7 @@ def checked_tables(study: Mapping[str, Any], context: Context) -> tuple[Material
 def made_rubber(study: Mapping[str, Any], context: Context) -> Rubber:
     """Return the rubber of [material], made by `make_rubber` or found where an earlier job left it."""
     table, _ = checked_tables(study, context)
-    return kept("rubber", [table], table.inputs, context, lambda: _made(table, context))
+    return kept("rubber", [table], table.inputs, context, lambda: _made(table))
 
 
 def friction_bands(study: Mapping[str, Any], context: Context) -> FrictionBands:
@@ -101,26 +101,8 @@ def kept(
     return found  # type: ignore[no-any-return]
 
 
-def without_folder(text: str, context: Context) -> str:
-    """Return a sentence that names uploaded files as the user named them."""
-    return text.replace(f"{context.files}/", "").replace(f"{context.files.resolve()}/", "")
-
-
-def notes_without_folder(notes: Iterable[str], context: Context) -> list[Note]:
-    """Return notes that name uploaded files as the user named them."""
-    return [note_of(note).reworded(lambda text: without_folder(text, context)) for note in notes]
-
-
-def named_without_folder(error: InputError, context: Context) -> InputError:
-    """Return an error of the same kind that names uploaded files as the user named them."""
-    return error.reworded(lambda text: without_folder(text, context))
-
-
-def _made(table: MaterialTable, context: Context) -> Rubber:
-    try:
-        rubber = make_rubber(table, liquids=True)
-    except InputError as error:
-        raise named_without_folder(error, context) from None
+def _made(table: MaterialTable) -> Rubber:
+    rubber = make_rubber(table, liquids=True)
     for fit in (rubber.fit, rubber.step_fit):
         if fit is not None:
             _ = fit.check  # found once, and kept with the rest

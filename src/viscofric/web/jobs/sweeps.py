@@ -22,7 +22,7 @@ from viscofric.study.make_rubber import read_ramps_of, read_steps_of
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.web.figures.sweeps import sweeps_view
 from viscofric.web.jobs.context import Context, JobError, JobOptions
-from viscofric.web.jobs.rubbers import checked_tables, made_rubber, named_without_folder, notes_without_folder
+from viscofric.web.jobs.rubbers import checked_tables, made_rubber
 from viscofric.web.jobs.spectrum_numbers import moduli
 
 #: More readings that were left out are counted, not drawn.
@@ -58,7 +58,7 @@ def _read(table: MaterialTable, study: dict[str, Any], context: Context) -> dict
         return _other(table, study, context)
     try:
         if table.dma is None:
-            return _read_other(table, context, _USUAL_REFERENCE)
+            return _read_other(table, _USUAL_REFERENCE)
         beside = {"steps": _step_curves(read_steps_of(table))} if table.steps else {}
         traced = trace_dma(
             *table.dma,
@@ -69,8 +69,8 @@ def _read(table: MaterialTable, study: dict[str, Any], context: Context) -> dict
             sheet=table.sheet,
         )
     except InputError as error:
-        raise _asking(named_without_folder(error, context)) from None
-    return _of_sweeps(table, traced, context) | beside
+        raise JobError(error.note, error.field or "material.dma") from None
+    return _of_sweeps(table, traced) | beside
 
 
 def _with_reference(study: dict[str, Any]) -> dict[str, Any]:
@@ -84,12 +84,7 @@ def _one_or_each(temperatures: tuple[float, ...]) -> float | list[float | None]:
     return temperatures[0] if len(temperatures) == 1 else list(temperatures)
 
 
-def _asking(error: InputError) -> JobError:
-    """Return the error with the field whose value would mend it."""
-    return JobError(error.note, error.field or "material.dma")
-
-
-def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> dict[str, Any]:
+def _of_sweeps(table: MaterialTable, traced: TracedSweeps) -> dict[str, Any]:
     sweeps, specimens = traced.sweeps, _specimens(traced)
     notes = [note for note in sweeps.notes if specimens is None or note_of(note).code != "repeats-differ"]
     nearest = _nearest(sweeps.temperatures, _USUAL_REFERENCE)
@@ -102,7 +97,7 @@ def _of_sweeps(table: MaterialTable, traced: TracedSweeps, context: Context) -> 
         "isotherms": [record(one.to_dataset(), _DIGITS) for one in sweeps.isotherms],
         "flagged": [*_left_out(traced), *_outliers(traced)],
         "left_out": int(traced.left_out.size),
-        **listed("notes", notes_without_folder(notes, context)),
+        **listed("notes", notes),
         "specimens": specimens,
         "reference": plain(round(nearest, 2)),
         "synthetic": False,
@@ -204,7 +199,7 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
         "source": source,
         "name": rubber.material.name,
         "about": about or [text for text in (rubber.source, rubber.material.citation) if text],
-        **listed("notes", notes_without_folder(rubber.notes, context)),
+        **listed("notes", rubber.notes),
         "synthetic": rubber.synthetic,
         "reference": None if rubber.material.reference is None else plain(rubber.material.reference),
         "isotherms": [],
@@ -217,7 +212,7 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
 _PER_DECADE = 40
 
 
-def _read_other(table: MaterialTable, context: Context, near: float) -> dict[str, Any]:
+def _read_other(table: MaterialTable, near: float) -> dict[str, Any]:
     """Return the ramps or step tests of [material]; the field of an `InputError` is the key of what is not stated."""
     common: dict[str, Any] = {"isotherms": [], "files": [], "flagged": [], "left_out": 0, "synthetic": False}
     if table.ramps is not None:
@@ -231,7 +226,7 @@ def _read_other(table: MaterialTable, context: Context, near: float) -> dict[str
             "left_open": [*_given(table), *asked],
             "ramps": _ramps(ramps),
             "reference": plain(round(float(np.clip(near, low, high)), 2)),
-            **listed("notes", notes_without_folder(ramps.notes, context)),
+            **listed("notes", ramps.notes),
         }
     tests = read_steps_of(table)
     return common | {
@@ -241,7 +236,7 @@ def _read_other(table: MaterialTable, context: Context, near: float) -> dict[str
         "left_open": _given(table),
         "steps": _step_curves(tests),
         "reference": plain(round(_nearest(tests.temperatures, near), 2)),
-        **listed("notes", notes_without_folder(tests.notes, context)),
+        **listed("notes", tests.notes),
     }
 
 
