@@ -132,10 +132,7 @@ def _kelvins(material: Material, given: list[float]) -> list[float]:
 
 
 def _at_one_temperature(material: Material, kelvins: list[float]) -> Material:
-    """Return a rubber without shift factors as one at the temperature that it is said to have.
-
-    Any law does, since only its reference is requested, where it is one.
-    """
+    """Return a rubber without shift factors with any law about its own temperature, where no other is requested."""
     if material.shift is not None:
         return material
     from viscofric.rheology.shifts.laws import Arrhenius

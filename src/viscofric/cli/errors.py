@@ -22,10 +22,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def reported_errors(reader: Reader = "shell") -> Iterator[None]:
-    """Turn what viscofric raises on purpose into a message and exit status 1.
-
-    `reader`: in whose words remedies are: ``"run_file"`` where what is wrong is mended there.
-    """
+    """Turn what viscofric raises on purpose into a message, in the words of its reader, and exit status 1."""
     from viscofric.errors import ViscofricError
 
     try:
@@ -154,11 +151,7 @@ def _typed(parameter: click.Parameter) -> str:
 
 
 def print_doubtful_checks(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
-    """Print every check of results that did not pass, as a warning; the report has them all.
-
-    `tree`: the results; `but`: checks that are left out, by their names; of several rubbers, that of each follows
-    the name.
-    """
+    """Print every check of results that did not pass, but for these, as a warning; the report has them all."""
     from viscofric.report.texts.checks import all_checks
 
     left_out = tuple(but)

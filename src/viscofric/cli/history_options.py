@@ -70,10 +70,7 @@ def history_inputs(parameters: dict[str, Any]) -> list[Path]:
 
 
 def chosen_history(parameters: dict[str, Any], line: bool, reference: float | None) -> History:
-    """Return the history of the options, for a line contact or another one.
-
-    Without a temperature it is the material's reference, K.
-    """
+    """Return the history of the options, for a line contact or another one, at the material's reference by default."""
     if parameters["history"] is not None:
         return _from_file(parameters, reference)
     for name in ("history_columns", "history_sheet"):

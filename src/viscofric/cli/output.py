@@ -119,10 +119,7 @@ def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
 
 
 def write_files(*files: tuple[str, Path | None, Callable[[Path], object]], quiet: bool) -> None:
-    """Write the requested ones of some files, each a word, its path and what writes it, and name them.
-
-    `-` prints a file instead; `quiet`: whether standard output is for results alone.
-    """
+    """Write the requested ones of files (a word, its path, what writes it; `-` prints it), and name them."""
     for word, path, write in files:
         if path is not None:
             with to_be_written(path) as target:

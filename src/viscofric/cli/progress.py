@@ -162,10 +162,7 @@ def _bar(words: str, quiet: bool, *beside: ProgressColumn, **fields: Any) -> Ite
 
 @contextmanager
 def time_bar(words: str, *, quiet: bool, shown: str = _OF_TIME) -> Iterator[Callable[[float, float], None]]:
-    """Show the time reached, see `_bar`.
-
-    `shown` has two places for numbers; without the last time as the second one, the bar has no end.
-    """
+    """Show the time reached, see `_bar`; without the last time, the second place of `shown`, the bar has no end."""
     beside = TextColumn("{task.fields[reached]}"), TimeRemainingColumn(elapsed_when_finished=True)
     with _bar(words, quiet, *beside, reached="") as move:
 

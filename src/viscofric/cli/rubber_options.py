@@ -35,10 +35,7 @@ def _headings(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
 
 
 def column_options(example: str, of: str = "", condition: str = "") -> Decorator:
-    """Return a decorator that adds the options of a table whose header is not understood.
-
-    `of` begins their names where a command reads several tables, `condition` their help.
-    """
+    """Return a decorator that adds the options of a table whose header is not understood, their names begun by `of`."""
     return together(
         click.option(
             f"--{of}column",
@@ -236,11 +233,7 @@ reading_options = together(
 
 
 def find_rubber(name: str, parameter: str = "material") -> Material:
-    """Return the rubber of a file where there is one of that name, else that of the catalogue.
-
-    What was assumed of a card that does not say it, such as its units, is printed.  `parameter` is that of the command
-    that gives the name.
-    """
+    """Return the rubber of a file, else of the catalogue, and print what was assumed of a card that does not say it."""
     from viscofric.rheology.cards import open_card
     from viscofric.rheology.catalogue import catalogue_material
 

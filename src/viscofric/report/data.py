@@ -1,7 +1,4 @@
-"""The one step from a result to what figures draw: its labelled data set, and from that plain columns.
-
-Figures take a data set of a study's results, or an object of the Python interface with ``to_dataset()``.
-"""
+"""The one step from a result, or its data set, to the plain columns that figures draw."""
 
 from __future__ import annotations
 

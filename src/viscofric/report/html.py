@@ -111,11 +111,7 @@ def find_browser(target: Path) -> str:
 
 
 def write_pdf(report: Path) -> Path:
-    """Print a report as PDF (A4) beside it, with a browser of the Chromium family that is on the path.
-
-    `report`: from `write_report`.  Returns the file written; one that is there is replaced.  Raises
-    `DataFileError` if there is no such browser, or it writes nothing.
-    """
+    """Print a report as PDF (A4) beside it, with a browser of the Chromium family that is on the path."""
     target = report.with_suffix(".pdf")
     browser = find_browser(target)
     # beside the report: some packaged browsers have a temporary folder of their own

@@ -74,10 +74,7 @@ def _part(drawing: Drawing, part: Callable[[Any], Any]) -> Drawing:
 
 
 def _columns(*names: str, along: str, log: str = "") -> Drawing:
-    """Return the drawing of columns of a result's data set over another one; `log`: which axes are logarithmic.
-
-    Columns that the result has not are left out; those over temperature and speed have a line for each temperature.
-    """
+    """Return the drawing of those columns that a result has over another, a line for each temperature where it can."""
 
     def draw(axes: Axes, result: Any) -> None:
         data = as_dataset(result)

@@ -34,10 +34,7 @@ def group(tree: xr.DataTree, name: str) -> xr.Dataset | None:
 
 
 def rubbers(tree: xr.DataTree) -> list[tuple[str, xr.DataTree]]:
-    """Return what the results know of each of several rubbers, with its name; empty where there is one only.
-
-    Each is a tree like the whole, of one rubber, which takes from the whole what it does not say itself.
-    """
+    """Return the results of each of several rubbers, by name, as a tree like the whole; else empty."""
     parent = tree.children.get(_RUBBERS)
     if parent is None:
         return []

@@ -164,10 +164,7 @@ def value_label(dataset: xr.Dataset, name: str, value: object) -> str:
 
 
 def cases_of(dataset: xr.Dataset) -> xr.Dataset:
-    """Return labelled results case by case: every variable along `case`, the last dimension running fastest.
-
-    Samples of the rubber stand one below the other too.
-    """
+    """Return labelled results along `case`, the last dimension (samples too) running fastest."""
     if CASE in dataset.dims:
         return dataset
     if not dataset.dims:
@@ -184,10 +181,7 @@ def best_estimate(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def solved_cases(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | None:
-    """Return those cases of a group that were solved, one below the other, with the best estimate of the rubber.
-
-    None if there are none.
-    """
+    """Return the solved cases of a group, in a row, with the best estimate of the rubber; None without any."""
     found = group(tree, name)
     if found is None or "friction_coefficient" not in found:
         return None

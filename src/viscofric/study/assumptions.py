@@ -50,10 +50,7 @@ def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[Note]:
 def assumption_checks(
     contacts: Contacts, requested: Solved, at_points: Solved, law: InterfaceLaw | None
 ) -> list[AssumptionCheck]:
-    """Check thickness, small strain, shear and warming of all contacts, and return the worst check of each kind.
-
-    `law` is that of the interface, where it is known.
-    """
+    """Check thickness, small strain, shear and warming of all contacts, and return the worst check of each kind."""
     if contacts.study.indenter is None:
         return _surface_checks(contacts.study, requested.of_records)
     alike: dict[object, list[tuple[IndenterCase, Record]]] = {}

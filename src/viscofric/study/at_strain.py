@@ -15,10 +15,7 @@ from viscofric.study.run_file.material import MaterialTable
 
 
 def payne_of(table: MaterialTable) -> PayneFit | None:
-    """Return Kraus's law of the amplitude sweep of [material], None without one.
-
-    The deformation of [material] counts where the file states none.
-    """
+    """Return Kraus's law of the amplitude sweep of [material], whose deformation counts where the file states none."""
     if table.amplitude_sweep is None:
         return None
     paths: tuple[Path, ...] = table.amplitude_sweep

@@ -146,10 +146,7 @@ class CheckedStudy:
 
 
 def check_study(study: Study, path: Path) -> CheckedStudy:
-    """Read the data files of a study and make its materials, without solving any case.
-
-    Raises `StudyError` with all errors in its data: one sentence for each material, and one for the measurement.
-    """
+    """Read the data files of a study and make its materials, without solving; raise `StudyError` with all errors."""
     rubbers, measured = [], None
     wrong: list[tuple[Note, str]] = []  # with the field that each is about
     for number, material in enumerate(study.materials):

@@ -99,10 +99,7 @@ class Contacts:
         return case.speed * float(self.rubbers[case.material].shift(case.temperature))
 
     def _along(self) -> tuple[Case, ...]:
-        """Return the contacts of the master curve at the reference temperature; none if it would be one point.
-
-        A measurement has one material and one ball, and is compared with the curve of the first load.
-        """
+        """Return the contacts of the master curve at the reference temperature; none if it would be one point."""
         points = self.study.solver.points_along(measured=self.measured is not None)
         one, alike = self.sweep.cases[0], {case.alike for case in self.sweep.cases if case.sample is None}
         if not one.HAS_MASTER_CURVE or (len(alike) > 1 and self.measured is None):

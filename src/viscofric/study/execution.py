@@ -198,10 +198,7 @@ def tree_of(
     singles: Sequence[Singles] = (),
     interface: StudyInterface | None = None,
 ) -> xarray.DataTree:
-    """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved.
-
-    `interface` is that of `study_interface`, which is called if it is not given.
-    """
+    """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved."""
     import xarray
 
     study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured

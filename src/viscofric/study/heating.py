@@ -46,10 +46,7 @@ def _words(body: ThermalProperties) -> str:
 
 
 class Heatings(Singles):
-    """The cases that differ by speed alone as one curve each, for every Coulomb friction and slip; then one map.
-
-    The map is that of the warmest contact of the best estimate of the material.
-    """
+    """Cases that differ by speed alone as a curve for every Coulomb friction and slip; then the warmest one's map."""
 
     STAGE, GROUP, NOUN = "heating", _GROUP, "heated curves"
 

@@ -36,10 +36,7 @@ _LOOSEST = 1e-2
 
 
 class Histories(Singles):
-    """All cases over time, with the best estimate of the material and with its samples.
-
-    Of each case, the Coulomb friction of heated contacts runs fastest, then the dwell.
-    """
+    """All cases over time, also of samples; Coulomb friction of heated contacts runs fastest, then the dwell."""
 
     STAGE, GROUP, NOUN = "histories", "/history", "contacts over time"
 
@@ -110,10 +107,7 @@ def _task(case: Any, rubbers: Rubbers, history: History, study: Study, label: st
 
 
 def case_histories(study: Study, table: HistoryTable, *, heated: bool = False) -> Callable[[Any, float], History]:
-    """Return what makes the history of a case and a dwell (s), those of `heated` contacts with a temperature.
-
-    Raises `StudyError`, `DataFileError` for a bad table.
-    """
+    """Return what makes the history of a case and a dwell (s), those of `heated` contacts with a temperature."""
     has_load = table.file is not None and checked_table(table, study)
 
     def made(case: Any, dwell: float) -> History:

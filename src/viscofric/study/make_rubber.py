@@ -40,11 +40,7 @@ from viscofric.study.run_file.material import MaterialTable
 
 
 def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
-    """Return the material of [material] of a run file, whose paths are resolved.
-
-    With `liquids`, a liquid, which has no spectrum for contacts, becomes a table of its master curve, with a note;
-    otherwise it is a `LiquidError`.
-    """
+    """Return the material of [material]; a liquid is its master curve with `liquids`, else a `LiquidError`."""
     return at_strain(_at_small_strain(table, liquids), table)
 
 
@@ -242,10 +238,7 @@ def _undecided(laws: LawComparison[ParametricLaw] | None, choice: str) -> tuple[
 def _spectrum(
     table: MaterialTable, curve: MasterCurve | JointSuperposition, verdict: tuple[str, ...], liquids: bool
 ) -> tuple[RetardationSpectrum | ModulusTable, tuple[str, ...]]:
-    """Fit the spectrum; warnings about the master curve go into it, so that they stay in its file.
-
-    A liquid becomes a table, with a note, or is refused.
-    """
+    """Fit the spectrum, which keeps warnings about the master curve; a liquid becomes a table, or is refused."""
     try:
         spectrum = fit_retardation_spectrum(curve, tau_ratio=table.tau_ratio, method=table.spectrum, modes=table.modes)
     except LiquidError as error:

@@ -49,10 +49,7 @@ def run_material(
     samples: int = 200,
     synthetic: bool = False,
 ) -> tuple[StudyResults, Rubber, list[Path]]:
-    """Make a material and store it: results with its groups, the material, and its files (material file and tables).
-
-    `title`, `command`: of the report; `samples`: of the bands of E(ω), 0 for none; `synthetic`: whether the data are.
-    """
+    """Make a material and store it: results with its groups, the material, and its files (material file and tables)."""
     import xarray
 
     folder = Path(output)

@@ -57,10 +57,7 @@ class StudyRubber:
         return getattr(self.material.spectrum, "fit", None)
 
     def is_within(self, case: Case, record: Record) -> bool | None:
-        """Whether a contact's frequencies, reduced by α(T), were measured; None where that is not known.
-
-        They are v/a for an indenter, and 2πv/λ for the shortest and the longest wavelength of a rough surface.
-        """
+        """Whether a contact's frequencies (v/a, or 2πv/λ), reduced by α(T), were measured; None if not known."""
         if self.spectrum_fit is None:
             return None
         rate = float(self.shift(record.temperature)) * record.speed
@@ -153,10 +150,7 @@ class BandColumns(NamedTuple):
 
 
 def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples | None:
-    """Return bootstrap samples of a material; None without sweeps, scaled to a strain, or for 0 samples.
-
-    Raises `InputError` if its spectrum was not fitted to its sweeps, or there are too few samples.
-    """
+    """Return bootstrap samples of a material; None without sweeps, scaled to a strain, or for 0 samples."""
     spectrum = rubber.material.spectrum
     fit = None if rubber.strain is not None else rubber.superposed
     if samples == 0 or fit is None or not isinstance(spectrum, RetardationSpectrum):

@@ -78,10 +78,7 @@ class PlainJSON(JSONResponse):
 
 
 def make_app(door: Door, workspaces: Workspaces, children: Children, study: dict[str, Any] | None = None) -> ASGIApp:
-    """Return the page as an ASGI application.
-
-    `study`: that the page opens with, instead of its own first one.
-    """
+    """Return the page as an ASGI application, which opens with this study, or with its own first one."""
     api = FastAPI(
         title="viscofric",
         version=__version__,
@@ -258,10 +255,7 @@ _known: dict[tuple[Path, int, int], StaticFile] = {}
 
 
 def static_file(name: str) -> StaticFile | None:
-    """Return a file by its place below the folder ``static``; None if there is none of that name.
-
-    Only names that a listing of the folder gives are found, so that none leads out of it.
-    """
+    """Return a file of the folder ``static`` if a listing of the folder gives its name; else None."""
     path = _listing().get(name)
     if path is None:
         return None

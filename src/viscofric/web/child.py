@@ -192,10 +192,7 @@ def _json(message: dict[str, Any], files: Path | None) -> bytes:
 
 
 def _was_importing(trace: TracebackType | None) -> bool:
-    """Whether an interrupt came while a module was loaded, which may be left half done.
-
-    Python removes the frames of `importlib` from most tracebacks, but not those of the module's own code.
-    """
+    """Whether an interrupt came while a module was loaded, which may be left half done."""
     codes = [frame.f_code for frame, _ in traceback.walk_tb(trace)]
     return any(code.co_name == "<module>" or "importlib._bootstrap" in code.co_filename for code in codes)
 

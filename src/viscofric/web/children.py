@@ -152,10 +152,7 @@ class Children:
         return len(self._all) - len(self._idle) + len(self._waiting)
 
     def start(self) -> None:
-        """Start a process for the first job to find, if there is none; needs no event loop.
-
-        One loads at a time, so that the first is ready soon.
-        """
+        """Start a process for the first job to find, if there is none (one loads at a time); needs no event loop."""
         if not self._closed and len(self._all) < self.most and all(child.ready for child in self._all if child.alive):
             child = Child()
             self._all.append(child)
@@ -278,10 +275,7 @@ class Children:
         self._all = [one for one in self._all if one is not child]
 
     def _keep_spare(self) -> None:
-        """Have a process in store that nobody has used yet, so that the next job need not wait for one to start.
-
-        There are two from the beginning: the page requests a curve and for one contact at once.
-        """
+        """Have a process in store that nobody has used yet, so that the next job need not wait for one to start."""
         if len(self._all) < _FROM_THE_BEGINNING or not any(child.key is None for child in self._idle):
             self.start()
             self.attach()

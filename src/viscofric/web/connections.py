@@ -14,10 +14,7 @@ _LEAST_TAKEN = 30_000  # bytes of a reply that a reader takes in the latter
 
 
 class Connection(H11Protocol):
-    """The protocol of a connection that ends if a head does not come, or a reply is not taken, in time.
-
-    uvicorn waits without end for a first request, for the rest of one that began, and for the reader of a reply.
-    """
+    """uvicorn's protocol, but a connection ends if a head does not come, or a reply is not taken, in time."""
 
     _waiting: asyncio.TimerHandle | None = None
     _sending: asyncio.TimerHandle | None = None

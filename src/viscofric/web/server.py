@@ -71,11 +71,7 @@ def serve(
     browser: bool = True,
     on_start: Callable[[str, int], object] | None = None,
 ) -> None:
-    """Serve the page until an interrupt, at this port or a free one; `files`: name -> file that every tab begins with.
-
-    `on_start` is called with the address, token and all, and the port, once it can be opened.  Raises `ViscofricError`
-    if the packages of the extra ``web`` are missing, or the page cannot be served there.
-    """
+    """Serve the page and its first files until an interrupt; `on_start` gets its address, token and all, and port."""
     from viscofric.web.access import Door
     from viscofric.web.children import Children
     from viscofric.web.workspace import Workspaces

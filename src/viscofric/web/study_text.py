@@ -42,10 +42,7 @@ class DocumentError(StudyError):
 
 
 def study_of(document: Mapping[str, Any], folder: Path) -> tuple[str, Study]:
-    """Write a document as a run file, and check it as one whose data files lie in a folder; return text and study.
-
-    Raises `DocumentError` with every wrong key, unit and range, and for a data file elsewhere.
-    """
+    """Return a document as a run file and a checked study; `DocumentError` has every wrong key, unit and range."""
     text = study_text(document)
     path = folder / RUN_FILE
     try:

@@ -115,10 +115,7 @@ class Workspace:
 
 
 class Workspaces:
-    """All workspaces of a server, in a temporary folder that is locked as long as the server lives.
-
-    `given`: name -> file that every workspace begins with.
-    """
+    """All workspaces of a server, in a temporary folder that is locked as long as the server lives."""
 
     def __init__(self, given: dict[str, Path] | None = None) -> None:
         remove_stale()

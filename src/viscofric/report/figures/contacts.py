@@ -114,10 +114,7 @@ def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: fl
 
 
 def plot_contact_profile(axes: Axes, contact: Contact, pressure: Array) -> None:
-    """Draw the pressure on the centre line, and its mirror image: what differs is what causes the friction.
-
-    `pressure` (nx, ny): of the contact, in the unit of the axis.
-    """
+    """Draw the pressure (nx, ny) on the centre line, and its mirror image: what differs causes the friction."""
     x, line = contact.x / _MILLI, contact.centre_line(pressure)
     draw_profile(axes, x, line, label="pressure on the centre line")
     axes.plot(-x, line, color=GREY, linewidth=1.0, linestyle=(0, (1.5, 1.2)), label="mirror image")
@@ -127,10 +124,7 @@ def plot_contact_profile(axes: Axes, contact: Contact, pressure: Array) -> None:
 
 
 def contacts_figure(contacts: Sequence[Contact]) -> Figure:
-    """Return contacts beside each other on one scale: maps of the pressure (of point contacts), and profiles.
-
-    Where their pressures differ much they are shown over their means, so that the shapes can be compared.
-    """
+    """Return contacts on one scale, over their means where pressures differ much: maps (of points) and profiles."""
     scaled, label = _on_one_scale(contacts)
     maps, profiles, figure = _panels(len(contacts), contacts[0].is_line)
     reach = _MARGIN * max(contact.reach for contact in contacts)
@@ -185,11 +179,7 @@ def contact_title(contact: Contact) -> str:
 
 
 def plot_trail(axes: Axes, contact: Contact, x: Array, displacement: Array) -> None:
-    """Draw the surface on the centre line before, in and behind a contact, with what has not yet recovered.
-
-    `contact`: for its edges; `x` (n,): places along the motion, from the axis, m, ascending; `displacement` (n,):
-    into the solid, m.
-    """
+    """Draw the displaced surface (m) on the centre line before, in and behind a contact, over `x` from its axis (m)."""
     height = -displacement / 1e-6
     ahead = np.interp(-x, x, height, left=np.nan, right=np.nan)
     behind = (x < 0.0) & np.isfinite(ahead)
@@ -219,10 +209,7 @@ def plot_trail(axes: Axes, contact: Contact, x: Array, displacement: Array) -> N
 
 
 def trail_figure(contacts: Sequence[Contact], trails: Sequence[tuple[Array, Array]]) -> Figure:
-    """Return the surface along the centre lines of contacts, one above the other.
-
-    `trails`: of each contact, where (m) and how deep (m) the surface is displaced; see `plot_trail`.
-    """
+    """Return the surface along the centre lines of contacts, one above the other; see `plot_trail`."""
     figure = new_figure(7.4, 0.9 + 1.75 * len(contacts))
     panels = figure.subplots(len(contacts), 1, squeeze=False, sharex=True)[:, 0]
     for axes, contact, trail in zip(panels, contacts, trails, strict=True):
@@ -236,11 +223,7 @@ def trail_figure(contacts: Sequence[Contact], trails: Sequence[tuple[Array, Arra
 
 
 def rough_contacts_figure(contacts: Sequence[Contact], directions: Sequence[float]) -> Figure:
-    """Return maps of the pressure on a whole period of the surface; of a profile, the pressure along it.
-
-    `contacts`: one to three, all of them of maps or all of profiles; `directions`: of the motion of each, from x
-    towards y, radians.
-    """
+    """Return maps of the pressure on a whole period of the surface; of a profile, the pressure along it."""
     is_line = contacts[0].is_line
     count = len(contacts)
     size = (7.4, 0.9 + 1.75 * count) if is_line else (1.5 + 2.9 * count, 1.35 + 2.7 * _shape(contacts[0]))

@@ -24,11 +24,7 @@ _MANY = 2_000  # points that are drawn as an image within the figure
 
 
 def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None) -> None:
-    """Draw the error estimate and the energy balance of every case, over the friction coefficient.
-
-    `cases`: `speed`, `friction_coefficient`, `friction_error` and perhaps `energy_balance`, `interpolated` and
-    `interpolation_error` along `case`; `accuracy`: that was requested, relative: a line.
-    """
+    """Draw the error estimate and the energy balance along `case`, over friction, with a line at the accuracy."""
     x = _along(cases)
     friction = np.abs(values(cases, "friction_coefficient"))
     between = interpolated(cases)
@@ -49,10 +45,7 @@ def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None)
 
 
 def plot_cells(axes: Axes, cases: xr.Dataset) -> None:
-    """Draw how many cells along the longer edge the finest grid of every solved case has.
-
-    `cases`: `speed` and `cells` along `case`, and perhaps `interpolated`.
-    """
+    """Draw how many cells along the longer edge the finest grid of every solved case has."""
     cells = values(cases, "cells")
     _points(axes, _along(cases), cells, ~interpolated(cases), GREEN, "s", True, "cells")
     axes.set_yscale("log", base=2)
@@ -62,10 +55,7 @@ def plot_cells(axes: Axes, cases: xr.Dataset) -> None:
 
 
 def convergence_figure(cases: xr.Dataset, *, accuracy: float | None = None) -> Figure | None:
-    """Return errors and grids of all cases, or None where nothing is known of them.
-
-    `cases`: see `plot_errors` and `plot_cells`; `accuracy`: relative.
-    """
+    """Return errors and grids of all cases, or None where nothing is known of them."""
     if not np.isfinite(values(cases, "friction_error")).any() or cases.sizes["case"] < 2:
         return None
     has_cells = bool((np.isfinite(values(cases, "cells")) & ~interpolated(cases)).any())

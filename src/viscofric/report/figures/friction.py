@@ -150,11 +150,7 @@ def plot_friction_master_curve(
 def plot_friction_master_curves(
     axes: Axes, predictions: Mapping[str, Friction], *, reference_temperature: float | None = None
 ) -> None:
-    """Draw predicted friction of several rubbers against the reduced speed αv.
-
-    `predictions`: name of the rubber -> its friction at the reference temperature; see
-    `plot_friction_master_curve`; `reference_temperature`: K, for the label.
-    """
+    """Draw predicted friction of several rubbers (by name) against the reduced speed αv."""
     handles: list[Any] = []
     for look, (name, prediction) in zip(looks(len(predictions)), predictions.items(), strict=True):
         lines = predicted(prediction)
@@ -295,11 +291,7 @@ def predicted_figure(curves: FrictionCurves) -> Figure:
 
 
 def shifted_figure(master: FrictionMasterCurve, known: ShiftLaw | None = None, *, synthetic: bool = False) -> Figure:
-    """Return a figure of a friction master curve, and of its shift factors below it where they were found from it.
-
-    `known`: shift factors of the modulus, to compare with; `synthetic`: whether to call the points synthetic
-    instead of measured.
-    """
+    """Return a figure of a friction master curve, and of its shift factors below it where they were found from it."""
     if not master.found:
         figure = new_figure(_WIDTH, _HEIGHT)
         plot_friction_master_curve(figure.subplots(), measurement=master, synthetic=synthetic)

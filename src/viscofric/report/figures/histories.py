@@ -42,10 +42,7 @@ class _Line(NamedTuple):
 
 
 def histories_figure(tree: xr.DataTree) -> Figure | None:
-    """Return load where it varies, indentation, friction where it slides, and rise of temperature, against time.
-
-    Of at most six cases; friction of heated contacts also without heating, dotted.
-    """
+    """Return load, indentation, friction and rise of temperature of at most six cases against time."""
     data = group(tree, "history")
     if data is None:
         return None

@@ -93,10 +93,7 @@ def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[
 
 
 def identified_figure(found: Identified, known: Material | None = None) -> Figure:
-    """Return a figure of an identified modulus.
-
-    `known`: to compare with, at the reference temperature of the other.
-    """
+    """Return a figure of an identified modulus, beside a known one."""
     figure = new_figure()
     plot_identified_modulus(figure.subplots(), found, _at_reference(known, found))
     return figure
@@ -109,10 +106,7 @@ def _at_reference(known: Material | None, found: Identified) -> Material | None:
 
 
 def indentation_figure(found: MaterialFromIndentation, known: Material | None = None) -> Figure:
-    """Return a figure of a modulus identified from indentation, the fits of its records, and their residuals.
-
-    `known`: to compare with, such as one of sweeps, at the reference temperature of the other.
-    """
+    """Return a figure of a modulus identified from indentation, the fits of its records, and their residuals."""
     kinds = list(dict.fromkeys(one.quantity for one in found.records))
     figure = new_figure(height=3.4 * (1 + len(kinds)))
     rows = figure.subplots(1 + len(kinds), 2, squeeze=False, width_ratios=(3, 2))

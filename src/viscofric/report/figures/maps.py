@@ -44,10 +44,7 @@ def plot_friction_map(
     levels: Array | int = _LEVELS,
     shift: tuple[Array, Array] | None = None,
 ) -> QuadContourSet:
-    """Draw friction (m, n) over log speed (n,), m/s, and temperature (m,), K, ascending, with the ridge of its maximum.
-
-    `shift`: temperatures (K) and log10 of the shift factor, along which friction is interpolated.
-    """
+    """Draw friction (m, n) over log speed (n,), m/s, and temperature (m,), K, with the ridge of its maximum."""
     x, y = 1e3 * np.asarray(speed), np.asarray(temperature) - 273.15
     kelvin, whole = filled_in(np.asarray(speed), np.asarray(temperature), np.asarray(friction), shift)
     known, rows = np.ma.masked_invalid(whole), kelvin - 273.15

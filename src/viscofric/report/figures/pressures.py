@@ -73,11 +73,7 @@ def frames_of(run: TransientSolution, times: Quantities | None = None, count: in
 
 
 def spread_times(run: TransientSolution, count: int) -> list[float]:
-    """Return at most so many of a solution's times, those nearest to evenly spaced ones.
-
-    Without its first one: before a load that rises there is no contact, and under one put on at once the pressure is
-    many times that of all other times, whose differences would vanish on a common scale.
-    """
+    """Return at most so many times, evenly spread, without the first: its pressure is none, or dwarfs the others."""
     first, last = float(run.time[0]), float(run.time[-1])
     later = run.time[run.time > first] if last > first else run.time
     wanted = np.linspace(first, last, count + 1)[1:]
@@ -112,10 +108,7 @@ def plot_pressure_profiles(axes: Axes, run: TransientSolution, times: Quantities
 
 
 def plot_pressure_frame(axes: Axes, frames: Frames, place: int) -> QuadMesh | None:
-    """Draw the pressure at one of several times, on the scales that all have in common.
-
-    Returns colours of a map, for a colour bar; none of a profile.
-    """
+    """Draw the pressure at one of several times, on their common scales; return the colours of a map."""
     field = frames.fields[place]
     axes.set_xlim(*frames.reach[0])
     axes.set_xlabel(f"$x$ ({frames.length.name})")

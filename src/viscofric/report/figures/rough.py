@@ -101,11 +101,7 @@ def plot_contact_map(axes: Axes, solution: PeriodicSolution) -> tuple[QuadMesh, 
 def plot_pressure_of_period(
     axes: Axes, x: Array, y: Array, pressure: Array, *, highest: float | None = None
 ) -> tuple[QuadMesh, str]:
-    """Draw the pressure on one period of a rough surface seen from above, where there is any.
-
-    `x`, `y` (nx,) and (ny,), m; `pressure` (nx, ny): Pa; `highest`: pressure at the end of the colours, Pa; 99.5
-    % of the loaded points are below if it is not given.
-    """
+    """Draw the pressure (nx, ny), Pa, on a period; colours end at `highest`, or at 99.5 % of the loaded points."""
     every = math.ceil(max(pressure.shape) / _MOST_POINTS)
     # Contact patches are small: of n² points the highest pressure is drawn.
     shape = tuple(n // every for n in pressure.shape)

@@ -242,10 +242,7 @@ _RESPONSES = {
 
 
 def plot_step_master_curve(axes: Axes, curve: xr.Dataset, *, synthetic: bool = False) -> ScalarMappable:
-    """Draw a creep compliance or relaxation modulus over reduced time, coloured by temperature, with the fit.
-
-    `curve`: as `StepMasterCurve.to_dataset` or `RetardationSpectrum.step_curve_dataset` return it; returns the colours.
-    """
+    """Draw a creep compliance or relaxation modulus over reduced time, with the fit; return the colours."""
     name = next(one for one in _RESPONSES if one in curve)
     factor, label = _RESPONSES[name]
     time, kelvin = np.asarray(curve["time"]), np.asarray(curve["temperature"])

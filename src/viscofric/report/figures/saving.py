@@ -28,10 +28,7 @@ _UNDATED: dict[str, dict[str, Any]] = {
 
 
 def save_picture(path: Path, draw: Callable[[], Figure], *, name: str, synthetic: bool = False) -> None:
-    """Draw a figure in the style of the reports into a file, which ends in ``.png``, ``.svg`` or ``.pdf``.
-
-    Figures of one `name` have the same marks inside an SVG.
-    """
+    """Draw a figure in the style of the reports into a file; those of one `name` have the same marks in an SVG."""
     form = path.suffix.lower().removeprefix(".")
     write_atomically(path, images(draw, (form,), name=name, synthetic=synthetic)[form])
 
@@ -39,10 +36,7 @@ def save_picture(path: Path, draw: Callable[[], Figure], *, name: str, synthetic
 def images(
     draw: Callable[[], Figure | None], formats: Iterable[str], *, name: str, synthetic: bool = False
 ) -> dict[str, bytes]:
-    """Draw a figure in the style of the reports and return the content of its files by format; see `save_picture`.
-
-    Empty where there is no figure.
-    """
+    """Draw a figure in the style of the reports and return the content of its files by format."""
     with matplotlib.rc_context({**STYLE, "svg.hashsalt": f"viscofric {name}"}):
         figure = draw()
         if figure is None:

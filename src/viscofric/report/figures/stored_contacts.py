@@ -36,11 +36,7 @@ class Shown(NamedTuple):
 
 
 def shown_contacts(tree: xr.DataTree) -> list[Shown]:
-    """Return the slowest contact, that of the most friction and the fastest, of those whose fields are kept.
-
-    `tree`: results; the groups below ``/fields`` hold `pressure` (Pa) and `displacement` (m) over `x` and `y`
-    (m), and the coordinates of their case.
-    """
+    """Return the slowest contact, that of the most friction and the fastest, of those whose fields are kept."""
     found = _kept(tree)
     if not found:
         return []

@@ -272,11 +272,7 @@ RUBBER_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
 
 
 def figure_images(tree: xr.DataTree, formats: tuple[str, ...] = ("png", "svg")) -> dict[str, dict[str, bytes]]:
-    """Draw every figure that the results afford and return it as the content of image files.
-
-    `tree`: results of a study.  Returns name of the figure -> format -> bytes; the same bytes for the same
-    results.  Figures of the second of several rubbers end in ``_2``, and so on.
-    """
+    """Draw every figure that the results afford: name -> format -> bytes, those of a second rubber with ``_2``."""
     images = _drawn(FRICTION_FIGURES, tree, formats) | _drawn(RUBBER_FIGURES, tree, formats)
     for place, (_, branch) in enumerate(rubbers(tree), 1):
         images |= {f"{name}_{place}": image for name, image in _drawn(RUBBER_FIGURES, branch, formats).items()}

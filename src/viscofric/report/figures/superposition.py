@@ -1,7 +1,4 @@
-"""Figures that show whether superposition holds (wicket, Cole–Cole, van Gurp–Palmen), and whether E' fits E''.
-
-If one shift of time joins all temperatures, frequency drops out of the former and all isotherms fall on one line.
-"""
+"""Figures that show whether superposition holds (isotherms then fall on one line), and whether E' fits E''."""
 
 from __future__ import annotations
 

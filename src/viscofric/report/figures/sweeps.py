@@ -83,10 +83,7 @@ def plot_sweep(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequence
 
 
 def plot_study(axes: Axes, friction: xr.Dataset) -> None:
-    """Draw friction over the first panel of a study's results, with its labels.
-
-    `friction`: as `StudyResults.dataset`.  Raises `InputError` if nothing varies.
-    """
+    """Draw friction over the first panel of a study's results (`StudyResults.dataset`), with its labels."""
     layout = layout_of(friction)
     if layout is None:
         raise InputError("these results have one case only: there is no curve to draw.", code="one-case")

@@ -27,10 +27,7 @@ _NO_RESULTS = ("speed", "temperature", "energy_balance", "complementarity", "cel
 
 
 def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, str]]:
-    """Return what an engineer wants to know of a contact, as pairs of name and value.
-
-    `seconds`: that it took.
-    """
+    """Return what an engineer wants to know of a contact, as pairs of name and value."""
     line = solution.geometry == "line"
     diagnostics = solution.diagnostics
     force = "N/m" if line else "N"
@@ -138,10 +135,7 @@ def _centre(solution: ContactSolution) -> str:
 
 
 def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: float) -> dict[str, Any]:
-    """Return a contact in plain types: inputs, results, errors, diagnostics, and the units of their names.
-
-    `inputs`: what was requested, in SI units and plain types; `seconds`: that it took.
-    """
+    """Return a contact in plain types: inputs (SI), results, errors, diagnostics, and the units of their names."""
     from importlib.metadata import version
 
     diagnostics, numbers = solution.diagnostics, solution.numbers

@@ -74,11 +74,7 @@ def _pairs(values: Any, errors: Any) -> list[str]:
 def shift_words(
     master: FrictionMasterCurve, law: ParametricLaw | None, agreement: ShiftAgreement | None, why: str = ""
 ) -> list[tuple[str, str]]:
-    """Return what is to be said of shifted friction curves, as pairs of name and value.
-
-    `law`: fitted to the shift factors; `agreement`: with those of the modulus; `why`: why that law was chosen, if
-    it was.
-    """
+    """Return what is to be said of shifted friction curves, as pairs of name and value."""
     low, high = (1e3 * end for end in master.reduced_range)
     lines = [
         ("reference", degrees(master.reference)),

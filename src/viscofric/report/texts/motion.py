@@ -57,10 +57,7 @@ def notes_on_errors(run: TransientSolution) -> tuple[Note, ...]:
 
 
 def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, str]]:
-    """Return the main results of a contact over time, as pairs of name and value.
-
-    `seconds`: computing time, s.
-    """
+    """Return the main results of a contact over time, as pairs of name and value."""
     force, energy = _FORCES[run.geometry]
     slides = bool(np.any(run.position != run.position[0]))
     lines = [
@@ -101,10 +98,7 @@ def _heat(run: TransientSolution) -> list[tuple[str, str]]:
 
 
 def cycle_lines(cycle: CycleSolution, seconds: float) -> list[tuple[str, str]]:
-    """Return the main results of a periodic state, as pairs of name and value.
-
-    `seconds`: computing time, s.
-    """
+    """Return the main results of a periodic state, as pairs of name and value."""
     force, energy = _FORCES[cycle.run.geometry]
     stiffness = {"N": "N/m", "N/m": "Pa", "Pa": "Pa/m"}[force]
     lines = [("energy per cycle", prefixed(cycle.energy_per_cycle, cycle.energy_per_cycle_error, energy))]
@@ -156,10 +150,7 @@ def _largest(run: TransientSolution) -> str:
 
 
 def impact_lines(hit: ImpactSolution, seconds: float) -> list[tuple[str, str]]:
-    """Return the main results of an impact, as pairs of name and value.
-
-    `seconds`: computing time, s.
-    """
+    """Return the main results of an impact, as pairs of name and value."""
     lines: list[tuple[str, str]] = []
     for number, one in enumerate(hit.contacts, 1):
         stays = not math.isfinite(one.contact_time)
@@ -187,10 +178,7 @@ def restitution_lines(curve: RestitutionCurve) -> list[str]:
 
 
 def impact_record(inputs: dict[str, Any], result: ImpactSolution | RestitutionCurve, seconds: float) -> dict[str, Any]:
-    """Return an impact, or several, in plain types: inputs, results, and the units of their names.
-
-    `inputs`: what was requested, in SI units and plain types; `seconds`: computing time, s.
-    """
+    """Return an impact, or several, in plain types: inputs (SI), results, and the units of their names."""
     contacts = [one._asdict() for one in getattr(result, "contacts", ())]
     return {
         "format": "viscofric impact 1",
@@ -206,10 +194,7 @@ def impact_record(inputs: dict[str, Any], result: ImpactSolution | RestitutionCu
 def transient_record(
     inputs: dict[str, Any], history: History, result: TransientSolution | CycleSolution, seconds: float
 ) -> dict[str, Any]:
-    """Return a contact over time in plain types: inputs, results along time, and the units of their names.
-
-    `inputs`: what was requested, in SI units and plain types, without the history; `seconds`: computing time, s.
-    """
+    """Return a contact over time in plain types: inputs (SI) without the history, results, and units."""
     run: Any = getattr(result, "run", result)
     columns = {name: getattr(history, name) for name in ("time", history.control, "position", "speed", "temperature")}
     said = {name: plain(values, None) for name, values in columns.items() if values is not None}

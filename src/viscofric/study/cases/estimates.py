@@ -100,11 +100,7 @@ def estimate(
 
 
 def contacts_beyond_indenter(cases: Sequence[Case], materials: Sequence[Material]) -> list[tuple[IndenterCase, float]]:
-    """Return the cases whose contact is estimated to be wider than the indenter, with its width, m.
-
-    Width of an elastic contact with the modulus |E| at its own frequency v/a.  A contact on a layer is narrower, and is
-    left out; bootstrap samples are as soft as the best estimate.
-    """
+    """Return cases whose contact, with |E| at v/a, is estimated to be wider than the indenter, with its width, m."""
     together: defaultdict[tuple[object, ...], list[IndenterCase]] = defaultdict(list)
     for case in cases:
         if isinstance(case, IndenterCase) and case.layer is None and math.isfinite(case.indenter.reach):

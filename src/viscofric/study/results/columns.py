@@ -126,10 +126,7 @@ def about(attributes: Mapping[Any, Any]) -> list[tuple[str, str]]:
 
 
 def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list[Any]]]:
-    """Return names, units and values of a data set's columns, a row for each point, the last dimension running fastest.
-
-    Temperatures are in degC, their differences in K; missing values are None.
-    """
+    """Return names, units (degC, or K of differences) and values of columns, the last dimension running fastest."""
     known = [name for name in PLACES if name in dataset.coords]
     known += [str(name) for name in dataset.coords if name not in PLACES]
     # Coordinates of measured points are among the variables.
@@ -165,10 +162,7 @@ def written(value: Any) -> str:
 
 
 def tables(tree: xarray.DataTree) -> Iterator[tuple[str, xarray.Dataset]]:
-    """Yield the tables of results other than the cases, with their names.
-
-    Of several materials, with the material's name.
-    """
+    """Yield the tables of results other than the cases, with their names; of several materials, with the material's."""
     for name, group in _tables_of(tree):
         if name != "prediction":
             yield name, group

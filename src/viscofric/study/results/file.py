@@ -129,10 +129,7 @@ def save_results(tree: xarray.DataTree, folder: Path) -> Path:
 
 
 def digest(tree: xarray.DataTree) -> str:
-    """Return a digest (SHA-256) of all numbers, names, units and attributes of results.
-
-    HDF5 itself notices only a file that is too short, and not a page of zeros left by a power cut.
-    """
+    """Return a digest of all numbers, names and attributes: HDF5 does not notice zeros left by a power cut."""
     found = hashlib.sha256()
     for node in sorted(tree.subtree, key=lambda node: node.path):
         group = node.to_dataset(inherit=False)

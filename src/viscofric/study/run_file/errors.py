@@ -35,10 +35,7 @@ def problems(error: ValidationError, values: object, tables: Mapping[str, type[B
 
 
 def place(parts: Iterable[str | int], values: object) -> str:
-    """Return a path in the file: ``conditions.temperature[2]``.
-
-    Branches of choices between types are left out, and so is the number of an entry given without a list.
-    """
+    """Return a path in the file, ``conditions.temperature[2]``, without branches of choices between types."""
     path = ""
     here: Any = values
     for part in parts:

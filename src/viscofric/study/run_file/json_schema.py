@@ -11,11 +11,7 @@ _WITHOUT_MEANING: dict[str, type] = {"title": str, "default": type(None)}
 
 
 def json_schema() -> dict[str, Any]:
-    """Return the JSON schema (draft 7, which the TOML plug-ins of editors know) of a run file.
-
-    Editors complete and check keys, words and the form of quantities with it; contradictions between tables and the
-    dimension of a unit are checked by `load_study` alone.
-    """
+    """Return the JSON schema of a run file in draft 7, which the TOML plug-ins of editors know."""
     schema = _plain(Study.model_json_schema(by_alias=True, mode="validation"))
     material = schema["properties"]["material"]
     one = material.pop("items")

@@ -51,11 +51,7 @@ class BatchJobs:
 
 
 class Dask(Executor):
-    """Distributes tasks to the workers of a Dask cluster.
-
-    Workers may join and leave meanwhile; tasks of a lost worker go to another.  `where` is the address of a running
-    scheduler, such as ``"tcp://10.0.0.1:8786"``, or the jobs to start.
-    """
+    """Distributes tasks to the workers of a Dask cluster: of a scheduler's address, or of the jobs to start."""
 
     def __init__(self, where: str | BatchJobs) -> None:
         self._where = where

@@ -63,10 +63,7 @@ class NoSolver(Executor):
 
 
 class Processes(Executor):
-    """Distributes tasks to `number` processes of this machine.
-
-    They start with the block and are reused; one that ends is replaced.
-    """
+    """Distributes tasks to `number` processes of this machine, which are reused, and replaced when they end."""
 
     def __init__(self, number: int) -> None:
         self._workers = Workers(number, needed=take.__module__)

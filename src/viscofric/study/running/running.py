@@ -58,11 +58,7 @@ def silent(event: Event) -> None:
 def choose_executor(
     workers: int | None, scheduler: str | None, cluster: ClusterTable | None, finished_only: bool = False
 ) -> Executor:
-    """Return the requested executor; arguments take precedence over [cluster] of the run file.
-
-    `workers` are processes of this machine, `scheduler` is the address of a Dask scheduler, and with `finished_only`
-    nothing is solved.
-    """
+    """Return the requested executor; arguments take precedence over [cluster] of the run file."""
     if finished_only:
         if workers is not None or scheduler is not None:
             raise InputError("finished_only solves nothing; leave workers and scheduler out.", code="two-executors")

@@ -32,19 +32,13 @@ class Damaged:
 
 @dataclass(frozen=True)
 class CaseStore:
-    """A folder of solved contacts: ``KEY.json`` for each, and ``KEY.npz`` with its fields if they are kept.
-
-    Each file ends with a checksum (SHA-256) of its key, of its contents, and of its fields.
-    """
+    """A folder of solved contacts, ``KEY.json`` and ``KEY.npz`` of kept fields, each with a checksum at its end."""
 
     folder: Path  # made with the first contact
     made: bool = False  # whether it exists already; if it is missing then, it was removed and is not made again
 
     def get(self, key: str, with_fields: bool = False) -> Record | Failure | Damaged | None:
-        """Return the stored result of a contact, None if there is none.
-
-        `with_fields`: a record without fields is none.
-        """
+        """Return the stored result of a contact, None if there is none (`with_fields`: with its fields)."""
         path = self._path(key)
         try:
             stored = read_bytes(path, LARGEST_FILE)

@@ -30,10 +30,7 @@ _TANGENT = (("loss_tangent", "tan δ", "diamond", "green"),)
 def moduli_figures(
     found: dict[str, Any], temperature: float | None, *, fitted: bool, path: str = "", moved: str = "moved"
 ) -> dict[str, Spec]:
-    """Return the figures of E' and E'' and of tan δ at a temperature (K), with ``band`` and ``isotherm`` where known.
-
-    `fitted`: to the points; `path`, `moved`: where ``modulus`` is, and the measured points, "" of no points.
-    """
+    """Return the figures of E' and E'', and of tan δ, at a temperature (K), with band and isotherm where known."""
     band, sweep = found.get("band"), found.get("isotherm")
 
     def over_frequency(path: str, key: str) -> tuple[str, str]:

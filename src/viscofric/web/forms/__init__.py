@@ -1,8 +1,4 @@
-"""The forms of the page as data: fields of a run file with their labels, kinds and limits, and when each is shown.
-
-One view of the page renders all of them (`static/js/fields.js`), where the keys of a field are described.  A test
-compares limits, words and units with the tables of the run file; importing those here would delay the first page.
-"""
+"""The forms of the page as data: fields of a run file with labels, kinds and limits, which `fields.js` renders."""
 
 from __future__ import annotations
 

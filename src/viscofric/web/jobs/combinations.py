@@ -14,10 +14,7 @@ MOST_CASES = 2_000
 
 
 def page_sweep(study: Study) -> Sweep:
-    """Return the cases of a study as the page solves them: with the best estimate of the rubber, and nothing measured.
-
-    Raises `JobError` if there are more than a page can show.
-    """
+    """Return the cases of a study that the page solves: with the best estimate of the rubber, none measured."""
     bare = study.uncertainty.model_copy(update={"members": 0})
     sweep = study.model_copy(update={"uncertainty": bare}).sweep()
     if len(sweep.cases) > MOST_CASES:
@@ -42,10 +39,7 @@ def combinations(sweep: Sweep) -> tuple[dict[object, int], list[str]]:
 
 
 def of_combination(sweep: Sweep, number: int) -> Case:
-    """Return the first case of a combination.
-
-    Raises `JobError` if there is none.
-    """
+    """Return the first case of a combination, or raise `JobError`."""
     cases: dict[object, Case] = {}
     for case in sweep.cases:
         cases.setdefault(case.alike, case)

@@ -152,11 +152,7 @@ def _counter(context: Context) -> Progress:
 def _of_tables(
     contacts: Contacts, requested: Solved, solve: Callable[[Plan], object]
 ) -> tuple[dict[str, Any], list[Note], InterfaceLaw | None]:
-    """Return what [interface] and [heating] add to all cases, each number a column, notes, and the interface's law.
-
-    A law that is fitted to the measurement is left to the run of the study; of several values of Coulomb friction and
-    slip, the first counts.
-    """
+    """Return what [interface] and [heating] add to all cases, each number a column, notes, and the interface's law."""
     study, rows = contacts.study, [not isinstance(one, Failure) for one in requested.outcomes]
     found: dict[str, Any] = {}
     law: InterfaceLaw | None = None

@@ -40,10 +40,7 @@ def lay_out(text: str, study: Study, folder: Path) -> Path:
 
 
 def archive(target: Path, files: Iterable[tuple[str, Path | str]]) -> Path:
-    """Write a zip archive.
-
-    `files`: name in the archive, and the file, or the text, that is kept under it.  Returns the archive.
-    """
+    """Write and return a zip archive of files, or texts, by their names in it."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as packed:
         for name, content in files:

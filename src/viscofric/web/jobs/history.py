@@ -29,10 +29,7 @@ class Options(Rows):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Return the page's history as [history]: stages where it has these, else a table among the page's files.
-
-    Without rows, return the history of the study's first case as the page has it.
-    """
+    """Return the page's history as [history]: stages, or a table; without rows, that of the study."""
     if not options.rows:
         return _of_study(study_of(study, context.files)[1])
     history = options.history()

@@ -164,11 +164,7 @@ class AnchorOptions(JobOptions):
 
 
 def make_anchor(requested: AnchorOptions, rubber: Material | None, load_unit: str) -> Anchor:
-    """Return the requested anchor.
-
-    `rubber`: whose modulus is taken, if it is; `load_unit`: of the friction curves.  Raises `JobError` if a
-    quantity is missing or cannot be used.
-    """
+    """Return the requested anchor, or that of a rubber's modulus; `JobError` if a quantity cannot be used."""
     try:
         return (
             _of_modulus(requested, rubber)

@@ -135,10 +135,7 @@ def _found(
 
 
 def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any] | None:
-    """Return the rubber's shift factors about the reference of a master curve, and not far from its temperatures.
-
-    None where there is one temperature only, which has nothing to be shifted to.
-    """
+    """Return the rubber's shift factors about the reference of a master curve, None of one temperature only."""
     law = known.at_reference(beside["reference"])
     warm = np.array([one["temperature"] for one in beside["points"]])
     if warm.size < 2:
