@@ -178,6 +178,15 @@ def prediction(speed: Any, temperature: Any, mu: Any) -> xr.Dataset:
     )
 
 
+def over_axes(cases: xr.Dataset, axes: dict[str, Any]) -> xr.Dataset:
+    """Return cases along `case`, the last axis running fastest, over their axes; the load is one for all."""
+    shape = tuple(len(points) for points in axes.values())
+    over = {name: (tuple(axes), part.values.reshape(shape), part.attrs) for name, part in cases.data_vars.items()}
+    coordinates = {name: (name, points, cases[name].attrs) for name, points in axes.items()}
+    numbers = {name: part for name, part in over.items() if name not in ("load", *axes)}
+    return xr.Dataset(numbers, {**coordinates, "load": ((), 25.0, cases["load"].attrs)}).squeeze()
+
+
 def _measured() -> dict[str, xr.Dataset]:
     temperature, speed = np.meshgrid(np.array([30.0, 60.0, 90.0]) + ZERO, np.geomspace(0.02, 0.2, 6), indexing="ij")
     temperature, speed = temperature.ravel(), speed.ravel()
@@ -224,12 +233,12 @@ def make_tree() -> Callable[..., xr.DataTree]:
     """Return a maker of results: with or without measurement, of any size, with any root attributes."""
 
     def make(measurement: bool = True, speeds: int = 7, temperatures: int = 3, **attrs: Any) -> xr.DataTree:
-        temperature, speed = np.meshgrid(
-            np.linspace(30.0, 90.0, temperatures) + ZERO, np.geomspace(0.02, 0.2, speeds), indexing="ij"
-        )
-        temperature, speed = temperature.ravel(), speed.ravel()
+        axes = {"temperature": np.linspace(30.0, 90.0, temperatures) + ZERO, "speed": np.geomspace(0.02, 0.2, speeds)}
+        temperature, speed = (one.ravel() for one in np.meshgrid(*axes.values(), indexing="ij"))
         groups = _dma()
-        groups["prediction"] = prediction(speed, temperature, friction(10 ** log10_alpha(temperature) * speed))
+        groups["prediction"] = over_axes(
+            prediction(speed, temperature, friction(10 ** log10_alpha(temperature) * speed)), axes
+        )
         reduced = np.geomspace(1e-7, 1.0, 41)
         groups["prediction_master"] = prediction(reduced, np.full(41, REFERENCE), friction(reduced))
         if measurement:

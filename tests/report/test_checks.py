@@ -99,7 +99,7 @@ def test_isotherms_left_out_are_counted_and_named(tree: xr.DataTree) -> None:
 
 def test_cases_beyond_the_measured_frequencies_are_counted(tree: xr.DataTree) -> None:
     part = tree["prediction"].to_dataset()
-    part["within_measured_frequencies"][:3] = 0
+    part["within_measured_frequencies"].values.flat[:3] = 0
     tree["prediction"].dataset = part
     assert numbers(tree, "Measured frequency range") == {
         "prediction": [3, 21],

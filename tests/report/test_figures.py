@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from viscofric import report
 from viscofric.report.data import law_of
 from viscofric.report.figures import style
+from viscofric.report.sweeps import cases_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -108,7 +109,7 @@ def test_master_curve_alone_draws_the_fit_at_its_own_frequencies(axes: Axes, tre
 
 
 def test_friction_curves_show_points_with_scatter_and_predicted_lines(axes: Axes, tree: xr.DataTree) -> None:
-    prediction, measurement = group(tree, "prediction"), group(tree, "measurement")
+    prediction, measurement = cases_of(group(tree, "prediction")), group(tree, "measurement")
     report.plot_friction_curves(axes, prediction, measurement)
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "linear")
     assert axes.get_xlabel() == r"speed $v$ (mm/s)"
@@ -126,7 +127,7 @@ def test_friction_curves_show_points_with_scatter_and_predicted_lines(axes: Axes
 
 
 def test_temperatures_read_in_grey_too(axes: Axes, tree: xr.DataTree) -> None:
-    report.plot_friction_curves(axes, group(tree, "prediction"), group(tree, "measurement"))
+    report.plot_friction_curves(axes, cases_of(group(tree, "prediction")), group(tree, "measurement"))
     assert len({str(line.get_linestyle()) + str(line._unscaled_dash_pattern) for line in axes.lines[:3]}) == 3
     assert len({str(points.lines[0].get_marker()) for points in error_bars(axes)}) == 3
 
@@ -134,12 +135,12 @@ def test_temperatures_read_in_grey_too(axes: Axes, tree: xr.DataTree) -> None:
 def test_measured_temperature_need_not_equal_the_predicted_one_exactly(axes: Axes, tree: xr.DataTree) -> None:
     measurement = group(tree, "measurement")
     measurement = measurement.assign(temperature=measurement["temperature"] + 0.2)
-    report.plot_friction_curves(axes, group(tree, "prediction"), measurement)
+    report.plot_friction_curves(axes, cases_of(group(tree, "prediction")), measurement)
     assert len(legend_texts(axes)) == 3
 
 
 def test_one_decade_of_speeds_has_readable_ticks(axes: Axes, tree: xr.DataTree) -> None:
-    report.plot_friction_curves(axes, group(tree, "prediction"))
+    report.plot_friction_curves(axes, cases_of(group(tree, "prediction")))
     assert labels_of_ticks(axes) == ["20", "50", "100", "200"]
 
 
@@ -155,13 +156,13 @@ def test_short_speed_ranges_have_a_few_plain_ticks(axes: Axes, low: float, high:
 
 def test_one_case_is_visible_as_a_point(axes: Axes, make_tree: Callable[..., xr.DataTree]) -> None:
     tree = make_tree(measurement=False, speeds=1, temperatures=1)
-    report.plot_friction_curves(axes, group(tree, "prediction"))
+    report.plot_friction_curves(axes, cases_of(group(tree, "prediction")))
     (line,) = axes.lines
     assert line.get_marker() == "o"
 
 
 def test_failed_cases_leave_gaps_not_crashes(axes: Axes, tree: xr.DataTree) -> None:
-    prediction = group(tree, "prediction")
+    prediction = cases_of(group(tree, "prediction"))
     friction = prediction["friction_coefficient"].copy()
     friction[:7] = np.nan
     report.plot_friction_curves(axes, prediction.assign(friction_coefficient=friction))

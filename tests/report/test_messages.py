@@ -55,7 +55,9 @@ def test_many_kinds_of_failure_end_with_the_number_of_the_rest() -> None:
 
 def change(tree: xr.DataTree, name: str, variable: str, row: int, value: float) -> None:
     part = tree[name].to_dataset()
-    part[variable][row] = value
+    values = part[variable].values.copy()
+    values.flat[row] = value
+    part[variable] = (part[variable].dims, values, part[variable].attrs)
     tree[name].dataset = part
 
 
@@ -114,7 +116,7 @@ def test_synthetic_points_are_not_called_measured(
 
 def test_speeds_of_metres_per_second_are_written_so(tree: xr.DataTree) -> None:
     change(tree, "prediction", "speed", 0, 1e-4)
-    change(tree, "prediction", "speed", 1, 10.0)
+    change(tree, "prediction", "speed", -1, 10.0)
     assert "0.1 mm/s to 10 m/s" in scope(tree)[0].replace("\xa0", " ")
 
 

@@ -13,7 +13,6 @@ from viscofric.report.sweeps import (
     axis_of,
     best_estimate,
     cases_of,
-    labelled,
     layout_of,
     solved_cases,
     sweep_axes,
@@ -116,10 +115,3 @@ def test_failed_cases_and_samples_do_not_count_as_solved(make_sweep: Make) -> No
     assert dict(best_estimate(friction).sizes) == {"speed": 5}
     nothing = xr.DataTree.from_dict({"/prediction": make_sweep({"speed": SPEEDS}, failed=tuple(range(5)))})
     assert solved_cases(nothing) is None
-
-
-def test_results_reported_case_by_case_are_laid_out_too(make_tree: Callable[..., xr.DataTree]) -> None:
-    friction = labelled(make_tree())
-    assert friction is not None
-    assert dict(friction.sizes) == {"temperature": 3, "speed": 7}
-    assert float(friction["load"]) == 25.0

@@ -27,7 +27,6 @@ from viscofric.report.sweeps import (
     MOST_PANELS,
     SAMPLE,
     SEED,
-    labelled,
     layout_of,
     seeds_averaged,
     solved_cases,
@@ -130,7 +129,7 @@ def _of_temperature_map(tree: xr.DataTree) -> str:
 
 def _of_sweep(tree: xr.DataTree) -> str:
     """Say what runs along the axis, what the lines and the panels are, and what was left out."""
-    friction = labelled(tree)
+    friction = group(tree, "prediction")
     layout = None if friction is None else layout_of(friction)
     if friction is None or layout is None:
         return ""
@@ -188,7 +187,7 @@ def _some(data: xr.Dataset, name: str, each: int) -> str:
 
 
 def _of_map(tree: xr.DataTree) -> str:
-    friction = labelled(tree)
+    friction = group(tree, "prediction")
     seeds = 0 if friction is None else seeds_averaged(friction)
     mapped = {*_MAPPED, SEED} if seeds else set(_MAPPED)
     others = [] if friction is None else [axis for axis in sweep_axes(friction) if axis.name not in mapped]

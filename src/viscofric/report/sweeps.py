@@ -233,31 +233,6 @@ _MERGED: dict[str, Any] = {
 }
 
 
-def labelled(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | None:
-    """Return predicted friction over its axes; None where it is listed case by case, and these do not fill a grid."""
-    found = group(tree, name)
-    if found is None or CASE not in found.dims:
-        return found
-    found = found.reset_coords()
-    varied = [
-        column
-        for column in ("load", _TEMPERATURE, _SPEED)
-        if column in found and np.unique(found[column].values).size > 1
-    ]
-    fixed = [column for column in ("load", _TEMPERATURE, _SPEED) if column in found and column not in varied]
-    single = found.isel({CASE: 0})
-    if not varied:
-        return single.set_coords(fixed)
-    keys = np.stack([found[column].values for column in varied], axis=-1)
-    if len(np.unique(keys, axis=0)) != len(keys):
-        return None
-    grid = found.drop_vars(fixed).set_index(case=varied)
-    grid = grid.unstack(CASE) if len(varied) > 1 else grid.rename({CASE: varied[0]}).sortby(varied[0])
-    for column in varied:
-        grid[column].attrs.update(found[column].attrs)
-    return grid.assign_coords({column: single[column] for column in fixed})
-
-
 def seeds_averaged(dataset: xr.Dataset) -> int:
     """Return over how many seeds of a surface figures show the mean: none where nothing else varies."""
     count = dataset.sizes.get(SEED, 1)

@@ -24,7 +24,7 @@ from viscofric.report.figures.style import (
     temperature_handles,
 )
 from viscofric.report.results import group, is_synthetic, nearest, nominal_temperatures, number, values
-from viscofric.report.sweeps import SAMPLE, labelled, solved_cases, sweep_axes, thinned
+from viscofric.report.sweeps import SAMPLE, solved_cases, sweep_axes, thinned
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.roughness.rough_friction import RoughFriction
 
@@ -203,7 +203,7 @@ def stress_figure(tree: xr.DataTree) -> Figure | None:
 
 def parts_figure(tree: xr.DataTree) -> Figure | None:
     """Return the figure of hysteresis and interface at a few temperatures, where nothing but these and speed varies."""
-    cases, friction = solved_cases(tree), labelled(tree)
+    cases, friction = solved_cases(tree), group(tree, "prediction")
     if cases is None or friction is None or "interface_friction" not in cases or SAMPLE in friction.dims:
         return None
     names = {axis.name for axis in sweep_axes(friction)}

@@ -47,7 +47,7 @@ from viscofric.report.results import (
     rubbers,
     values,
 )
-from viscofric.report.sweeps import MOST_LINES, SAMPLE, labelled, solved_cases, sweep_axes, thinned
+from viscofric.report.sweeps import MOST_LINES, SAMPLE, solved_cases, sweep_axes, thinned
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -143,20 +143,20 @@ def friction_against_speed(tree: xr.DataTree) -> Figure | None:
 
 def friction_sweep(tree: xr.DataTree) -> Figure | None:
     """Friction over the axes of a study: where more than speed and temperature varies, or the speed does not."""
-    friction = labelled(tree)
+    friction = group(tree, "prediction")
     drawn_as_curves = group(tree, "measurement") is not None and varied(tree) <= _CURVES
     return None if friction is None or drawn_as_curves or _is_plain(tree) else sweep_figure(friction)
 
 
 def _is_plain(tree: xr.DataTree) -> bool:
     """Whether curves over the speed, one for each temperature, are all there is."""
-    names, friction = varied(tree), labelled(tree)
+    names, friction = varied(tree), group(tree, "prediction")
     return "speed" in names and names <= _CURVES and friction is not None and SAMPLE not in friction.dims
 
 
 def varied(tree: xr.DataTree) -> set[str]:
     """Return the names of the axes along which friction was predicted at more than one point."""
-    friction = labelled(tree)
+    friction = group(tree, "prediction")
     return set() if friction is None else {axis.name for axis in sweep_axes(friction)}
 
 
@@ -177,7 +177,7 @@ def _few_curves(prediction: xr.Dataset, measurement: xr.Dataset | None) -> xr.Da
 
 def friction_map(tree: xr.DataTree) -> Figure | None:
     """Friction over speed and temperature."""
-    friction, measurement = labelled(tree), group(tree, "measurement")
+    friction, measurement = group(tree, "prediction"), group(tree, "measurement")
     points = None if measurement is None else (values(measurement, "speed"), values(measurement, "temperature"))
     return None if friction is None else map_figure(friction, points, known_shifts(tree))
 

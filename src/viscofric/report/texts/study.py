@@ -24,7 +24,7 @@ from viscofric.report.results import (
     rubbers,
     values,
 )
-from viscofric.report.sweeps import SweepAxis, cases_of, labelled, solved_cases, sweep_axes, value_label
+from viscofric.report.sweeps import SweepAxis, cases_of, solved_cases, sweep_axes, value_label
 from viscofric.report.texts.numbers import (
     ABSENT,
     degrees,
@@ -159,7 +159,7 @@ def inputs(tree: xr.DataTree) -> list[Input]:
     reference = reference_temperature(tree)
     listed.append(Input("reference temperature", "" if reference is None else degrees(reference)))
     listed.append(Input("surface" if is_rough(tree) else "indenter", str(attrs.get("indenter", ""))))
-    friction = labelled(tree)
+    friction = group(tree, "prediction")
     if friction is not None:
         along = {axis.name: axis for axis in _axes(tree)}
         varied = {column for axis in along.values() for column in axis.columns}
@@ -202,7 +202,7 @@ def _other_settings(text: str, known: set[str]) -> list[Input]:
 
 
 def _axes(tree: xr.DataTree) -> list[SweepAxis]:
-    friction = labelled(tree)
+    friction = group(tree, "prediction")
     return [] if friction is None else sweep_axes(friction)
 
 
