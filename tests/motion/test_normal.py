@@ -238,6 +238,18 @@ def test_temperature_runs_the_clock():
     assert run.temperature == pytest.approx([301.0, 305.0, 310.0])
 
 
+@pytest.mark.parametrize(("rest", "tau"), [(1.0, 2e-13), (1e5, 5e-8), (1.76e9, 1e-4)])  # s; the last as a date
+def test_creep_just_after_a_jump_of_the_load_does_not_depend_on_how_long_it_has_rested(rest, tau):
+    """Lee–Radok: a³ = (9/16) R (F/E0 + ΔF J(t)); t is a difference of times up to 1e15 times as long."""
+    solid = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=tau)
+    history = vf.motion.History([0.0, rest, rest, 2.0 * rest], load=[1.0, 1.0, 2.0, 2.0], before="at rest")
+    times = rest + np.array([0.05, 0.5, 5.0, 50.0]) * tau
+    run = vf.motion.solve_transient(solid, BALL, history, times=times)
+    radius = np.cbrt(0.75 * 0.75 * 0.01 * (1e-6 + 1e-6 - 9e-7 * np.exp(-(times - rest) / tau)))
+    assert run.indentation == pytest.approx(radius**2 / 0.01, rel=1e-5)  # 400 springs
+    assert run.errors.indentation.max() < 1e-3 * run.indentation.min()
+
+
 def test_warming_by_many_decades_is_that_of_lee_and_radok_at_any_times_asked_for():
     """δ = (9/16 F' ∫J(ξ(t) − ξ(s)) ds)^(2/3)/R^(1/3) under a growing load; α falls by 12 decades, ten of them later."""
     law, kelvin = vf.WLF(8.0, 50.0, "300 K"), [275.0, 380.0]

@@ -306,6 +306,48 @@ def test_cooling_by_nine_decades_after_a_jump_is_solved_within_its_errors() -> N
     assert finer.energy_imbalance < 6e-3
 
 
+def test_what_follows_a_jump_of_the_pressure_does_not_depend_on_how_long_it_has_rested() -> None:
+    """At requested times the accuracy is met, however soon after the jump: modes that matter there are not merged."""
+    solid = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=5e-8)
+    later = 1e5 + np.array([1e-8, 1e-7, 1e-6])
+    rested, jumped = (
+        vf.motion.solve_transient(
+            solid,
+            profile(16),
+            vf.motion.History([rest - 1.0, rest, rest, 2e5], pressure=[100.0, 100.0, 1.2e3, 1.2e3], before="at rest"),
+            times=later - 1e5 + rest,
+        )
+        for rest in (1e5, 0.0)
+    )
+    assert rested.indentation == pytest.approx(jumped.indentation, rel=1e-6)
+    assert rested.indentation[0] < 0.6 * rested.indentation[2]
+    assert rested.errors.indentation.max() < 1e-3 * rested.indentation.max()
+
+
+@pytest.mark.slow
+def test_errors_just_after_a_start_given_by_positions_are_those_of_a_jump_of_the_speed() -> None:
+    """Modes that matter at the times asked for after a start are kept: friction is within its errors."""
+    tau = np.geomspace(1e-9, 1.0, 6)
+    broad = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", np.full(6, 1.5e-7), tau))
+    times = 1.0 + np.array([1e-9, 1e-8, 1e-7])
+    by_speed = {"time": [0.0, 1.0, 1.0, 1.001], "speed": [0.0, 0.0, 10.0, 10.0]}
+    by_position = {"time": [0.0, 1.0, 1.001], "position": [0.0, 0.0, 1e-2]}
+    runs = [
+        vf.motion.solve_transient(
+            broad,
+            profile(16),
+            vf.motion.History(**path, pressure=1e3, before="at rest"),
+            times=times,
+            accuracy=accuracy,
+        )
+        for path, accuracy in ((by_speed, 1e-2), (by_position, 1e-2), (by_position, 3e-3))
+    ]
+    assert runs[1].friction_error == pytest.approx(runs[0].friction_error, rel=0.2)
+    for run in runs[:2]:
+        off = np.abs(run.friction_coefficient - runs[2].friction_coefficient)
+        assert np.all(off <= run.friction_error + runs[2].friction_error)
+
+
 def test_units_do_not_matter() -> None:
     # Another length, time and modulus: the same problem, and the same steps.
     times, seen = np.linspace(0.0, 4e-3, 9), []

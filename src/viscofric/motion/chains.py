@@ -71,6 +71,7 @@ class Reached(Generic[State]):
 
     pair: Pair[State]
     time: float | None = None  # s; None: the start of the schedule
+    since: float = 0.0  # the last kink, s
     jumped: bool = False  # whether a jump at this time has been taken
     told: float = -math.inf  # time of the last moment returned, s
     scales: Scales | None = None  # largest values so far

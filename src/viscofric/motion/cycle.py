@@ -133,7 +133,7 @@ def solve_cycle(
     _insist_on_period(one_period, problem.kind)
     asked = checked_times(times, problem.schedule)
     search = _Search(_damping(problem.schedule), most_periods, progress)
-    mover, method, notes = mover_or_grid(problem, one_period)
+    mover, method, notes = mover_or_grid(problem, one_period, asked)
     if mover is None:
         from viscofric.motion.free.solve import solve_free
 
@@ -189,7 +189,7 @@ class _Search:
             memory = mover.memory_of(state)
             # The instantaneous pressure that belongs to this memory.
             begun = mover.step(mover.with_memory(state, memory), first, first)
-            begun = mover.settle(begun, first, INSTANT * max(abs(schedule.start), abs(schedule.end)))
+            begun = mover.settle(begun, first, INSTANT * (schedule.end - schedule.start))
             begun = mover.emptied(begun)
             link = Link(begun, mover.observe(begun), 0.0)
             begin = Reached(Pair(link, link))

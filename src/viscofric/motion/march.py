@@ -132,7 +132,10 @@ class _March(Generic[State]):
     rejected: int = 0
     _stored: float = 0.0  # before the start
     _pace: float = 0.0  # of the interval before, if no jump ended it
-    _shown_from: float = -math.inf  # time of the first step that may be returned, s
+    _kink: float = 0.0  # time that steps are counted from, s
+    _end: float = 0.0  # of the part, s; and since the kink
+    _last: float = 0.0
+    _shown_from: float = -math.inf  # since the kink, the first step that may be returned, s
     _spread: Difference = SAME
     _limited: bool = False  # whether a step from tick to tick was longer than the accuracy asks for
 
@@ -237,18 +240,26 @@ class _March(Generic[State]):
         return self._seen(Pair(*links))
 
     def _interval(self, pair: Pair[State], start: float, end: float) -> None:
-        """March through a part without kinks, from its start or from where an earlier march has come to."""
-        begun = max(start, float(self._at.time))  # type: ignore[arg-type]
-        least = INSTANT * max(abs(start), abs(end))
-        settled = self._settled(pair, self.schedule.at(begun), least)
-        # Before it, modes that have followed at once would be shown too soft.
-        self._shown_from = begun if settled is pair else begun + _FOLLOWED * QUICK * least
+        """March through a part without kinks, from its start or from where an earlier march has come to.
+
+        Times are counted from the last kink: soon after it, absolute ones would be rounded.
+        """
+        kinks = self.schedule.kinks
+        self._kink = float(kinks[np.searchsorted(kinks, start, side="right") - 1])
+        time, begun, last = float(self._at.time), self._at.since, end - self._kink  # type: ignore[arg-type]
+        if self._kink + begun != time:
+            begun = max(start, time) - self._kink
+        self._end, self._last, least = end, last, INSTANT * last
+        settled = self._settled(pair, self.schedule.at(self._kink, since=begun), least)
+        # Before it, modes that have followed at once would be shown too soft; others, at times that are the same.
+        followed = begun if settled is pair else begun + _FOLLOWED * QUICK * least
+        self._shown_from = max(followed, INSTANT * max(abs(start), abs(end)))
         pair = settled
         ticks = self.mover.ticks(self.schedule.at(start), self.schedule.at(end, after=False))
         if ticks is None:
-            self._freely(pair, begun, end, least)
+            self._freely(pair, begun, last, least)
         else:
-            edges = _even_steps(np.append(start, ticks))
+            edges = _even_steps(np.append(start, ticks) - self._kink)
             self._by_ticks(pair, _even_steps(np.append(begun, edges[edges > begun + least])))
 
     def _freely(self, pair: Pair[State], start: float, end: float, least: float) -> None:
@@ -268,7 +279,8 @@ class _March(Generic[State]):
                 raise _NoisyError
             if failed > _MOST_LEAST:
                 raise ConvergenceError(
-                    f"at time {time:.6g} s the error does not fall with shorter steps; ask for less accuracy.",
+                    f"at time {self._kink + time:.6g} s the error does not fall with shorter steps; ask for less "
+                    "accuracy.",
                     code="steps-not-converged",
                 )
             # A step shortened by the end of a part is no guide to the length of the next one.
@@ -282,7 +294,8 @@ class _March(Generic[State]):
         The two chains could not show an error of both of them.
         """
         step = _FIRST * (end - start)
-        _, fastest = self.schedule.rates(start, start + step)
+        begun = self._kink + start
+        _, fastest = self.schedule.rates(begun, begun + step)
         return min(step, _FIRST_AFTER_JUMP * self.mover.quickest / fastest)
 
     def _by_ticks(self, pair: Pair[State], edges: Array) -> None:
@@ -302,8 +315,7 @@ class _March(Generic[State]):
 
     def _try(self, pair: Pair[State], times: list[float]) -> Pair[State]:
         """Step from the first time to the last: the coarse chain at once, the fine one by those in between too."""
-        last = self.schedule.end
-        instants = [self.schedule.at(time, after=place == 0 and time < last) for place, time in enumerate(times)]
+        instants = [self._instant(time) for time in times]
         fine = pair.fine
         for start, end in itertools.pairwise(instants):
             fine = self._step(fine, start, end)
@@ -317,6 +329,12 @@ class _March(Generic[State]):
         rubbed = float(forces @ (end.position - start.position))
         return Link(state, seen, link.work + pressed + rubbed, link.rubbed + rubbed)
 
+    def _instant(self, since: float) -> Instant:
+        """Return what is prescribed so long after the kink."""
+        if since == self._last:
+            return self.schedule.at(self._end, after=False)
+        return self.schedule.at(self._kink, since=since)
+
     def _ratio(self, pair: Pair[State], tried: Pair[State]) -> float:
         """Return the growth of the difference of the chains in a step, relative to the allowed growth."""
         scales = self._with(tried)
@@ -325,16 +343,17 @@ class _March(Generic[State]):
 
     def _take(self, tried: Pair[State], reached: float, end: float, pace: float) -> Pair[State]:
         self.taken += 1
-        self.mover.accept(tried.fine.state, self.schedule.at(reached, after=False))
+        instant = self._instant(reached)
+        self.mover.accept(tried.fine.state, instant)
         pair = self._seen(tried)
         worst = max(map(abs, over_scales(difference(pair), self._scales))) / 3.0
         if worst > self.accuracy and not self._limited:
             raise _TooLargeError(worst / self.accuracy)
-        self._pace, self._at = pace, replace(self._at, pair=pair, time=reached, jumped=False)
+        self._pace, self._at = pace, replace(self._at, pair=pair, time=instant.time, since=reached, jumped=False)
         if self.times is None and self._shown_from <= reached < end:
-            self._record(pair, self.schedule.at(reached), asked=True)
+            self._record(pair, instant, asked=True)
         if self.progress is not None:
-            self.progress(reached, self.schedule.end)
+            self.progress(instant.time, self.schedule.end)
         return pair
 
     def _with(self, pair: Pair[State]) -> Scales:

@@ -116,7 +116,7 @@ class Mover(Protocol[State]):
     def step(self, state: State, start: Instant, end: Instant) -> State:
         """Return the state at the end of a step; the memory is exact for a pressure that is linear in between.
 
-        A jump is a step with ``end.clock == start.clock``: the response of the glassy modulus.
+        A jump is a step with ``end.clock - start.clock == 0``: the response of the glassy modulus.
         """
         ...
 

@@ -149,7 +149,7 @@ class NormalMotion:
         lost = np.square(away) @ (c * parts.own) + float(c @ parts.new) * np.square(change)
         lost += 2.0 * change * (away @ (c * parts.mixed))
         left = np.flatnonzero((state.force > 0.0) & (force == 0.0))
-        if len(left) and end.clock > start.clock:
+        if len(left) and end.clock - start.clock > 0.0:
             # Else the dent outside a shrinking contact would have errors of first order, seen only on its return.
             first, none = state.force[left], np.zeros(len(left))
             until = (first / (first + (threshold[left] - depth) / compliance))[:, None]

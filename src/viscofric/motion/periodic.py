@@ -27,6 +27,8 @@ from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, st
 from viscofric.motion.waves import Waves
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
     from viscofric.arrays import Array, ComplexArray, Mask
@@ -76,13 +78,13 @@ class _Step(NamedTuple):
 class PeriodicMover:
     """A periodic surface that moves through a schedule."""
 
-    def __init__(self, problem: Problem, modes: Modes | None = None) -> None:
+    def __init__(self, problem: Problem, modes: Modes | None = None, times: Iterable[float] = ()) -> None:
         surface, schedule = problem.indenter, problem.schedule
         assert isinstance(surface, PeriodicSurface)
         self.schedule, self.surface = schedule, surface
         self.grid = Waves(surface.shape, surface.spacing, problem.material.poisson_ratio, problem.layer)
         self.backend = Backend()
-        self.merged = spectrum = merged_modes(problem) if modes is None else modes
+        self.merged = spectrum = merged_modes(problem, times) if modes is None else modes
         self.depth_unit = surface.rms_height  # m; the others: m/Pa, Pa
         response = self.grid.response
         self.response_unit = float(response.max())
@@ -177,7 +179,7 @@ class PeriodicMover:
 
     def step(self, state: PeriodicState, start: Instant, end: Instant, *, keep: bool = True) -> PeriodicState:
         """Return the state at the end of a step or jump; without `keep` its memory overwrites that of the one given."""
-        lagging = self.modes.at_once if end.clock == start.clock else 0.0
+        lagging = self.modes.at_once if end.clock - start.clock == 0.0 else 0.0
         found = self._stepped(state, start, end, lagging, keep=keep)
         if lagging == 0.0:
             return found

@@ -22,7 +22,7 @@ from viscofric.motion.mover import Field, Observation, Scales
 from viscofric.motion.normal import SpringState
 from viscofric.motion.periodic import PeriodicState
 from viscofric.motion.restart import Begun, Restart
-from viscofric.motion.schedule import Instant
+from viscofric.motion.schedule import Instant, Reading
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -34,7 +34,7 @@ _FORMAT, _DIGEST = "viscofric state 2", "sha256"
 #: Beginnings of the names of a march, and of that on the coarser grid of cells.
 _MARCHES = "", "coarser/"
 _DAMAGED = (KeyError, ValueError, TypeError, IndexError, OSError, EOFError, zipfile.BadZipFile, InputError)
-_REACHED = ("time", "jumped", "told", "pace", "share", "stored", "limited")
+_REACHED = ("time", "since", "jumped", "told", "pace", "share", "stored", "limited")
 _FORCES = "friction_force", "force_on_slopes"
 _SEEN = ("load", "depth", *_FORCES, "area", "stored", "dissipated")
 
@@ -216,7 +216,7 @@ def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
         axes, field = _below(named, f"field/{place}/axes/"), None
         if f"field/{place}/pressure" in named:
             field = Field(axes, named[f"field/{place}/pressure"], float(named[f"field/{place}/error"]))
-        instant = Instant(time, float(named["moments/clock"][place]), named["moments/position"][place])
+        instant = Instant(time, Reading(float(named["moments/clock"][place]), 0.0), named["moments/position"][place])
         seen = _observation(
             {one: value[place] for one, value in columns.items()},
             {one: value[place] for one, value in extents.items()},

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
+from itertools import accumulate, islice, pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -40,11 +40,30 @@ _HALVINGS = 40
 _NODES, _WEIGHTS = (0.5 * column for column in np.polynomial.legendre.leggauss(12))
 
 
+class Reading(float):
+    """Reading of a clock, s: that at a given time of a history plus the time since, so that differences are exact."""
+
+    __slots__ = ("given", "since")
+    given: float
+    since: float
+
+    def __new__(cls, given: float, since: float) -> Reading:
+        """Return the sum, with both parts."""
+        found = super().__new__(cls, given + since)
+        found.given, found.since = given, since
+        return found
+
+    def __sub__(self, other: float) -> float:
+        if isinstance(other, Reading):
+            return (self.given - other.given) + (self.since - other.since)
+        return float(self) - other
+
+
 class Instant(NamedTuple):
     """What is prescribed at one time, or on one side of a jump; SI."""
 
     time: float  # s
-    clock: float  # the material's time ξ since the start, s
+    clock: Reading  # the material's time ξ since the start, s
     position: Array  # (2,): m
     load: float | None = None  # load, depth, pressure, gap: the one that is prescribed
     depth: float | None = None
@@ -103,20 +122,30 @@ class Schedule:
         """Return whether two points have this time, a kink."""
         return int(np.count_nonzero(self._time == time)) == 2
 
-    def at(self, time: float, *, after: bool = True) -> Instant:
-        """Return what is prescribed at a time, after its jump or before it."""
-        place = int(np.searchsorted(self._time, time))
-        if place < len(self._time) and self._time[place] == time:
-            node = place + 1 if after and self.jumps_at(time) else place
+    def at(self, time: float, *, after: bool = True, since: float = 0.0) -> Instant:
+        """Return what is prescribed at a time, after its jump or before it, or so long after it, s.
+
+        Soon after a time, the sum of both would be rounded.
+        """
+        node = int(np.searchsorted(self._time, time))
+        place = self._interval(time + since, after=after)
+        if since > 0.0:
+            first = self._interval(time, after=True)
+            while place > first and (time - self._time[place]) + since <= 0.0:
+                place -= 1
+            place = max(place, first)
+        elapsed = float((time - self._time[place]) + since)
+        if since == 0.0 and node < len(self._time) and self._time[node] == time:
+            clock = Reading(self._given[node], 0.0)
+            node += after and self.jumps_at(time)
             value, position = float(self._value[node]), self._position[node]
         else:
-            place -= 1
-            share = (time - self._time[place]) / (self._time[place + 1] - self._time[place])
+            share = elapsed / (self._time[place + 1] - self._time[place])
             value = float((1.0 - share) * self._value[place] + share * self._value[place + 1])
-            position = self._between(place, time)
+            position = self._between(place, elapsed)
+            clock = Reading(self._given[place], self._clocks[place].after(elapsed))
         named = {"depth" if self.control == "indentation" else self.control: value}
-        clock = self._clocks[min(place, len(self._clocks) - 1)].at(time)
-        return Instant(float(time), clock, position, **named)
+        return Instant(float(time + since), clock, position, **named)
 
     def velocity(self, time: float, *, after: bool = True) -> Array:
         """Return the velocity (2,) at a time, on one side of a kink, m/s."""
@@ -131,9 +160,9 @@ class Schedule:
         """Return the least and the largest dξ/dt between two times; equal times mean the side after a jump."""
         first, last = self._interval(start, after=True), self._interval(end, after=False)
         found = [
-            clock.rate(min(max(time, clock.start), clock.until))  # monotone within an interval
-            for clock in self._clocks[first : max(first, last) + 1]
-            if clock.until > clock.start
+            clock.rate(min(max(time - begun, 0.0), clock.length))  # monotone within an interval
+            for begun, clock in islice(zip(self._time, self._clocks, strict=False), first, max(first, last) + 1)
+            if clock.length > 0.0
             for time in (start, end)
         ]
         return min(found), max(found)
@@ -159,15 +188,16 @@ class Schedule:
         return max(found)
 
     def since_jump(self, instant: Instant) -> float:
-        """Return the time since the last jump, or the first contact with an untouched body, s of the clock; or inf."""
+        """Return the time since the last jump or start, or the first contact with an untouched body, s of the clock."""
         before = self._jumps[self._jumps <= instant.time]
         return instant.clock - self.at(float(before[-1])).clock if len(before) else math.inf
 
     @cached_property
     def _jumps(self) -> Array:
-        """Times of jumps and of the first contact with an untouched body, ascending, s."""
-        jumps = self.kinks[[self.jumps_at(float(time)) for time in self.kinks]]
-        return np.append(self.start, jumps) if self.before == "untouched" else jumps
+        """Times of jumps, starts and turns, and of the first contact with an untouched body, ascending, s."""
+        every = self.kinks.tolist()
+        found = [time for time in every if self.jumps_at(time) or self.starts_at(time)]
+        return np.array([self.start, *found] if self.before == "untouched" else found)
 
     def starts_at(self, time: float) -> bool:
         """Return whether a motion starts, stops or turns at a time: the velocity changes by a quarter or more."""
@@ -193,14 +223,18 @@ class Schedule:
             place += step
         return place
 
-    def _between(self, place: int, time: float) -> Array:
-        """Return the position at a time within an interval."""
-        start, end = self._time[place], self._time[place + 1]
-        share = (time - start) / (end - start)
+    @cached_property
+    def _given(self) -> list[float]:
+        """The clock at each given time, s."""
+        return list(accumulate((clock.whole for clock in self._clocks), initial=0.0))
+
+    def _between(self, place: int, elapsed: float) -> Array:
+        """Return the position so long after the beginning of an interval."""
+        share = elapsed / (self._time[place + 1] - self._time[place])
         if self._speed is None:
             return np.asarray((1.0 - share) * self._position[place] + share * self._position[place + 1])
         mean = self._speed[place] + 0.5 * share * (self._speed[place + 1] - self._speed[place])
-        return np.asarray(self._position[place] + (time - start) * mean)
+        return np.asarray(self._position[place] + elapsed * mean)
 
 
 def make_schedule(
@@ -224,11 +258,10 @@ def make_schedule(
             "determine its effect on earlier stress; give one temperature, or a Material without vertical_shift.",
             code="vertical-shift",
         )
-    clocks, begun = [], 0.0
+    clocks = []
     for place in range(len(time) - 1):
         ends = None if temperature is None else (float(temperature[place]), float(temperature[place + 1]))
-        clocks.append(_clock(float(time[place]), float(time[place + 1]), ends, law, first, begun))
-        begun = clocks[-1].end
+        clocks.append(_clock(float(time[place + 1] - time[place]), ends, law, first))
     return Schedule(
         spectrum, control, before, np.unique(time), time, value, position, speed, temperature, tuple(clocks)
     )
@@ -236,33 +269,29 @@ def make_schedule(
 
 @dataclass(frozen=True, eq=False)
 class _Clock:
-    """ξ(t) between two given times: at the ends of parts, and by Gauss's rule within them."""
+    """ξ since the beginning of an interval: at the ends of parts, and by Gauss's rule within them."""
 
-    time: Array  # ends of the parts, s
+    time: Array  # ends of the parts, s since the beginning
     value: Array  # ξ there, s
     ends: tuple[float, float] | None  # temperatures
     law: ShiftLaw | None
     first: float | None
 
     @property
-    def start(self) -> float:
-        return float(self.time[0])
-
-    @property
-    def until(self) -> float:
+    def length(self) -> float:
         return float(self.time[-1])
 
     @property
-    def end(self) -> float:
+    def whole(self) -> float:
         return float(self.value[-1])
 
     def rate(self, time: float) -> float:
         return 1.0 if self.law is None else float(self._rate(np.asarray(time)))
 
-    def at(self, time: float) -> float:
-        place = int(np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, max(len(self.time) - 2, 0)))
-        if self.law is None or len(self.time) < 2:
-            return float(self.value[place] + (time - self.time[place]))
+    def after(self, time: float) -> float:
+        if self.law is None:
+            return time
+        place = int(np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.time) - 2))
         if time == self.time[place + 1]:
             return float(self.value[place + 1])
         return float(self.value[place] + self._part(self.time[place], time))
@@ -270,7 +299,7 @@ class _Clock:
     def _rate(self, time: Array) -> Array:
         """α(T₁)/α(T)."""
         low, high = self.ends  # type: ignore[misc]
-        share = (time - self.time[0]) / (self.time[-1] - self.time[0])
+        share = time / self.time[-1]
         decades = self.law.log10(low + share * (high - low))  # type: ignore[union-attr]
         return np.asarray(10.0 ** (self.law.log10(self.first) - decades))  # type: ignore[union-attr, arg-type]
 
@@ -278,17 +307,15 @@ class _Clock:
         return float((end - start) * (_WEIGHTS @ self._rate(start + (end - start) * (0.5 + _NODES))))
 
 
-def _clock(
-    start: float, end: float, ends: tuple[float, float] | None, law: ShiftLaw | None, first: float | None, begun: float
-) -> _Clock:
-    both = np.array([start, end])
-    if law is None or ends is None or start == end:
-        return _Clock(both, np.array([begun, begun + (end - start)]), ends, None, first)
+def _clock(length: float, ends: tuple[float, float] | None, law: ShiftLaw | None, first: float | None) -> _Clock:
+    both = np.array([0.0, length])
+    if law is None or ends is None or length == 0.0:
+        return _Clock(both, both, ends, None, first)
     whole = _Clock(both, both, ends, law, first)
     low, high = ends
     law.log10([low, high])  # raises outside the range of the law
     parts: list[tuple[float, float]] = []
-    waiting = [(start, end, whole._part(start, end), 0)]
+    waiting = [(0.0, length, whole._part(0.0, length), 0)]
     while waiting:
         left, right, value, depth = waiting.pop()
         middle = 0.5 * (left + right)
@@ -298,6 +325,6 @@ def _clock(
             parts += [(middle, halves[0]), (right, halves[1])]
         else:
             waiting += [(middle, right, halves[1], depth + 1), (left, middle, halves[0], depth + 1)]
-    times = np.array([start, *(time for time, _ in parts)])
-    values = begun + np.concatenate([[0.0], np.cumsum([value for _, value in parts])])
+    times = np.array([0.0, *(time for time, _ in parts)])
+    values = np.concatenate([[0.0], np.cumsum([value for _, value in parts])])
     return _Clock(times, values, ends, law, first)

@@ -167,7 +167,7 @@ def solve_transient(
         return solve_heated(problem, history, heating, asked, solve, progress)
     if resume is not None:
         return _resumed(resume, problem, history, asked, progress)
-    mover, method, notes = mover_or_grid(problem, history)
+    mover, method, notes = mover_or_grid(problem, history, asked)
     if mover is None:
         return _on_cells(problem, history, asked, progress, notes)
     track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
@@ -264,7 +264,7 @@ def checked_problem(
     return Problem(material, indenter, schedule, accuracy, Layer.of(layer), counterface)
 
 
-def mover_of(problem: Problem, history: History) -> tuple[Mover[Any], str]:
+def mover_of(problem: Problem, history: History, times: Sequence[float] | None = None) -> tuple[Mover[Any], str]:
     """Return the mover for this contact, and the name of the method."""
     indenter = problem.indenter
     if isinstance(indenter, Indenter) and not history.moves and problem.layer is None:
@@ -276,7 +276,7 @@ def mover_of(problem: Problem, history: History) -> tuple[Mover[Any], str]:
     if isinstance(indenter, PeriodicSurface):
         from viscofric.motion.periodic import PeriodicMover
 
-        return PeriodicMover(problem), "waves"
+        return PeriodicMover(problem, times=times or ()), "waves"
     noun = indenter.noun
     moving = "in sliding motion" if history.moves else "in normal motion"
     where = "a layer" if problem.layer is not None else "a half-space"
@@ -287,12 +287,14 @@ def mover_of(problem: Problem, history: History) -> tuple[Mover[Any], str]:
     )
 
 
-def mover_or_grid(problem: Problem, history: History) -> tuple[Mover[Any] | None, str, tuple[Note, ...]]:
+def mover_or_grid(
+    problem: Problem, history: History, times: Sequence[float] | None
+) -> tuple[Mover[Any] | None, str, tuple[Note, ...]]:
     """Return the mover for this contact, or None if it is solved on cells; the name of the method, and notes."""
     if needs_grid(problem, history):
         return None, "grid", ()
     try:
-        return *mover_of(problem, history), ()
+        return *mover_of(problem, history, times), ()
     except InputError as error:
         if error.code != "not-one-disc":
             raise

@@ -31,7 +31,7 @@ from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.motion.memory import Modes, StepCoefficients, phi
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from numpy.typing import NDArray
 
@@ -48,8 +48,8 @@ _LONGER = 2.0
 _BLOCK = 65_536
 
 
-def resolved_times(problem: Problem) -> tuple[float, float]:
-    """Return the shortest time that matters in a history on a grid, and its duration, s."""
+def resolved_times(problem: Problem, times: Iterable[float] = ()) -> tuple[float, float]:
+    """Return the shortest time that matters in a history on a grid, with times asked for, and its duration, s."""
     schedule, surface = problem.schedule, problem.indenter
     assert isinstance(surface, PeriodicSurface)
     cell, shortest = min(surface.spacing), math.inf
@@ -59,12 +59,14 @@ def resolved_times(problem: Problem) -> tuple[float, float]:
         speed = max(float(np.hypot(*schedule.velocity(time, after=time == start))) for time in (start, end))
         passing = clock * cell / (speed * (end - start)) if speed > 0.0 else math.inf
         shortest = min(shortest, passing if passing < _QUICK * clock else _SHORTEST * clock)
+    since = [schedule.since_jump(schedule.at(time)) for time in times]
+    shortest = min([shortest, *filter(None, since)])
     return shortest, schedule.duration
 
 
-def merged_modes(problem: Problem) -> Modes:
+def merged_modes(problem: Problem, times: Iterable[float] = ()) -> Modes:
     """Return the modes required for a history on a grid, and for one that goes on from it for as long again."""
-    shortest, duration = resolved_times(problem)
+    shortest, duration = resolved_times(problem, times)
     return Modes.for_history(problem.schedule.spectrum, shortest, _LONGER * duration, MERGING * problem.accuracy)
 
 

@@ -90,7 +90,7 @@ class FreeMover(Cells):
 
     def step(self, state: FreeState, start: Instant, end: Instant) -> FreeState:
         """Return the state at the end of a step."""
-        return self._stepped(state, start, end, self.setting.body.at_once if end.clock == start.clock else 0.0)
+        return self._stepped(state, start, end, self.setting.body.at_once if end.clock - start.clock == 0.0 else 0.0)
 
     def settle(self, state: FreeState, instant: Instant, shortest: float) -> FreeState:
         """Return the state soon after a jump; what is not stored of the work at a constant load has been dissipated."""
