@@ -286,6 +286,17 @@ def test_a_short_history_after_steady_sliding_begins_with_the_steady_friction():
     assert run.friction_coefficient == pytest.approx(steady, rel=1e-3)  # a wake cut off would miss 3e-3 of it
 
 
+def test_sliding_before_a_jump_at_the_start_is_at_the_first_speed_and_temperature():
+    material = vf.Material(RUBBER.spectrum, shift=vf.Arrhenius("60 kJ/mol", reference="20 degC"))
+    history = vf.motion.History(
+        [0.0, 0.0, 1e-4], load=LOAD, speed=[0.02, 2.0, 2.0], temperature=["20 degC", "60 degC", "60 degC"],
+        before="sliding",
+    )  # fmt: skip
+    run = vf.motion.solve_transient(material, CYLINDER, history, times=[0.0, 0.0, 1e-4], accuracy=1e-2)
+    steady = vf.solve_steady(material, CYLINDER, speed=0.02, load=LOAD, temperature="20 degC")
+    assert run.friction_coefficient[:2] == pytest.approx(steady.friction_coefficient, rel=1e-2)
+
+
 @pytest.mark.parametrize("line", [True, False])
 def test_far_wake_is_the_sum_over_its_cells(line):
     response, window = response_of(line, 0.1, 1.0, None, 500.0), Box(0, 0, 50, 1)

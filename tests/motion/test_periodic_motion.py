@@ -324,6 +324,20 @@ def test_what_follows_a_jump_of_the_pressure_does_not_depend_on_how_long_it_has_
     assert rested.errors.indentation.max() < 1e-3 * rested.indentation.max()
 
 
+@pytest.mark.parametrize("speed", [[0.02, 2.0, 2.0], [0.2, 0.2, 0.2]])
+def test_sliding_before_a_jump_at_the_start_is_at_the_first_speed_and_temperature(speed: list[float]) -> None:
+    material = vf.Material(SLS.spectrum, shift=vf.Arrhenius("60 kJ/mol", reference="20 degC"))
+    history = vf.motion.History(
+        [0.0, 0.0, 1e-2], pressure=1e3, speed=speed, temperature=["20 degC", "40 degC", "40 degC"], before="sliding"
+    )
+    run = vf.motion.solve_transient(material, profile(32), history, times=[0.0, 0.0, 1e-2], accuracy=1e-2)
+    for row, place, temperature in ((0, 0, "20 degC"), (2, 2, "40 degC")):
+        steady = vf.solve_periodic(material, profile(32), speed=speed[place], pressure=1e3, temperature=temperature)
+        off = steady.diagnostics.friction_error + run.friction_error[row]
+        assert run.friction_coefficient[row] == pytest.approx(steady.friction_coefficient, abs=off)
+    assert run.friction_coefficient[1] == run.friction_coefficient[0]  # the pressure does not jump
+
+
 @pytest.mark.slow
 def test_errors_just_after_a_start_given_by_positions_are_those_of_a_jump_of_the_speed() -> None:
     """Modes that matter at the times asked for after a start are kept: friction is within its errors."""

@@ -344,7 +344,7 @@ def _path(time: Array, position: Any, velocity: Array | None, toward: tuple[floa
 
 
 def _first_velocity(time: Array, path: Array, velocity: Array | None) -> Array:
-    first = int(np.argmax(np.diff(time) > 0.0))
     if velocity is not None:
-        return np.asarray(velocity[first])
+        return np.asarray(velocity[0])
+    first = int(np.argmax(np.diff(time) > 0.0))
     return np.asarray((path[first + 1] - path[first]) / (time[first + 1] - time[first]))

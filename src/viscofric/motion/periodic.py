@@ -155,7 +155,7 @@ class PeriodicMover:
             memory = np.zeros((len(modes), *waves.shape), self.precision)
             depth = 0.0 if first.gap is None else self.mean_height - first.gap / self.depth_unit
             return PeriodicState(nothing, waves, memory, depth, (0.0, 0.0), 0.0, 0.0)
-        moving = schedule.velocity(schedule.start) if schedule.before == "sliding" else np.zeros(2)
+        moving = schedule.velocity(schedule.start, after=False)
         turn = self.grid.turn(moving)
         # A steady wave has q = p/(1 − iτ q·v).
         shares = [1.0 / (1.0 - 1j * time * turn) if moving.any() else np.ones((1, 1)) for time in modes.tau]

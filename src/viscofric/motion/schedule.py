@@ -148,7 +148,12 @@ class Schedule:
         return Instant(float(time + since), clock, position, **named)
 
     def velocity(self, time: float, *, after: bool = True) -> Array:
-        """Return the velocity (2,) at a time, on one side of a kink, m/s."""
+        """Return the velocity (2,) at a time, on one side of a kink, m/s; before the start, that of steady sliding."""
+        if time == self.start and not after:
+            if self.before != "sliding":
+                return np.zeros(2)
+            if self._speed is not None:
+                return np.asarray(self._speed[0])
         place = self._interval(time, after=after)
         start, end = self._time[place], self._time[place + 1]
         if self._speed is None:

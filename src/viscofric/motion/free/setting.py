@@ -224,10 +224,8 @@ class Setting:
 
     @property
     def first_speed(self) -> float:
-        """Return the speed at the start, lengths per second of the clock."""
-        begin = self.schedule.start
-        rate, _ = self.schedule.rates(begin, begin)
-        return math.hypot(*self.turned(self.schedule.velocity(begin))) / rate
+        """Return the speed before the start, lengths per second of the clock, which runs with the first temperature."""
+        return math.hypot(*self.turned(self.schedule.velocity(self.schedule.start, after=False)))
 
     def ticks(self, start: Instant, end: Instant, cell: float) -> Array:
         """Return times at which the indenter is a whole number of cells away, or graded ones where it rests."""
@@ -324,6 +322,8 @@ class Setting:
 def _direction(schedule: Schedule) -> tuple[float, float]:
     """Return the direction of the first motion; zeros where there is none."""
     moves = np.diff(_places(schedule), axis=0)
+    if schedule.before == "sliding":
+        moves = schedule.velocity(schedule.start, after=False)[None]
     lengths = np.hypot(*moves.T)
     if not np.any(lengths > 0.0):
         return 0.0, 0.0

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from viscofric.contact.free.grids import Extent, Grid
     from viscofric.motion.chains import Reached
     from viscofric.motion.problem import Problem
-    from viscofric.motion.schedule import Schedule
 
 logger = logging.getLogger(__name__)
 
@@ -312,15 +311,10 @@ def _resolved(level: Level, coarser: Level) -> list[int]:
         begun, ends = (schedule.at(float(kinks[k])) for k in (place, place + 1))
         steps = np.count_nonzero((times > begun.time) & (times <= one.instant.time))
         slid, stroke = (math.hypot(*(instant.position - begun.position)) for instant in (one.instant, ends))
-        early = 0.0 < slid < min(shortest, _UNJUDGED * stroke) and _starts(schedule, begun.time)
+        early = 0.0 < slid < min(shortest, _UNJUDGED * stroke) and schedule.starts_at(begun.time)
         if one.instant.time == begun.time or (steps >= _RESOLVED_STEPS and not early):
             kept.append(row)
     return kept
-
-
-def _starts(schedule: Schedule, time: float) -> bool:
-    """Return whether the indenter begins to move, or turns, at a time."""
-    return schedule.before != "sliding" if time == schedule.start else schedule.starts_at(time)
 
 
 def _after_starts(
