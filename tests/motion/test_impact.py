@@ -224,6 +224,19 @@ def test_the_error_of_an_indenter_that_nearly_leaves_includes_its_restitution_if
     assert limit.restitution_error == pytest.approx(leaves.restitution, rel=0.1)
 
 
+def test_the_error_of_an_indenter_that_hardly_leaves_includes_its_restitution() -> None:
+    """Within 1e-4 of the limit, at 0.11236 m/s, one of two accuracies lets it leave, the other stay."""
+    hit, finer, above = (
+        vf.motion.solve_impact(rubber(1e-2), BALL, mass=0.03, speed=speed, gravity=9.81, accuracy=accuracy)
+        for speed, accuracy in ((0.112357, 1e-2), (0.112357, 1e-4), (0.1124, 1e-2))
+    )
+    assert (hit.restitution > 0.1, finer.restitution) == (True, 0.0)
+    assert min(hit.restitution_error, finer.restitution_error) >= hit.restitution - 0.01
+    assert "rebound-not-certain" in codes(hit.warnings)
+    assert above.restitution_error < 1e-2
+    assert "rebound-not-certain" not in codes(above.warnings)
+
+
 @pytest.mark.slow
 def test_the_curve_over_temperature_has_a_minimum_in_the_transition():
     warm = vf.Material(broad(12), shift=vf.WLF(C1=8.0, C2=100.0, reference=300.0))

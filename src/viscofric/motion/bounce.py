@@ -40,6 +40,8 @@ _RESTING, _SLOW = 500, 0.01
 _SECANTS = 60
 #: Times of a flight that are recorded.
 _IN_FLIGHT = 40
+#: Parts of the time in which the indenter would fall back to where it left, at which the gap is looked at.
+_PARTS_OF_FLIGHT = np.geomspace(1e-6, 1.0, 100).tolist()
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +90,10 @@ class Contact(NamedTuple):
     time_of_largest: float
     separation_depth: float
     separates: bool
-    nearest: float = math.inf  # least indentation into the surface that is left, after the first turn, m
-    speed_nearest: float = 0.0  # upwards, then, m/s
+    #: Least indentation into the surface that is left after the first turn; after a separation, the largest gap before
+    #: the surface or the indenter comes back; m
+    margin: float = math.inf
+    leaving: float = 0.0  # speed upwards at that indentation, or after the separation, m/s
 
 
 @dataclass(eq=False)
@@ -136,7 +140,7 @@ class Bounce:
         time, v, force = 0.0, speed, 0.0
         taken: list[float] = []
         deepest, deepest_time, peak, last_forces = depth, 0.0, 0.0, ((0.0, 0.0), (0.0, 0.0))
-        step, stiffness, reversals, nearest, leaving = self.first_step, 0.0, 0, math.inf, 0.0
+        step, stiffness, reversals, margin, leaving = self.first_step, 0.0, 0, math.inf, 0.0
         self._record(start, depth, v, 0.0, 0.0)
         for _ in range(_MOST_STEPS):
             step = next(planned, None) or self._next_step(step, stiffness, mesh is not None)
@@ -155,7 +159,8 @@ class Bounce:
                 time += step
                 self._record(start + time, final, out, 0.0, 0.0)
                 self.taken.append(taken)
-                return Contact(start, time, speed, -out, peak, deepest, deepest_time, final, True), final
+                margin = self._largest_gap(final, -out)
+                return Contact(start, time, speed, -out, peak, deepest, deepest_time, final, True, margin, -out), final
             share = step**2 / (6.0 * m * compliance)
             total = np.cumsum(weights)
             depths = (free + share * np.cumsum(weights * b)) / (1.0 + share * total)
@@ -178,8 +183,8 @@ class Bounce:
                     deepest, deepest_time = at_most, time + part * step
             if v * v1 < 0.0:
                 reversals += 1
-            if reversals and new - float(b[0]) < nearest:
-                nearest, leaving = new - float(b[0]), max(-v1, 0.0)
+            if reversals and new - float(b[0]) < margin:
+                margin, leaving = new - float(b[0]), max(-v1, 0.0)
             depth, v, time = new, v1, time + step
             peak = max(peak, _top(last_forces, (time, force))) if force >= 0.5 * peak else peak
             last_forces = (last_forces[1], (time, force))
@@ -192,7 +197,7 @@ class Bounce:
                 if depth > deepest:
                     deepest, deepest_time = depth, time
                 return Contact(
-                    start, math.inf, speed, 0.0, peak, deepest, deepest_time, depth, False, nearest, leaving
+                    start, math.inf, speed, 0.0, peak, deepest, deepest_time, depth, False, margin, leaving
                 ), depth
         raise ConvergenceError("the indenter neither leaves the surface nor comes to rest.", code="endless-contact")
 
@@ -247,13 +252,12 @@ class Bounce:
 
     def _flight(self, left: float, depth: float, speed_out: float) -> tuple[float, float, float] | None:
         """Fly until the indenter meets the surface; return time, depth and speed, or None if it never does."""
-        g, c, tau = self.gravity, self.springs.compliances, self.springs.tau
+        g = self.gravity
         if g == 0.0:
             return None
 
         def overlap(time: float) -> float:
-            surface = self.springs.g + (c * np.exp(-time / tau)) @ self._memory
-            return depth - speed_out * time + 0.5 * g * time**2 - float(surface.min())
+            return self._overlap(time, depth, speed_out)
 
         # The surface rises, and slower than the indenter at first: they meet once, before the parabola ends.
         end = 2.0 * speed_out / g
@@ -270,6 +274,24 @@ class Bounce:
             if part < 1.0:
                 self._record(left + time, place, speed, 0.0, 0.0)
         return left + duration, place, speed
+
+    def _overlap(self, time: float, depth: float, speed_out: float) -> float:
+        """Return the indentation into the surface so long after a separation."""
+        springs = self.springs
+        surface = springs.g + (springs.compliances * np.exp(-time / springs.tau)) @ self._memory
+        return depth - speed_out * time + 0.5 * self.gravity * time**2 - float(surface.min())
+
+    def _largest_gap(self, depth: float, speed_out: float) -> float:
+        """Return the largest gap after a separation, up to which it only grows; without gravity it has no end."""
+        if self.gravity == 0.0:
+            return math.inf
+        largest = 0.0
+        for part in _PARTS_OF_FLIGHT:
+            gap = -self._overlap(part * 2.0 * speed_out / self.gravity, depth, speed_out)
+            if gap < largest:
+                break
+            largest = gap
+        return largest
 
     def _edge(self, order: Indices, b: Array, depth: float, last: int) -> float:
         """Return the contact radius between the last spring that touches and the next one."""

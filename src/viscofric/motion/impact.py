@@ -274,10 +274,8 @@ class _Falling(NamedTuple):
             if coarse is not None:
                 radius = np.array([row[4] for row in fine.rows])
                 of_springs = _OF_SPRINGS / np.maximum(np.searchsorted(s, radius), 1) ** 2
-                contacts = _extrapolated(coarse, fine, modes.error, float(of_springs.min()))
-                # The error of an indenter that stays is that of leaving after all, which jumps.
-                leaving = [one.restitution_error for one in contacts if math.isfinite(one.contact_time)]
-                if contacts and max(leaving, default=0.0) <= self.accuracy:
+                contacts, largest = _extrapolated(coarse, fine, modes.error, float(of_springs.min()))
+                if contacts and largest <= self.accuracy:
                     return self._solution(contacts, coarse, fine, temperature, modes.error + of_springs)
             coarse = fine
         if not contacts:
@@ -306,14 +304,22 @@ class _Falling(NamedTuple):
         if contacts[-1].restitution == 0.0:
             said = "The indenter does not leave the surface again: it comes to rest on it."
             last, values = fine.contacts[-1], {}
-            if math.isfinite(last.nearest):
-                values = {"nearest": last.nearest, "restitution": last.speed_nearest / last.speed_in}
-            if last.nearest < _NEAR * last.largest_depth:
+            if math.isfinite(last.margin):
+                values = {"nearest": last.margin, "restitution": last.leaving / last.speed_in}
+            if last.margin < _NEAR * last.largest_depth:
                 said += (
-                    f" On its way up {1e6 * last.nearest:.3g} µm of indentation are left at least: an impact in which "
+                    f" On its way up {1e6 * last.margin:.3g} µm of indentation are left at least: an impact in which "
                     f"none are left has a restitution of about {values['restitution']:.2g}."
                 )
             notes.append(Note("no-rebound", said, values=values))
+        for contact, one in zip(contacts, fine.contacts, strict=True):
+            close = one.margin < _NEAR * one.largest_depth
+            if close and 0.0 < contact.restitution <= contact.restitution_error:
+                said = (
+                    f"The contact that begins at {contact.start:.3g} s ends with a rebound, or not: the largest "
+                    f"gap, {1e6 * one.margin:.3g} µm, is within the errors of the solution."
+                )
+                notes.append(Note("rebound-not-certain", said, values={"gap": one.margin, "start": contact.start}))
         fit = self.material.modes_at(temperature).fit
         lasting = np.array([one.contact_time for one in contacts])
         beyond = () if fit is None else fit.beyond(np.pi / lasting, "frequency π over its duration")
@@ -324,11 +330,8 @@ class _Falling(NamedTuple):
         still = np.zeros_like(time)
         peaks = [max(one.peak_force for one in run.contacts) for run in (coarse, fine)]
         depths = [max(one.largest_depth for one in run.contacts) for run in (coarse, fine)]
-        # An indenter that stays and might leave after all would keep its restitution squared, of half of this energy.
-        parts = [
-            one.restitution_error if math.isfinite(one.contact_time) else 0.5 * one.restitution_error**2
-            for one in contacts
-        ]
+        # ½ (e + Δe)² − ½ e²
+        parts = [(one.restitution + 0.5 * one.restitution_error) * one.restitution_error for one in contacts]
         lost = self.mass * contacts[0].speed ** 2 * max(parts)
         errors = TransientErrors(
             # Stiff springs touched one by one make a force that is not smooth.
@@ -349,15 +352,18 @@ class _Falling(NamedTuple):
         return ImpactSolution(contacts, run, velocity, self.mass, self.gravity, kelvin, run.warnings)
 
 
-def _extrapolated(coarse: Bounce, fine: Bounce, merging: float, of_springs: float) -> tuple[ImpactContact, ...]:
+def _extrapolated(
+    coarse: Bounce, fine: Bounce, merging: float, of_springs: float
+) -> tuple[tuple[ImpactContact, ...], float]:
     """Return the contacts of two runs, one with half the steps of the other; none if the contacts do not correspond.
 
     The error of the restitution e is that of the steps, of merged modes, and of the stiffness by springs, de ~ e ln e;
-    of an indenter that stays, the restitution that these errors of its depth allow.
+    the largest one is also returned.  Where these errors of the depth allow that an indenter leaves that stays, or
+    stays that leaves, the restitution jumps: the stated error includes that.
     """
     if [one.separates for one in coarse.contacts] != [one.separates for one in fine.contacts]:
-        return ()
-    found = []
+        return (), math.inf
+    found, largest = [], 0.0
     for one, two in zip(coarse.contacts, fine.contacts, strict=True):
         columns = [new + (new - old) / 3.0 for old, new in zip(one[:8], two[:8], strict=True)]
         start, duration, speed_in, speed_out, peak, deepest, when, last = columns
@@ -365,10 +371,11 @@ def _extrapolated(coarse: Bounce, fine: Bounce, merging: float, of_springs: floa
         lasting = duration if two.separates else math.inf
         restitution = min(speed_out / speed_in, 1.0)
         error = abs(after - before) / 3.0 + merging + of_springs * -after * math.log(after or 1.0)
-        if not two.separates and math.isfinite(two.nearest):
-            off = abs(two.nearest - one.nearest) / 3.0 + (merging + of_springs) * two.largest_depth
-            if off >= two.nearest:  # it could leave, with this speed or that of a fall by the error
-                error += math.hypot(two.speed_nearest, math.sqrt(2.0 * fine.gravity * off)) / speed_in
-                error = min(error, 1.0)
+        largest = max(largest, error)
+        if math.isfinite(two.margin):
+            off = abs(two.margin - one.margin) / 3.0 + (merging + of_springs) * two.largest_depth
+            if off >= two.margin:  # it could leave with its speed or that of a fall by the error
+                fall = 0.0 if two.separates else math.sqrt(2.0 * fine.gravity * off)
+                error = min(error + math.hypot(two.leaving, fall) / speed_in, 1.0)
         found.append(ImpactContact(start, speed_in, restitution, lasting, peak, deepest, when, last, error))
-    return tuple(found)
+    return tuple(found), largest
