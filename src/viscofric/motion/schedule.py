@@ -53,6 +53,9 @@ class Reading(float):
         found.given, found.since = given, since
         return found
 
+    def __reduce__(self) -> tuple[type[Reading], tuple[float, float]]:
+        return Reading, (self.given, self.since)
+
     def __sub__(self, other: float) -> float:
         if isinstance(other, Reading):
             return (self.given - other.given) + (self.since - other.since)
