@@ -85,23 +85,16 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     if not anchored:
         family = level_family(found, outcome.contacts, levels, outcome.iterations + 1, outcome.accuracy)
     of_anchors = _anchor_notes(best, drawn, middle, limit) if anchored else ()
-    common = found.common()
     fitted, residuals = _fitted(outcome, found.posterior)
+    common = found.common(bands, residuals, error_scale)
     level_range = limits(np.abs([one.complex_modulus(middle) for one in drawn.materials]))
     result = IdentifiedMaterial(
         **common,
-        identified=bands[0],
-        identified_storage=bands[1],
-        identified_loss=bands[2],
         anchored=anchored,
         level_range=(float(level_range[0]), float(level_range[1])),
         family=family,
         friction=fitted,
         residuals=residuals,
-        chi2=float(residuals @ residuals),
-        freedom=freedom_of(best, len(points)),
-        rms=float(np.sqrt(np.mean((residuals * points.error) ** 2))),
-        error_scale=error_scale,
         iterations=outcome.iterations,
         notes=(*points.notes, *doubts, *_coupling(outcome, common["material"]), *of_anchors),
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.friction.identification.iteration import AnyProblem, Weighed, most_evident
+from viscofric.friction.identification.iteration import AnyProblem, Weighed, freedom_of, most_evident
 from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.posterior import descend, draws
 from viscofric.friction.identification.problem import Problem
@@ -132,10 +132,16 @@ class Findings(Generic[AnyProblem]):
             high += 1
         return IdentifiedBand(float(omega[low]), float(omega[high]), limit, relative)
 
-    def common(self) -> dict[str, Any]:
+    def common(self, bands: Sequence[IdentifiedBand], residuals: Array, error_scale: float) -> dict[str, Any]:
         """Return what the results of all identifications have in common, by its name in `Identified`."""
         material, problem = self.material(self.best.minimum.place, self.posterior.covariance), self.best.problem
+        names = ("identified", "identified_storage", "identified_loss")
         return {
+            **dict(zip(names, bands, strict=True)),
+            "chi2": float(residuals @ residuals),
+            "freedom": freedom_of(self.best, len(residuals)),
+            "rms": float(np.sqrt(np.mean((residuals * problem.point_errors) ** 2))),
+            "error_scale": error_scale,
             "material": material,
             "samples": self.drawn,
             "shift_factors": material.shift,

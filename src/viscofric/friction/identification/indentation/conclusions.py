@@ -56,16 +56,9 @@ def conclude(
     if narrow:
         bands[2] = IdentifiedBand(middle, middle, limit, relative=False)
     found = MaterialFromIndentation(
-        **findings.common(),
-        identified=bands[0],
-        identified_storage=bands[1],
-        identified_loss=bands[2],
+        **findings.common(bands, residuals, error_scale),
         anchored=True,
         records=fitted,
-        chi2=float(residuals @ residuals),
-        freedom=freedom_of(best, len(problem.errors)),
-        rms=float(np.sqrt(np.mean((residuals * problem.errors) ** 2))),
-        error_scale=error_scale,
         common_errors=_common_errors(usable, posterior),
         notes=(*usable.notes, *_doubts(fitted, error_scale), *_shared(best, residuals, error_scale), *narrow),
     )

@@ -46,6 +46,13 @@ class Trial(NamedTuple):
         walls = indenter.has_walls
         return Springs(disc_profile(indenter, s, edge), s, both_sides(s), instantaneous, strengths[1:], tau, walls)
 
+    def logarithm(self, value: Array, change: Array, measured: Array) -> tuple[Array, Array]:
+        """Return `logarithm` of values by springs, and its derivatives from theirs (n, 2 + m), the first by 1/E_inf."""
+        log_value, slope = logarithm(value, measured)
+        change = change * slope[:, None]
+        change[:, 0] *= self.plane_strain * float(np.exp(self.compliances[0]))
+        return log_value, change
+
     def creep(self, time: float) -> float:
         """Return (1−ν²) J(t), with the compliance of the indenter, 1/Pa."""
         strengths = np.exp(self.compliances)

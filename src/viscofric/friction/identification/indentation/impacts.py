@@ -92,9 +92,7 @@ class Impacts(Contact):
         """Return the measured quantities for a material, solved by springs."""
         solved = [self._impact(trial, float(speed)) for speed in self.record.speed]
         value, change, moved = (np.concatenate(list(zip(*column, strict=True))) for column in zip(*solved, strict=True))
-        log_value, slope = logarithm(value, self.response)
-        change = change * slope[:, None]
-        change[:, 0] *= trial.plane_strain * float(np.exp(trial.compliances[0]))
+        log_value, change = trial.logarithm(value, change, self.response)
         columns = np.zeros((len(self), 3))
         if self.shared.radius > 0.0:
             columns[:, 0] = logarithm(moved, self.response)[0] - log_value

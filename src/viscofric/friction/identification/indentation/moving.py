@@ -64,9 +64,7 @@ class Moving(RowsContact):
         """Return the response of a material, solved by springs."""
         time, edge = self._steps(trial)
         value, change = self._response(trial, time, edge, self.indenter, self.values, derivatives=True)
-        log_value, slope = logarithm(value, self.response)
-        change = change * slope[:, None]
-        change[:, 0] *= trial.plane_strain * float(np.exp(trial.compliances[0]))
+        log_value, change = trial.logarithm(value, change, self.response)
         columns = np.zeros((len(self), 3))
         for place, (indenter, values) in self._moved.items():
             moved, _ = self._response(trial, time, edge, indenter, values, derivatives=False)
