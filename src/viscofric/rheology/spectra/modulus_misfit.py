@@ -85,9 +85,9 @@ class Misfit(ABC):
     def relaxed(self, tau: Array) -> NDArray[Any]:
         """Return the compliance of modes of strength one, (P, n)."""
 
-    @abstractmethod
     def moved(self, relaxed: NDArray[Any], C: Array, tau: Array) -> NDArray[Any]:
         """Return the change of the compliance of modes C with ln τ, (P, n), which is that with the ln of the rate."""
+        return np.asarray(relaxed * C * (relaxed - 1.0))  # of 1/(1 + sτ)
 
     @abstractmethod
     def residual(self, compliance: NDArray[Any]) -> Array:
@@ -128,10 +128,6 @@ class ModulusMisfit(CurveMisfit):
     def relaxed(self, tau: Array) -> ComplexArray:
         """Return 1/(1 + iωτ), the compliance of modes of strength one, (N, n)."""
         return np.asarray(1.0 / (1.0 + 1j * np.outer(self.angular_frequency, tau)))
-
-    def moved(self, relaxed: NDArray[Any], C: Array, tau: Array) -> NDArray[Any]:
-        """Return the change of the compliance of modes with ln τ, (N, n)."""
-        return np.asarray(relaxed * C * (relaxed - 1.0))
 
     def relative(self, tau: Array) -> tuple[Array, Array]:
         """Return rows whose products with the strengths should be 1, and 0: S/S_measured, real and imaginary."""

@@ -92,10 +92,6 @@ class RelaxationMisfit(StepMisfit):
         """Return 1/(1 + sτ) at all nodes s of all times, (N NODES/2, n)."""
         return np.asarray(1.0 / (1.0 + np.outer(np.outer(self.rates, self._nodes).ravel(), tau)))
 
-    def moved(self, relaxed: NDArray[Any], C: Array, tau: Array) -> NDArray[Any]:
-        """Return the change of the compliance of modes with ln τ, (N NODES/2, n)."""
-        return np.asarray(relaxed * C * (relaxed - 1.0))
-
     def residual(self, compliance: NDArray[Any]) -> Array:
         """Return ln E measured less computed, (N,)."""
         modulus = self._modulus(compliance)

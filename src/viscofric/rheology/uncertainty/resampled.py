@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from typing import Any
 
@@ -127,37 +128,12 @@ FURTHER = 1.5  # of ln τ
 TRIES = 10
 
 
-class Beside(Misfit):
-    """A misfit of modes beside others, whose compliance (P,) is given."""
-
-    def __init__(self, misfit: Misfit, compliance: NDArray[Any]) -> None:
-        self.misfit, self.given = misfit, compliance
-        self.rates, self.sizes, self.target = misfit.rates, misfit.sizes, misfit.target
-        self.least_glass, self.glass_within = misfit.least_glass, misfit.glass_within
-
-    def ends_of(self, lowest: float, highest: float) -> tuple[float, float]:
-        """Return the ends of the retardation times."""
-        return self.misfit.ends_of(lowest, highest)
-
-    def relaxed(self, tau: Array) -> NDArray[Any]:
-        """Return the compliance of modes of strength one, (P, n)."""
-        return self.misfit.relaxed(tau)
-
-    def moved(self, relaxed: NDArray[Any], C: Array, tau: Array) -> NDArray[Any]:
-        """Return the change of the compliance of modes with ln τ, (P, n)."""
-        return self.misfit.moved(relaxed, C, tau)
-
-    def residual(self, compliance: NDArray[Any]) -> Array:
-        """Return logarithms measured less computed, (mN,)."""
-        return self.misfit.residual(compliance + self.given)
-
-    def jacobian(self, compliance: NDArray[Any], change: NDArray[Any]) -> Array:
-        """Return the change of the computed logarithms, (mN, k)."""
-        return self.misfit.jacobian(compliance + self.given, change)
-
-    def relative(self, tau: Array) -> tuple[Array, Array]:
-        """Return rows and aims of a start, in which the given compliance is left out."""
-        return self.misfit.relative(tau)
+def beside(misfit: Misfit, given: NDArray[Any]) -> Misfit:
+    """Return the misfit of modes beside others, whose compliance (P,) is given; a start leaves these out."""
+    found = copy.copy(misfit)
+    found.residual = lambda compliance: misfit.residual(compliance + given)  # type: ignore[method-assign]
+    found.jacobian = lambda compliance, change: misfit.jacobian(compliance + given, change)  # type: ignore[method-assign]
+    return found
 
 
 class Refit:
@@ -208,9 +184,9 @@ class Refit:
                 trial[side] = self._beyond(float(loss), steps)
                 if not np.any(trial[side]):
                     break
-                beside = Beside(misfit, relaxed @ trial.ravel())
-                other = self._fitted(beside, tau, found)
-                rise = np.sum((beside.misses(other) / noise) ** 2) - least
+                rest = beside(misfit, relaxed @ trial.ravel())
+                other = self._fitted(rest, tau, found)
+                rise = np.sum((rest.misses(other) / noise) ** 2) - least
                 if 2.0 * self.random.standard_exponential() > rise:
                     drawn, found = trial, other
                     break
