@@ -221,7 +221,8 @@ def test_kept_fields_of_a_rough_surface_are_drawn_on_a_whole_period(
         del found["fields"]
     places = {name: (name, 1e-5 * np.arange(count)) for name, count in zip("xy", points, strict=True)}
     reported = {"seed": 2, "mean_pressure": 5e4, "temperature": 333.15, "speed": 0.1}
-    found["fields/1"] = xr.DataTree(xr.Dataset({"pressure": (("x", "y"), pressure)}, places | reported))
+    kept = {"pressure": (("x", "y"), pressure), "displacement": (("x", "y"), np.zeros(points))}
+    found["fields/1"] = xr.DataTree(xr.Dataset(kept, places | reported))
     figure = contacts(found)
     assert figure is not None
     axes = figure.axes[0]

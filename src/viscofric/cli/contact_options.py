@@ -16,7 +16,6 @@ from viscofric.cli.output import together
 if TYPE_CHECKING:
     from viscofric.roughness.topography import Topography
 
-#: Options of the indenter alone.
 indenter_options = together(
     click.option("--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'."),
     click.option(
@@ -53,7 +52,6 @@ indenter_options = together(
 )
 #: Options, one of which says what shape it is.
 SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")
-#: Options of a rough surface instead of an indenter, besides --spacing and --height-unit.
 surface_options = together(
     click.option(
         "--surface",
@@ -192,7 +190,6 @@ def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
     return NamedIndenter(made, words, {"shape": shape, "file": str(path), "points": points, "spacing": spacing})
 
 
-#: The direction of the motion.
 direction_option = click.option(
     "--direction",
     metavar="ANGLE|DX,DY",
@@ -200,7 +197,6 @@ direction_option = click.option(
     show_default=True,
     help="Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
 )
-#: Options of an elastic indenter.
 elastic_options = together(
     click.option(
         "--indenter-modulus", metavar="E", help="Modulus of an elastic indenter, e.g. '200 GPa' [default: rigid]."
@@ -212,7 +208,6 @@ elastic_options = together(
         help="Poisson's ratio of an elastic indenter [default: 0.3].",
     ),
 )
-#: Options of a contact.
 contact_options = together(
     direction_option,
     elastic_options,

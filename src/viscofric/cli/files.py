@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
 
 PICTURES, CSV, JSON, DATA = (".png", ".svg", ".pdf"), (".csv",), (".json",), (".nc", ".csv")
-#: What the command line calls standard input and standard output.
 DASH = Path("-")
 _INPUT = "standard input"
 
@@ -63,7 +62,6 @@ class Named(click.Path):
 
 #: A file to be written, or to be read.
 FILE = Named(dir_okay=False)
-#: A file to be written, or `-` for standard output.
 OUT = click.Path(path_type=Path, dir_okay=False, allow_dash=True)
 
 

@@ -21,7 +21,6 @@ _OF_CURVE = 120
 #: Options that a file of the history replaces.
 _STAGES = ("load_time", "dwell", "slide", "strokes")
 _CONTROLS = ("load", "indentation", "pressure")
-#: Options of a history.
 history_options = together(
     click.option(
         "--history",

@@ -36,7 +36,6 @@ _SIZES = ("indentation", "area", "half_width")
 #: What an anchor takes besides the modulus or the size.
 _OF_MODULUS, _OF_SIZE = ("frequency", "temperature"), ("speed", "temperature", "load")
 
-#: Options of an anchor.
 anchor_options = together(
     click.option(
         "--anchor-modulus", metavar="E", help="Known |E| at one frequency, e.g. '8 MPa'; fixes the magnitude."

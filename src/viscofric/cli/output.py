@@ -28,7 +28,6 @@ def together(*options: Decorator) -> Decorator:
     return add
 
 
-#: A folder to be written into.
 FOLDER = Named(file_okay=False)
 
 #: Help of `--json` where a study runs.

@@ -43,7 +43,6 @@ GROUPS = {
         "completion": "Print the completion script for a shell.",
     },
 }
-#: All commands in their order.
 COMMANDS = {name: words for group in GROUPS.values() for name, words in group.items()}
 
 _ABOUT = "Hysteresis friction (rolling resistance) of rubber, from laboratory data."

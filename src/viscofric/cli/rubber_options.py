@@ -50,7 +50,6 @@ def column_options(example: str, of: str = "", condition: str = "") -> Decorator
     )
 
 
-#: Options of the rubber.
 rubber_options = together(
     click.option(
         "--material",
@@ -207,7 +206,6 @@ def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:
     return f"{words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
 
 
-#: Options of a table of shift factors whose header is not understood.
 shift_factor_options = column_options("'log10_shift_factor=lg'", "shift-factor-", "Of the shift factors: ")
 
 deformation_option = click.option(
@@ -218,7 +216,6 @@ deformation_option = click.option(
 modulus_unit_option = click.option(
     "--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa."
 )
-#: Options for what a DMA file may not say itself.
 reading_options = together(
     deformation_option,
     click.option(

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.material import MaterialTable
 
 _KINDS = ("creep", "relaxation", "master_curve")
-#: Tests beside the sweeps.
 _BESIDE = ("with_creep", "with_relaxation")
 _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")
 

@@ -29,7 +29,7 @@ _SAME = 1e-9  # relative
 
 
 class Shown(NamedTuple):
-    """A contact with the conditions that it was solved at, where they are known (SI, by name)."""
+    """A contact with the conditions that it was solved at, and its friction coefficient (SI, by name)."""
 
     contact: Contact
     conditions: dict[str, Any]
@@ -41,63 +41,38 @@ def shown_contacts(tree: xr.DataTree) -> list[Shown]:
     if not found:
         return []
     speed, friction = (
-        np.array([float(conditions.get(name, math.nan)) for _, conditions in found]) for name in _CHOSEN_BY
+        np.array([conditions[name] for _, conditions in found]) for name in ("speed", "friction_coefficient")
     )
-    if not np.isfinite(speed).any():
-        chosen = {0: ""}
-    else:
-        chosen = {}
-        for index, title in (
-            (int(np.nanargmin(speed)), "slowest"),
-            (int(np.nanargmax(friction)) if np.isfinite(friction).any() else None, "most friction"),
-            (int(np.nanargmax(speed)), "fastest"),
-        ):
-            if index is not None:
-                chosen[index] = f"{chosen[index]}, {title}" if index in chosen else title
-    order = sorted(chosen, key=lambda index: speed[index])
-    is_line = found[order[0]][0]["y"].size == 1
+    titles: dict[int, list[str]] = {int(np.argmin(speed)): ["slowest"]}
+    if np.isfinite(friction).any():
+        titles.setdefault(int(np.nanargmax(friction)), []).append("most friction")
+    titles.setdefault(int(np.argmax(speed)), []).append("fastest")
+    order = sorted(titles, key=lambda index: speed[index])
     prediction, named = group(tree, "prediction"), _varied(found)
     if prediction is not None and SEED in prediction.dims:  # also where all kept fields are of one seed
         named.add(SEED)
     return [
-        Shown(_contact(*found[index], chosen[index] if len(found) > 1 else "", named), found[index][1])
+        Shown(_contact(*found[index], ", ".join(titles[index]) if len(found) > 1 else "", named), found[index][1])
         for index in order
-        if (found[index][0]["y"].size == 1) == is_line
     ]
-
-
-_CHOSEN_BY = ("speed", "friction_coefficient")
 
 
 def _kept(tree: xr.DataTree) -> list[tuple[xr.Dataset, dict[str, Any]]]:
     """Return the fields that the results keep, each with the conditions of its case and its friction."""
-    parent = tree.children.get(FIELDS)
-    if parent is None:
+    if FIELDS not in tree.children:
         return []
     kept = []
     cases = solved_cases(tree)
-    for child in parent.children.values():
+    for child in tree.children[FIELDS].children.values():
         fields = child.to_dataset()
-        if "y" not in fields.dims and {"pressure", "x"} <= set(fields.variables):  # a line contact
+        if "y" not in fields.dims:  # a line contact
             fields = fields.expand_dims(y=[0.0], axis=1)
-        if not {"pressure", "x", "y"} <= set(fields.variables) or not (fields["pressure"].values > 0.0).any():
-            continue
-        conditions = {name: _stated(fields, name) for name in (*_CONDITIONS, "friction_coefficient")}
-        conditions = {name: value for name, value in conditions.items() if value is not None}
-        if "mean_pressure" in fields.variables:  # of a rough surface: `pressure` is the field
-            conditions["pressure"] = _stated(fields, "mean_pressure")
-        if "friction_coefficient" not in conditions and cases is not None:
-            conditions["friction_coefficient"] = _friction_of(cases, conditions)
+        conditions = {name: fields[name].item() for name in _CONDITIONS if name in fields.coords}
+        if "mean_pressure" in fields.coords:  # of a rough surface: `pressure` is the field
+            conditions["pressure"] = fields["mean_pressure"].item()
+        conditions["friction_coefficient"] = math.nan if cases is None else _friction_of(cases, conditions)
         kept.append((fields, conditions))
     return kept
-
-
-def _stated(fields: xr.Dataset, name: str) -> Any:
-    """Return what fields say of their case: a scalar among their variables or attributes."""
-    value = fields[name].values if name in fields.variables else fields.attrs.get(name)
-    if value is None or np.size(value) != 1:
-        return None
-    return np.ravel(value)[0].item() if isinstance(value, np.ndarray | np.generic) else value
 
 
 def _friction_of(cases: xr.Dataset, conditions: dict[str, Any]) -> float:
@@ -118,26 +93,14 @@ def _varied(found: list[tuple[xr.Dataset, dict[str, Any]]]) -> set[str]:
 
 
 def _contact(fields: xr.Dataset, conditions: dict[str, Any], title: str, named: set[str]) -> Contact:
-    words = [_in_words(fields, name, conditions[name]) for name in _CONDITIONS if name in conditions and name in named]
-    pressure = fields["pressure"].transpose("x", "y").values.astype(float)
-    none = np.full(pressure.shape, np.nan)
-    displacement = fields["displacement"].transpose("x", "y").values.astype(float) if "displacement" in fields else none
-    friction = float(conditions.get("friction_coefficient", math.nan))
-    return Contact(title, ", ".join(words), friction, *_places(fields), pressure, displacement)
-
-
-def _in_words(fields: xr.Dataset, name: str, value: Any) -> str:
-    units = {"load": "N", "radius": "m", "thickness": "m"}
-    labelled = (
-        fields
-        if name in fields.variables
-        else fields.assign_coords({name: ((), value, {"units": units.get(name, "")})})
+    words = [
+        value_label(fields, name, conditions[name]) for name in _CONDITIONS if name in conditions and name in named
+    ]
+    x, y = (fields[name].values.astype(float) for name in ("x", "y"))
+    pressure, displacement = (
+        fields[name].transpose("x", "y").values.astype(float) for name in ("pressure", "displacement")
     )
-    return value_label(labelled, name, value)
-
-
-def _places(fields: xr.Dataset) -> tuple[Array, Array]:
-    return fields["x"].values.astype(float), fields["y"].values.astype(float)
+    return Contact(title, ", ".join(words), conditions["friction_coefficient"], x, y, pressure, displacement)
 
 
 def trails(tree: xr.DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
@@ -149,13 +112,12 @@ def trails(tree: xr.DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
     found = [_calculated_trail(tree, contact, conditions) for contact, conditions in shown]
     if any(trail is None for trail in found):
         found = [(contact.x, contact.centre_line(contact.displacement)) for contact, _ in shown]
-    return [trail for trail in found if trail is not None and np.isfinite(trail[1]).all()]
+    return [trail for trail in found if trail is not None]
 
 
 def _calculated_trail(tree: xr.DataTree, contact: Contact, conditions: dict[str, Any]) -> tuple[Array, Array] | None:
     spectrum, poisson_ratio = group(tree, "spectrum"), number(tree.attrs, "poisson_ratio")
-    known = {"speed", "temperature"} <= set(conditions)
-    if spectrum is None or spectrum["retardation_time"].ndim != 1 or not math.isfinite(poisson_ratio) or not known:
+    if spectrum is None or spectrum["retardation_time"].ndim != 1 or not math.isfinite(poisson_ratio):
         return None
     if np.isfinite(conditions.get("thickness", math.nan)) or "material" in conditions:
         return None
