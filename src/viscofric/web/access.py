@@ -12,7 +12,10 @@ from functools import cache
 from typing import TYPE_CHECKING
 from urllib.parse import parse_qs
 
-from viscofric.web.replies import headers_of, refuse, reply, with_headers
+from starlette.datastructures import Headers
+from starlette.responses import HTMLResponse, RedirectResponse, Response
+
+from viscofric.web.replies import UNKEPT, refusal, with_headers
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Receive, Scope, Send
@@ -113,16 +116,16 @@ class Access:
             return
         if scope["type"] != "http":
             return
-        headers = headers_of(scope)
-        refusal = self._refusal(scope, headers)
-        if isinstance(refusal, str):
-            await refuse(scope, send, 403, refusal)
-        elif refusal:
-            await self._welcome(headers, send)
+        headers = Headers(scope=scope)
+        refused = self._refused(scope, headers)
+        if isinstance(refused, str):
+            await refusal(scope, 403, refused)(scope, receive, send)
+        elif refused:
+            await self._welcome(headers)(scope, receive, send)
         else:
             await self.app(scope, receive, with_headers(send, self.door.program))
 
-    def _refusal(self, scope: Scope, headers: dict[str, str]) -> str | bool:
+    def _refused(self, scope: Scope, headers: Headers) -> str | bool:
         """Return why a request is refused; True if it brings the token in its address, False if it is let in."""
         origin = headers.get("origin")
         if not self.door.is_host(headers.get("host", "")) or (origin is not None and not self.door.is_origin(origin)):
@@ -136,26 +139,21 @@ class Access:
             return False
         return False if self.door.is_session(_cookie(headers, self.door.cookie)) else _NO_TOKEN
 
-    async def _welcome(self, headers: dict[str, str], send: Send) -> None:
+    def _welcome(self, headers: Headers) -> Response:
         """Hand out the cookie and lead to the page.
 
         A link on another page (a terminal in a browser) makes the browser hold back the cookie from a redirection,
         but not from what this reply itself requests.
         """
-        cookie = f"{self.door.cookie}={self.door.session}; Path=/; HttpOnly; SameSite=Strict"
-        more = [(b"set-cookie", cookie.encode()), (b"content-type", b"text/html; charset=utf-8")]
+        reply: Response = RedirectResponse("/", 303, UNKEPT)
         if headers.get("sec-fetch-site") == "cross-site":
-            await reply(
-                send,
-                200,
-                b'<!doctype html><title>viscofric</title><a href="/">viscofric</a>',
-                [*more, (b"refresh", b"0; url=/")],
-            )
-        else:
-            await reply(send, 303, b"", [*more, (b"location", b"/")])
+            page = '<!doctype html><title>viscofric</title><a href="/">viscofric</a>'
+            reply = HTMLResponse(page, headers={**UNKEPT, "refresh": "0; url=/"})
+        reply.headers["set-cookie"] = f"{self.door.cookie}={self.door.session}; Path=/; HttpOnly; SameSite=Strict"
+        return reply
 
 
-def _cookie(headers: dict[str, str], name: str) -> str:
+def _cookie(headers: Headers, name: str) -> str:
     """Return the value of a cookie; those of other programs at this host, which may be anything, are passed over."""
     for one in headers.get("cookie", "").split(";"):
         key, _, value = one.strip().partition("=")

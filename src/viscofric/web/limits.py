@@ -5,7 +5,9 @@ from __future__ import annotations
 import asyncio
 from typing import TYPE_CHECKING
 
-from viscofric.web.replies import headers_of, refuse
+from starlette.datastructures import Headers
+
+from viscofric.web.replies import refusal
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,10 +30,10 @@ class Limits:
             await self.app(scope, receive, send)
             return
         most = self.largest(scope["path"])
-        words = f"The body has more than {most / 1e6:g} MB."
-        announced = headers_of(scope).get("content-length", "0")
+        too_large = refusal(scope, 413, f"The body has more than {most / 1e6:g} MB.")
+        announced = Headers(scope=scope).get("content-length", "0")
         if announced.isdecimal() and int(announced[:20]) > most:
-            await refuse(scope, send, 413, words)
+            await too_large(scope, receive, send)
             return
         body = _Body(receive, most, self.pause)
         replied = _Replied(send)
@@ -39,15 +41,11 @@ class Limits:
             await self.app(scope, body.receive, replied.send)
         except _TooLarge:
             if not replied.begun:
-                await refuse(scope, send, 413, words)
+                await too_large(scope, receive, send)
         except _TooSlow:
             if not replied.begun:
-                await refuse(
-                    scope,
-                    send,
-                    408,
-                    f"The body came too slowly: after {self.pause:g} s, at least {_LEAST_RATE / 1e3:g} kB/s.",
-                )
+                words = f"The body came too slowly: after {self.pause:g} s, at least {_LEAST_RATE / 1e3:g} kB/s."
+                await refusal(scope, 408, words)(scope, receive, send)
 
 
 class _TooLarge(BaseException):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING
+
+from starlette.datastructures import MutableHeaders
+from starlette.responses import JSONResponse, PlainTextResponse, Response
 
 if TYPE_CHECKING:
     from starlette.types import Message, Scope, Send
@@ -22,18 +24,15 @@ _CONTENT = "; ".join(
         "frame-ancestors 'none'",
     ]
 )
-HEADERS = [
-    (b"content-security-policy", _CONTENT.encode()),
-    (b"x-content-type-options", b"nosniff"),
-    (b"referrer-policy", b"no-referrer"),
-    (b"cross-origin-opener-policy", b"same-origin"),
-    (b"cross-origin-resource-policy", b"same-origin"),
-]
-
-
-def headers_of(scope: Scope) -> dict[str, str]:
-    """Return the headers of a request, by their names in small letters."""
-    return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
+HEADERS = {
+    "content-security-policy": _CONTENT,
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+}
+#: Headers of a reply that comes from no page of the server.
+UNKEPT = {**HEADERS, "cache-control": "no-store"}
 
 
 def with_headers(send: Send, program: str) -> Send:
@@ -41,22 +40,15 @@ def with_headers(send: Send, program: str) -> Send:
 
     async def sending(message: Message) -> None:
         if message["type"] == "http.response.start":
-            message["headers"] = [*message.get("headers", ()), *HEADERS, (b"x-program", program.encode())]
+            MutableHeaders(scope=message).update({**HEADERS, "x-program": program})
         await send(message)
 
     return sending
 
 
-async def refuse(scope: Scope, send: Send, status: int, words: str) -> None:
-    """Reply with a sentence, as JSON to a script."""
-    as_json = scope["path"].startswith("/api/")
-    body = json.dumps({"message": words}) if as_json else words + "\n"
-    kind = b"application/json" if as_json else b"text/plain; charset=utf-8"
-    await reply(send, status, body.encode(), [(b"content-type", kind), (b"connection", b"close")])
-
-
-async def reply(send: Send, status: int, body: bytes, headers: list[tuple[bytes, bytes]]) -> None:
-    """Send a whole reply."""
-    more = [(b"content-length", str(len(body)).encode()), (b"cache-control", b"no-store"), *HEADERS]
-    await send({"type": "http.response.start", "status": status, "headers": [*headers, *more]})
-    await send({"type": "http.response.body", "body": body})
+def refusal(scope: Scope, status: int, words: str) -> Response:
+    """Return the reply of a sentence, as JSON to a script."""
+    headers = {**UNKEPT, "connection": "close"}
+    if scope["path"].startswith("/api/"):
+        return JSONResponse({"message": words}, status, headers)
+    return PlainTextResponse(f"{words}\n", status, headers)
