@@ -96,6 +96,16 @@ def test_an_amplitude_sweep_is_read_on_its_way_up(tmp_path):
     assert "points-left-out" in codes(found.notes)
 
 
+def test_a_table_without_amplitudes_says_so(tmp_path):
+    rows = [f"60,10,{0.1 * 2**n},{5 - 0.3 * n},0.5" for n in range(10)]
+    path = tmp_path / "payne.csv"
+    path.write_text("\n".join(["T (degC),f (Hz),pp strain (%),G' (MPa),G'' (MPa)", *rows]), encoding="utf-8")
+    with pytest.raises(vf.DataFileError, check=lambda error: error.code == "missing-columns"):
+        vf.read_amplitude_sweep(path)
+    named = vf.read_amplitude_sweep(path, columns={"strain_amplitude": "pp strain (%)"})
+    assert named.strain_amplitude[-1] == pytest.approx(0.512)
+
+
 def test_read_dma_names_the_reader_of_amplitude_sweeps(tmp_path):
     path = written(tmp_path, amplitudes(np.geomspace(1e-3, 0.3, 15)), PAYNE)
     with refused("amplitude-sweep", vf.DataFileError) as caught:

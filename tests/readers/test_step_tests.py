@@ -63,6 +63,36 @@ def test_stress_and_strain_give_the_response(tmp_path):
     np.testing.assert_allclose(relaxation.tests[0].response, 2e3 / strain / 0.01, rtol=1e-6)
 
 
+def test_a_strain_without_a_unit_is_refused(tmp_path):
+    """It may be in per cent: a hundred times the compliance."""
+    columns = [TIME, 0.1 * TIME**0.2, np.full(13, 10.0)]
+    for heading, fraction in (("strain (%)", 0.01), ("strain (-)", 1.0)):
+        path = written(tmp_path / "creep_25C.txt", ("t (s)", heading, "stress (kPa)"), columns)
+        creep = vf.read_step_tests(path, deformation="tension").tests[0]
+        np.testing.assert_allclose(creep.response, fraction * 1e-5 * TIME**0.2, rtol=1e-6)
+    path = written(tmp_path / "creep_25C.txt", ("t (s)", "strain", "stress (kPa)"), columns)
+    with refused("wrong-unit", DataFileError, naming="'strain'"):
+        vf.read_step_tests(path, deformation="tension")
+
+
+def test_units_and_temperatures_of_tables_below_each_other(tmp_path):
+    """Names such as J(t) hold no unit; the line above each table has its temperature."""
+    lines = []
+    for celsius in (25, 40):
+        lines += [
+            f"Test at {celsius} °C",
+            "t;Relaxation modulus G(t)",
+            "s;MPa",
+            *(f"{t:.6g};{1 / t:.6g}" for t in TIME),
+        ]
+    (tmp_path / "all.csv").write_text("\n".join(lines), encoding="utf-8")
+    tests = vf.read_step_tests(tmp_path / "all.csv")
+    assert (tests.kind, tests.deformation) == ("relaxation", "shear")
+    np.testing.assert_allclose(tests.temperatures, [298.15, 313.15])
+    np.testing.assert_allclose(tests.tests[1].response, 1e6 / TIME, rtol=1e-5)
+    assert codes(tests) == ["temperature-from-title"]
+
+
 def test_units_may_be_given(tmp_path):
     path = written(tmp_path / "a.csv", ("Time", "Creep Compliance"), [TIME, 1e-7 * TIME**0.2])
     given = {"temperature": "25 degC", "deformation": "shear"}

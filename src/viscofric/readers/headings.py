@@ -28,10 +28,10 @@ _SEPARATED = re.compile(
     r"|(?:\s+in\s+|_in_|\s*,\s*|_)(?P<letter>[CKFNsm]))$"
 )
 _LETTER = re.compile(r"^(?P<name>.*temp[^\s_]*|T)[\s_]+(?P<unit>[ckf])$", re.IGNORECASE)
-#: "log10(aT)", "tan(δ)", "a(T)": brackets that hold an argument, not a unit.
+#: "log10(aT)", "tan(δ)", "a(T)", "compliance J(t)": brackets that hold an argument, not a unit.
 _FUNCTION = re.compile(
     r"((log[\s_]*10|log|lg|ln|tan)[\s_]*[(\[][^()\[\]]*"
-    r"|((log[\s_]*10|log|lg|ln)?[\s_]*(a|α|alpha)\s*[(\[]\s*T\s*))[)\]]",
+    r"|((log[\s_]*10|log|lg|ln)?[\s_]*(a|α|alpha)\s*[(\[]\s*T\s*)|(.*[\s_])?[JDEG]\s*\(\s*t\s*)[)\]]",
     re.IGNORECASE,
 )
 #: "log f (Hz)", "log10(E'/Pa)", "ln(ω) (rad/s)": a logarithm, and what it is of.

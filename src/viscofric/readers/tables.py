@@ -35,6 +35,10 @@ _BLANKS = "blanks"
 _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 
 
+#: A number at the beginning of a cell, but not that of "1/s".
+_VALUE = re.compile(r"[+−-]?[\d.,]++(?!\s*/)")
+
+
 def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
     """Return the tables of a file by the names of their sheets, ``""`` for text.
 
@@ -212,7 +216,7 @@ def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:
 def _stated(column: Column, cell: str) -> str:
     """Return the unit in a cell under a heading of the vocabulary, "" for a value or for nothing."""
     unit = _unit(cell)
-    return unit if column.quantity and unit.lower() not in MISSING and unit[0] not in "0123456789+-−." else ""
+    return unit if column.quantity and unit.lower() not in MISSING and not _VALUE.match(unit) else ""
 
 
 def _with_units(path: str, columns: Sequence[Column], row: int, cells: Sequence[str]) -> tuple[Column, ...]:

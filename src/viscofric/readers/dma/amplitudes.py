@@ -12,10 +12,12 @@ from viscofric.arrays import Indices
 from viscofric.data import Deformation
 from viscofric.errors import DataFileError, short_notes
 from viscofric.notes import Note
+from viscofric.readers.dma.names import DMA
 from viscofric.readers.dma.ramps import by_frequency, legs, points_of
 from viscofric.readers.dma.read import read_files
 from viscofric.readers.dma.readings import AS_SWEEPS, Points
 from viscofric.readers.dma.sweep_checks import SWEPT_AMPLITUDE
+from viscofric.readers.tables import name_columns
 from viscofric.units import Quantity
 
 #: A sweep has so many amplitudes at least.
@@ -82,6 +84,10 @@ def read_amplitude_sweep(
         paths, "read_amplitude_sweep", "amplitude", deformation, temperature, modulus_unit, columns, sheet
     )
     points, keep, found = points_of(readings, deformation)
+    if np.all(np.isnan(points.strain_amplitude)):
+        remedy = name_columns(DMA.key, ("strain amplitude",))
+        problem = "has no column of strain amplitudes with a unit such as '%'"
+        raise DataFileError(found.source, problem, code="missing-columns", remedy=remedy)
     keep = keep[points.strain_amplitude[keep] > 0.0]
     taken = _longest(points, keep) if len(keep) else keep
     if not len(taken):

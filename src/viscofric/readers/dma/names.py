@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from viscofric.notes import Note, setting
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.headings import Vocabulary, heading, with_primes
@@ -13,7 +15,9 @@ from viscofric.units import CELSIUS_ZERO
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from viscofric.arrays import Array
     from viscofric.data import Deformation
+    from viscofric.readers.table import Table
 
     #: Kind of the moduli and the words of the file that state it, or (None, "").
     Said = tuple[Deformation | None, str]
@@ -199,7 +203,17 @@ def temperature_in_name(name: str) -> float | None:
     return kelvin if kelvin > 0.0 else None
 
 
-def temperature_of_title(cells: Sequence[str]) -> float | None:
+#: Where there is no column of temperature.
+FROM_TITLES = Note("temperature-from-title", "Temperatures were taken from the line above each table.")
+
+
+def temperatures_of_titles(table: Table) -> Array | None:
+    """Return the temperature of each row, K, by the lines above several tables; None if one of them gives none."""
+    found = [_temperature_of_title(title) for title in table.titles]
+    return None if table.block is None or None in found else np.array(found)[table.block - 1]
+
+
+def _temperature_of_title(cells: Sequence[str]) -> float | None:
     """Return the temperature in a line above a table, such as ``T = 25 °C`` or ``Temperature (°C)`` and ``25``, K."""
     filled = [cell.strip() for cell in cells if cell.strip()]
     if len(filled) == 2 and is_number(filled[1]):

@@ -10,7 +10,15 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.errors import not_needed
 from viscofric.notes import Note, Remedy, setting
-from viscofric.readers.dma.names import SET_TEMPERATURE, STEP, STRAIN_AMPLITUDE, TEMPERATURE, temperature_in_name
+from viscofric.readers.dma.names import (
+    FROM_TITLES,
+    SET_TEMPERATURE,
+    STEP,
+    STRAIN_AMPLITUDE,
+    TEMPERATURE,
+    temperature_in_name,
+    temperatures_of_titles,
+)
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.source import STRAIN_FACTORS, Source, unit_conversion
 from viscofric.readers.table import Table
@@ -150,9 +158,11 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
             "missing-columns", f"no column for the {_COLUMN[kind]}; {STEPS.example}, this one has {table.headings()}."
         )
     factor, _ = table.conversion(table.columns[stress], "Pa")
-    fraction = STRAIN_FACTORS.get(table.columns[strain].unit.strip() or "1")
+    column = table.columns[strain]
+    fraction = STRAIN_FACTORS.get(column.unit.strip())
     if fraction is None:
-        raise table.refused("wrong-unit", f"column {table.columns[strain].heading!r} has no unit such as '%'.")
+        right = f"write it as '{column.name} (%)' or '{column.name} (-)'"
+        raise table.refused("wrong-unit", f"column {column.heading!r} has no unit of a strain; {right}.")
     said = f"The {_COLUMN[kind]} was computed from stress and strain."
     notes.append(Note("response-computed", said))
     stresses, strains = factor * table.numbers_or_missing(stress), fraction * table.numbers_or_missing(strain)
@@ -172,6 +182,10 @@ def temperature_of(table: Table, source: Source, name: str, count: int, notes: l
         return factor * table.numbers_or_missing(place) + offset
     if source.temperature is not None:
         return np.full(count, source.temperature)
+    titled = temperatures_of_titles(table)
+    if titled is not None:
+        notes.append(FROM_TITLES)
+        return titled
     found = temperature_in_name(name) or temperature_in_name(source.stem)
     if found is None:
         problem = f"no column for temperature, this table has {table.headings()}; give it, e.g. "

@@ -211,12 +211,12 @@ def _table_of_step(path: str, step: StepText) -> Table | None:
 def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: str) -> _Part:
     """Return the columns of one table in SI units."""
     notes: list[str] = []
-    columns = tuple(replace(one, unit="") if one.unit == "t" else one for one in table.columns)  # of J(t)
-    table = replace(table, columns=columns)
     time = time_of(table, notes)
     known = kind or kind_of(table, name)
     response, heading, lacks_unit = response_of(table, source, known, notes)
-    deformation, _ = said_by_columns([heading.replace("(t)", "")], [table.filled], tools_in(table.above))
+    plain = heading.replace("(t)", "").strip()
+    symbol = plain.rpartition(" ")[2]  # of "relaxation modulus G(t)"
+    deformation, _ = said_by_columns([plain, symbol], [table.filled], tools_in(table.above))
     kelvin = temperature_of(table, source, name, len(time), notes)
     return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit)
 

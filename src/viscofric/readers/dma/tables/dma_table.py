@@ -18,7 +18,7 @@ from viscofric.readers.dma.names import (
     quantity,
     said_by_columns,
     temperature_in_name,
-    temperature_of_title,
+    temperatures_of_titles,
 )
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
@@ -309,10 +309,10 @@ def _temperature(
     if source.temperature is not None:
         notes.append(Note("temperature-given", "No column holds a temperature; it was given by the user."))
         return np.full(len(angular), source.temperature)
-    titles = [temperature_of_title(title) for title in table.titles]
-    if table.block is not None and None not in titles:
-        notes.append(Note("temperature-from-title", "Temperatures were taken from the line above each table."))
-        return np.array(titles)[table.block - 1]
+    titled = temperatures_of_titles(table)
+    if titled is not None:
+        notes.append(names.FROM_TITLES)
+        return titled
     found, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
     swept = angular[angular > 0.0]
     decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
