@@ -19,8 +19,8 @@ SENTENCES = [
         lambda: SCAN.keep_wavelengths(shortest=1e-6),
         "not-periodic",
         (
-            "topography 'scan' is not periodic, so its Fourier series would ring at the edges; use window() or "
-            "mirror() first."
+            "topography 'scan' is not periodic, so its Fourier series would ring at the edges; first use window(), "
+            "which tapers its edges to the mean, or mirror(), which appends its mirror images."
         ),
     ),
     (

@@ -11,7 +11,7 @@ import numpy as np
 from viscofric.arguments import check_cost, flag, sentences, text
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.roughness import preparation, waves
 from viscofric.showing import Plotted
 from viscofric.units import Quantity, in_si, number, two_lengths
@@ -25,6 +25,20 @@ if TYPE_CHECKING:
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.periodic.surface import PeriodicSurface
     from viscofric.showing import Rows
+
+
+_FILL = Remedy(
+    "fill('harmonic') or fill('nearest').",
+    "--prepare fill or --prepare 'fill nearest'.",
+    "'fill' or 'fill nearest' in prepare.",
+    field="surface.prepare",
+)
+_PERIODIC = Remedy(
+    "window(), which tapers its edges to the mean, or mirror(), which appends its mirror images.",
+    "--prepare window, which tapers its edges to the mean, or --prepare mirror, which appends its mirror images.",
+    "'window', which tapers its edges to the mean, or 'mirror', which appends its mirror images, in prepare.",
+    field="surface.prepare",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,9 +178,9 @@ class Topography(Plotted):
         """
         if self.missing:
             raise InputError(
-                f"{self._noun}: {self.missing} of its {self.heights.size} heights are missing; fill them first, with "
-                "fill('harmonic') or fill('nearest').",
+                f"{self._noun}: {self.missing} of its {self.heights.size} heights are missing; fill them first, with ",
                 code="missing-heights",
+                remedy=_FILL,
             )
         return self.heights
 
@@ -312,9 +326,9 @@ class Topography(Plotted):
         """
         if not self.periodic:
             raise InputError(
-                f"{self._noun} is not periodic, so its Fourier series would ring at the edges; use window() or "
-                "mirror() first.",
+                f"{self._noun} is not periodic, so its Fourier series would ring at the edges; first use ",
                 code="not-periodic",
+                remedy=_PERIODIC,
             )
         heights, step = waves.passed(self.complete(), self.spacing, shortest, longest)
         return self._with(heights, step)
@@ -348,9 +362,9 @@ class Topography(Plotted):
 
         if not self.periodic:
             raise InputError(
-                f"{self._noun} is not periodic; use window(), which tapers its edges to the mean, or mirror(), which "
-                "appends its mirror images.",
+                f"{self._noun} is not periodic; use ",
                 code="not-periodic",
+                remedy=_PERIODIC,
             )
         return PeriodicSurface(self.complete(), self.spacing)
 
