@@ -29,6 +29,14 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
         "'five' in column 'storage modulus (MPa)' is not a finite number.",
     ),
     (read_dma, [DMA, "20,1,0,0.5"], "0 in column 'storage modulus (MPa)' must be above zero."),
+    (
+        read_dma,
+        [DMA, "20,0,1,5,3,0,5"],
+        (
+            "the row has 7 cells where the header names 4 columns. If decimals have commas, separate columns by "
+            "semicolons or tabs."
+        ),
+    ),
     (read_dma, [DMA, "20,1,5"], "the row has 3 cells where the header names 4 columns."),
     (
         read_dma,

@@ -108,6 +108,13 @@ def test_sheets_of_several_temperatures_are_joined_and_others_refused(tmp_path):
         read_dma(twice)
 
 
+def test_remarks_beside_the_table_need_no_heading(tmp_path):
+    path = write(
+        tmp_path / "a.xlsx", {"a": [HEADER, *([*row, "", "slipped?" * (n == 1)] for n, row in enumerate(POINTS))]}
+    )
+    assert len(read_dma(path).isotherms[0]) == len(POINTS)
+
+
 def test_sheets_of_tension_and_shear_are_refused_with_what_each_holds(tmp_path):
     shear = [[*HEADER[:2], "G' (MPa)", "G'' (MPa)"], *([T, f, E / 3, loss / 3] for T, f, E, loss in POINTS)]
     path = write(tmp_path / "both.xlsx", {"E": [HEADER, *POINTS], "G": shear})

@@ -212,6 +212,8 @@ def make_table(
             continue
         if len(cells) != len(columns):
             problem = f"the row has {len(cells)} cells where the header names {len(columns)} columns."
+            if len(cells) > len(columns) and all(cell.strip().lstrip("+-").isdecimal() for cell in cells):
+                problem += " If decimals have commas, separate columns by semicolons or tabs."
             raise DataFileError(path, problem, number, code="row-length")
         if places and not any(cells[place].strip() for place in places):
             empty += 1

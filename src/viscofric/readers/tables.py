@@ -151,8 +151,8 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     rows, header = found.rows, found.header
     _insist_on_text(path, rows[:header])
     names = list(rows[header][1])
-    while names and not names[-1].strip():
-        names.pop()
+    if any(len(cells) != len(names) for _, cells in rows[header + 1 :]):  # else remarks without a heading
+        names = _without_end(names)
     columns = words.columns(names)
     body = list(rows[header + 1 :])
     if body and _is_row_of_units(columns, body[0][1]):
