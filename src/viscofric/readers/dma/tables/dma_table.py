@@ -204,7 +204,7 @@ def deformation(tables: Sequence[Table], tools: Tools | None = None) -> Said:
     """
     moduli = [column for what in _MODULI for table in tables for column in table.columns if column.quantity == what]
     if {"tension", "shear"} <= {deformation_of(column.name) for column in moduli}:
-        problem = "one modulus is tensile (E) by its heading, the other shear (G)."
+        problem = "one modulus is tensile (E) by its heading, the other shear (G); correct the wrong heading."
         raise DataFileError(tables[0].path, problem, code="deformation-contradicts")
     tools = [tool for table in tables for tool in names.tools_in(table.above)] if tools is None else tools
     return said_by_columns([column.heading for column in moduli], [table.filled for table in tables], tools)
@@ -330,6 +330,13 @@ def _no_temperature(table: Table, decades: float) -> DataFileError:
             code="master-curve",
             remedy=AS_MASTER_CURVE,
         )
+    if table.block is not None:
+        number = int(table.block.max())
+        problem = (
+            f"no temperature of its {number} tables below each other; write it with its unit into the line above each, "
+            "such as 'T = 25 °C', or into a column."
+        )
+        return DataFileError(table.path, problem, code="no-temperature")
     return DataFileError(
         table.path,
         f"no column for temperature, this table has {table.headings()}; for a sweep at one temperature give ",
