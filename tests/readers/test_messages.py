@@ -86,7 +86,8 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
         (
             "no column for ball speed; a table of traction runs has e.g. 'temperature (degC)', 'disc speed (mm/s)', "
             "'ball speed (mm/s)', 'load (N)', 'traction force (N)', this one has 'disc speed (mm/s)', 'slip (mm/s)', "
-            "'traction force (N)', 'load (N)', 'temperature (degC)'; name them, e.g. columns={'ball_speed': 'heading'}."
+            "'traction force (N)', 'load (N)', 'temperature (degC)'; a pin or ball at rest has the speed 0; name them, "
+            "e.g. columns={'ball_speed': 'heading'}."
         ),
     ),
     (read_mtm, [MTM, "20,1,0.5,0,30"], "0 in column 'load (N)' must be above zero."),

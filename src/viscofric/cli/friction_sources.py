@@ -11,7 +11,7 @@ import click
 from viscofric.cli.files import plainly
 from viscofric.cli.output import together
 from viscofric.cli.rubber_options import column_options, find_rubber
-from viscofric.notes import dumped, note_of
+from viscofric.notes import Note, Remedy, dumped, note_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -141,9 +141,9 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
         except DataFileError as error:
             if error.code != "missing-columns":
                 raise
-            raise InputError(
-                f"{error} A table of friction curves has a column 'viscoelastic friction'.", code="missing-columns"
-            ) from error
+            note, also = error.note, " A table of friction curves has a column 'viscoelastic friction'."
+            remedy = (note.remedy or Remedy("")) + also
+            raise error.with_note(Note(note.code, note.text, note.where, remedy, note.values)) from None
     other = [path for path in paths if path not in tables]
     if other:
         raise InputError(
@@ -157,9 +157,15 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
 
 def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
     """Return the friction curves of the runs in files of a tribometer."""
+    from viscofric.errors import InputError
+    from viscofric.friction.curve_files import holds_friction_curves
     from viscofric.friction.measurement.tribometry import separate
     from viscofric.readers.mtm.read import read_mtm
 
+    curves = [path for path in paths if holds_friction_curves(path, settings.get("columns"))]
+    if curves:
+        problem = f"{curves[0]} holds friction curves, separated already; viscofric master and identify take it."
+        raise InputError(problem, code="friction-curves")
     settings = dict(settings)
     runs = read_mtm(*paths, columns=settings.pop("columns", None), sheet=settings.pop("sheet", None))
     steps = settings.pop("except_steps")

@@ -88,6 +88,8 @@ def read(source: Source) -> TractionReadings:
     lacking = missing(table)
     if lacking:
         problem = f"no column for {' or '.join(lacking)}; {TRACTION.example}, this one has {table.headings()}"
+        if "ball speed" in lacking:
+            problem += "; a pin or ball at rest has the speed 0"
         raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, lacking), lacking)
     load, temperature = (_positive(table, *what) for what in (("load", "N", "zero"), ("temperature", "K", _COLDEST)))
     notes: list[Note] = []
