@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import viscofric as vf
 from refusals import refused
+from viscofric.notes import codes
 
 N, M = 48, 32
 X, Y = np.meshgrid(np.arange(N) / N, np.arange(M) / M, indexing="ij")
@@ -37,6 +38,19 @@ def test_a_surface_without_its_tilt_does_not_repeat_itself_any_more():
     assert surface.remove("mean").periodic
     with refused("not-periodic"):
         surface.remove("tilt").to_surface()
+
+
+@pytest.mark.parametrize("step", ["window", "mirror"])
+def test_a_tilt_that_would_become_a_long_wave_is_noted(step):
+    rough = 0.1 * np.random.default_rng(0).normal(size=X.shape)
+    for slope, noted in ((0.1, False), (2.0, True)):
+        scan = vf.Topography(slope * X + rough, 1e-3)
+        (*_, last) = getattr(scan, step)().history
+        assert (last.code == "tilted") == noted
+        if noted:
+            variance = np.var(slope * X)
+            assert last.values["share"] == pytest.approx(variance / (variance + 0.01), abs=0.01)
+        assert "tilted" not in codes(getattr(scan.remove("tilt"), step)().history)
 
 
 def test_a_trend_is_found_round_missing_heights():

@@ -110,11 +110,13 @@ def chosen_body(parameters: dict[str, Any]) -> NamedIndenter:
     if given:
         raise click.UsageError(f"--surface and {given[0]} are both given; the contact has one of them.")
     from viscofric.friction.cases.surfaces import step_of
+    from viscofric.notes import note_of
 
     topography = _read_heights(path, parameters)
     for words in parameters["prepare"]:
         with placed_at("--prepare"):
             topography = step_of(words)(topography)
+    print_notes([note for note in map(note_of, topography.history) if note.code == "tilted"])
     surface = topography.to_surface()
     record = {
         "shape": "surface", "file": str(path), "prepare": list(parameters["prepare"]), "points": list(surface.shape),

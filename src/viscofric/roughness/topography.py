@@ -27,6 +27,14 @@ if TYPE_CHECKING:
     from viscofric.showing import Rows
 
 
+#: Of the variance of heights, of a plane through more points than this.
+_MOSTLY_TILT, _FEW = 0.5, 8
+_LEVEL = Remedy(
+    "; remove('tilt') first.",
+    "; give --prepare 'remove tilt' first.",
+    "; put 'remove tilt' first in prepare.",
+    field="surface.prepare",
+)
 _FILL = Remedy(
     "fill('harmonic') or fill('nearest').",
     "--prepare fill or --prepare 'fill nearest'.",
@@ -188,8 +196,20 @@ class Topography(Plotted):
     def _noun(self) -> str:
         return f"topography {self.name!r}" if self.name else "topography"
 
-    def _with(self, heights: Array, step: Note, **changed: object) -> Topography:
-        return replace(self, heights=heights, history=(*self.history, step), **changed)  # type: ignore[arg-type]
+    def _with(self, heights: Array, *steps: Note, **changed: object) -> Topography:
+        return replace(self, heights=heights, history=(*self.history, *steps), **changed)  # type: ignore[arg-type]
+
+    def _tilted(self) -> list[Note]:
+        """Return a note where most of the variance is tilt, of which a periodic surface makes a long wave."""
+        variance = float(np.var(self.heights))
+        if variance == 0.0 or self.heights.size < _FEW:
+            return []
+        level, _ = preparation.without_trend(self.heights, "tilt")
+        share = 1.0 - float(np.var(level)) / variance
+        if share <= _MOSTLY_TILT:
+            return []
+        said = f"{100 * share:.0f} % of the variance of heights was tilt, which is a long wave now"
+        return [Note("tilted", said, remedy=_LEVEL, values={"share": share})]
 
     def fill(self, method: Literal["harmonic", "nearest"] = "harmonic") -> Topography:
         """Fill points without a reading.
@@ -251,7 +271,7 @@ class Topography(Plotted):
         edge = number(edge, "edge")
         heights = preparation.tapered(self.complete(), edge)
         said = f"windowed: heights fall to their mean over {edge:g} of each length"
-        return self._with(heights, Note("windowed", said, values={"edge": edge}), periodic=True)
+        return self._with(heights, Note("windowed", said, values={"edge": edge}), *self._tilted(), periodic=True)
 
     def mirror(self) -> Topography:
         """Append the mirror images of the surface, so that it is periodic without steps and without new heights.
@@ -264,7 +284,8 @@ class Topography(Plotted):
         z = self.complete()
         for axis in (0,) if self.is_line else (0, 1):
             z = np.concatenate([z, np.flip(z, axis)], axis)
-        return self._with(z, Note("mirrored", "mirrored: extended by its mirror images"), periodic=True)
+        step = Note("mirrored", "mirrored: extended by its mirror images")
+        return self._with(z, step, *self._tilted(), periodic=True)
 
     def crop(
         self, x: tuple[Quantity, Quantity] | None = None, y: tuple[Quantity, Quantity] | None = None
