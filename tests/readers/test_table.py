@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from readers.refusal import refused
+from readers.samples import workbook
 from viscofric import files, read_dma, read_friction_curves
 
 HEADER = "temperature (degC);frequency (Hz);tensile storage modulus (MPa);tensile loss modulus (MPa)"
@@ -44,6 +45,19 @@ def test_quoted_cells_may_have_decimal_commas_between_commas(tmp_path):
     assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
     with refused("ambiguous-decimals", 2, "'5,500'"):
         read_dma(write(tmp_path, HEADER.replace(";", ","), '"20","1","5,500","0"'))
+
+
+def test_headings_may_be_wrapped(tmp_path):
+    cells = HEADER.replace("frequency ", "frequency\n").replace(" storage ", "\nstorage\n").split(";")
+    header = ";".join(f'"{cell}"' for cell in cells)
+    sweeps = read_dma(write(tmp_path, header, "20;0,1;5,5;0,5", "20;1;6,5;0,5"))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+    book = {"a": [cells, [20, 0.1, 5.5, 0.5], [20, 1, 6.5, 0.5]]}
+    assert len(read_dma(workbook.write(tmp_path / "a.xlsx", book)).isotherms[0]) == 2
+    with refused("not-a-number", 2 + header.count("\n"), "'x'"):  # lines are counted as they are in the file
+        read_dma(write(tmp_path, header, "20;x;5,5;0,5"))
+    sweeps = read_dma(write(tmp_path, "T (°C);f (Hz);E' (MPa);E\" (MPa)", '20;1;5;"0,5"', "20;2;6;0,5"))  # no quotation
+    assert len(sweeps.isotherms[0]) == 2
 
 
 @pytest.mark.parametrize("sign", ["-", "−"])

@@ -220,7 +220,7 @@ def with_primes(text: str) -> str:
 @lru_cache(maxsize=4096)
 def heading(text: str) -> Column:
     """Split a heading into name and unit: ``"E' (MPa)"``, ``"T [degC]"``, ``"E' / MPa"``, ``"T_C"``, ``"f in Hz"``."""
-    text = text.strip()
+    text = " ".join(text.split())
     if len(text) > _LONGEST_HEADING:
         return Column(text, text, "")
     plain = re.sub("[º˚]", "°", with_primes(text))

@@ -18,11 +18,14 @@ from viscofric.readers.table import MISSING, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from viscofric.readers.headings import Column, Vocabulary
     from viscofric.readers.source import Source
     from viscofric.readers.table import NumberedRow, Table
+
+    #: A line with its number in the file.
+    NumberedLine = tuple[int, str]
 
 
 #: Characters of a text that may hold its header.
@@ -35,6 +38,8 @@ _BLANKS = "blanks"
 _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 
 
+#: A quoted cell that does not end with its line, and the most lines of one row.
+_OPEN, _MOST_WRAPPED = re.compile(r'(?:^|[\t;,])"[^"]*$'), 20
 #: A number at the beginning of a cell, but not that of "1/s".
 _VALUE = re.compile(r"[+−-]?[\d.,]++(?!\s*/)")
 
@@ -274,12 +279,25 @@ def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> 
 def _lines(text: str, remarks: bool) -> list[tuple[int, str, bool]]:
     """Return the lines that are not blank, with their numbers and whether they are remarks, which may be left out."""
     found = []
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in _joined(text.splitlines()):
         plain = line.lstrip()
         is_remark = plain.startswith("#")
         if plain and (remarks or not is_remark) and not _FOR_EXCEL.fullmatch(line):
             found.append((number, plain.lstrip("# ") if is_remark else line, is_remark))
     return found
+
+
+def _joined(lines: Sequence[str]) -> Iterator[NumberedLine]:
+    """Yield lines with their numbers; those of one quoted cell, such as a wrapped heading, are one."""
+    place = 0
+    while place < len(lines):
+        end, line = place + 1, lines[place]
+        while _OPEN.search(line) and end < min(place + _MOST_WRAPPED, len(lines)):
+            line, end = f"{line} {lines[end]}", end + 1
+        if _OPEN.search(line):  # no end: the mark is none of quotation
+            end, line = place + 1, lines[place]
+        yield place + 1, line
+        place = end
 
 
 def _split_lines(source: Source, delimiter: str, remarks: bool = False) -> list[NumberedRow]:
