@@ -24,7 +24,6 @@ from viscofric.files import LARGEST_TABLE, insist_on_size, parse_toml
 from viscofric.limited_process import LimitedProcess
 from viscofric.notes import codes, warned
 from viscofric.readers.topography import package
-from viscofric.readers.topography.tables import read_heights
 from viscofric.rheology.cards.card_files import LARGEST_CARD
 from viscofric.study.running.store import CaseStore, Damaged, _sealed
 
@@ -200,10 +199,8 @@ def test_heights_of_a_large_surface_are_read_in_binary_form_only(
     np.save(tmp_path / "scan.npy", heights)
     np.savetxt(tmp_path / "scan.csv", heights, delimiter=",")
     monkeypatch.setattr(files, "LARGEST_TABLE", 500)  # both have more bytes
-    reads = (lambda path: vf.read_topography(path, spacing="1 m").heights, read_heights)
-    for read in reads:
-        np.testing.assert_array_equal(read(tmp_path / "scan.npy"), heights)
-        assert refusal(read, tmp_path / "scan.csv").code == "too-large"
+    np.testing.assert_array_equal(vf.read_topography(tmp_path / "scan.npy", spacing="1 m").heights, heights)
+    assert refusal(lambda path: vf.read_topography(path, spacing="1 m"), tmp_path / "scan.csv").code == "too-large"
 
 
 def test_a_card_may_hold_a_name_of_any_length(tmp_path: Path) -> None:
@@ -229,8 +226,6 @@ def test_friction_and_heights_that_no_rubber_or_surface_has_are_noted(tmp_path: 
     scan.write_text("8e298,0\n0,1\n", encoding="utf-8")
     with refused("implausible-height", DataFileError, naming="8e+298"):
         vf.read_topography(scan, spacing="1 um")
-    with refused("implausible-height", DataFileError, naming="8e+298"):
-        read_heights(scan)
     scan.write_text("3.5,0\n0,1\n", encoding="utf-8")  # µm, read as m
     assert "implausible-heights" in codes(vf.read_topography(scan, spacing="1 um").history)
     assert not codes(vf.read_topography(scan, spacing="1 um", unit="um").history)
