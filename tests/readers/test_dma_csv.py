@@ -544,6 +544,26 @@ def test_a_line_above_each_table_gives_its_temperature(tmp_path, titles, extra):
         read_dma(write(tmp_path, *(line.replace(titles[1].format("30"), "Sweep 2") for line in lines)))
 
 
+@pytest.mark.parametrize(
+    ("above", "header"),
+    [
+        (";20 °C;;30 °C;", "f (Hz);E' (MPa);E'' (MPa);E' (MPa);E'' (MPa)"),
+        ("T [K];293,15;;303,15;", "f;E';E'';E';E''\nHz;MPa;MPa;MPa;MPa"),
+    ],
+)
+def test_sweeps_beside_each_other_have_their_temperature_above(tmp_path, above, header):
+    rows = ["1;5;0,5;4;0,4", "10;6;0,7;5;0,6"]
+    path = write(tmp_path, "Rubber 7", above, header, *rows)
+    sweeps = read_dma(path)
+    assert_is_the_table(sweeps)
+    assert "temperature-from-title" in codes(sweeps.notes)
+    short = read_dma(write(tmp_path, above, header, *rows, "100;7;0,8;;"))  # one sweep is longer
+    assert [len(one) for one in short.isotherms] == [3, 2]
+    for missing in (";sample A;;30 °C;", "Rubber 7"):
+        with refused("ambiguous-columns", None, "'#2'"):
+            read_dma(write(tmp_path, missing, header, *rows))
+
+
 def test_words_that_may_tell_specimens_apart_are_named(tmp_path):
     rows = [f"{row},{word}" for row, word in zip(ROWS, "ABAB", strict=True)]
     sweeps = read_dma(write(tmp_path, f"{HEADER},sample", *rows))

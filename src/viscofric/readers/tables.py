@@ -11,8 +11,9 @@ import numpy as np
 
 from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy
+from viscofric.readers.dma.names import temperature_of_title
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
-from viscofric.readers.headings import option_of, place_of
+from viscofric.readers.headings import heading, option_of, place_of
 from viscofric.readers.source import decimal_comma, same_unit
 from viscofric.readers.table import MISSING, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
@@ -154,7 +155,7 @@ def name_columns(key: str, missing: Sequence[str]) -> Remedy:
 def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     """Return the table under a header, from all rows that are not blank."""
     rows, header = found.rows, found.header
-    _insist_on_text(path, rows[:header])
+    _insist_on_text(path, rows[:header], words)
     names = list(rows[header][1])
     if any(len(cells) != len(names) for _, cells in rows[header + 1 :]):  # else remarks without a heading
         names = _without_end(names)
@@ -169,7 +170,50 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     first_lines = [block[0][0] for block in blocks if block]
     block = np.searchsorted(first_lines, table.lines, side="right") if len(first_lines) > 1 else None
     held = tuple(tuple(title) for title, rows_of in zip(titles, blocks, strict=True) if rows_of)
-    return replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block, titles=held)
+    table = replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block, titles=held)
+    return _below_each_other(table) if block is None else table
+
+
+def _below_each_other(table: Table) -> Table:
+    """Return tables beside each other, such as E' and E'' of several temperatures, below each other.
+
+    Columns of quantities that are there once belong to all of them.  A temperature stands above each; else the table is
+    returned as it is.
+    """
+    places: dict[str, list[int]] = {}
+    for place, column in enumerate(table.columns):
+        if column.quantity:
+            places.setdefault(column.quantity, []).append(place)
+    shared = [some[0] for some in places.values() if len(some) == 1]
+    sets = list(zip(*(some for some in places.values() if len(some) > 1), strict=False))
+    starts = [min(one) for one in sets]
+    apart = all(max(one) < start for one, start in zip(sets, starts[1:], strict=False))
+    if len(sets) < 2 or not table.above or not apart:
+        return table
+    above = [*table.above[-1], *[""] * len(table.columns)]
+    label = next((cell for cell in above[: starts[0]] if cell.strip()), "")
+    titles = [_title(label, above[start:end]) for start, end in zip(starts, [*starts[1:], len(above)], strict=True)]
+    if any(temperature_of_title(title) is None for title in titles):
+        return table
+    columns = [[table.columns[place] for place in (*shared, *one)] for one in sets]
+    if any([(c.quantity, c.unit) for c in one] != [(c.quantity, c.unit) for c in columns[0]] for one in columns):
+        return table
+    kept = [(number, row, one) for number, one in enumerate(sets, start=1) for row in range(len(table.rows))]
+    kept = [(number, row, one) for number, row, one in kept if any(table.rows[row][place].strip() for place in one)]
+    return replace(
+        table,
+        columns=tuple(columns[0]),
+        rows=tuple(tuple(table.rows[row][place] for place in (*shared, *one)) for _, row, one in kept),
+        lines=table.lines[[row for _, row, _ in kept]],
+        block=np.array([number for number, _, _ in kept], dtype=np.int64),
+        titles=tuple(titles),
+    )
+
+
+def _title(label: str, cells: Sequence[str]) -> tuple[str, ...]:
+    """Return the first cell above a table, with the label of its row if it is a bare number."""
+    cell = next((cell for cell in cells if cell.strip()), "")
+    return (label, cell) if is_number(cell) else (cell,)
 
 
 def _stacked(
@@ -196,10 +240,13 @@ def _without_end(cells: Sequence[str]) -> list[str]:
     return list(cells[: max(filled, default=0)])
 
 
-def _insist_on_text(path: str, above: Sequence[NumberedRow]) -> None:
-    """Refuse rows of numbers above the header, unless they have a header of their own."""
+def _insist_on_text(path: str, above: Sequence[NumberedRow], words: Vocabulary) -> None:
+    """Refuse rows of numbers above the header, unless they have a header, or a label of the vocabulary."""
     width = 0
     for number, cells in above:
+        label = next((cell for cell in cells if cell.strip()), "")
+        if words.quantity(heading(label).name):
+            continue
         if sum(map(is_number, cells)) <= 2:
             width = max(width, len(cells))
         elif len(cells) > width:

@@ -209,11 +209,11 @@ FROM_TITLES = Note("temperature-from-title", "Temperatures were taken from the l
 
 def temperatures_of_titles(table: Table) -> Array | None:
     """Return the temperature of each row, K, by the lines above several tables; None if one of them gives none."""
-    found = [_temperature_of_title(title) for title in table.titles]
+    found = [temperature_of_title(title) for title in table.titles]
     return None if table.block is None or None in found else np.array(found)[table.block - 1]
 
 
-def _temperature_of_title(cells: Sequence[str]) -> float | None:
+def temperature_of_title(cells: Sequence[str]) -> float | None:
     """Return the temperature in a line above a table, such as ``T = 25 °C`` or ``Temperature (°C)`` and ``25``, K."""
     filled = [cell.strip() for cell in cells if cell.strip()]
     if len(filled) == 2 and is_number(filled[1]):
