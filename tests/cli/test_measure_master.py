@@ -291,6 +291,6 @@ def test_mistakes_of_shifting_are_refused(
     monkeypatch.chdir(tmp_path)
     runs(tmp_path / "runs.csv")
     text = curves(tmp_path / "curves.csv").read_text(encoding="utf-8")
-    (tmp_path / "mu.csv").write_text(text.replace("viscoelastic friction", "mu"), encoding="utf-8")
+    (tmp_path / "mu.csv").write_text(text.replace("viscoelastic friction", "value"), encoding="utf-8")
     found = refusal(*words)
     assert (found.status, found.code) == (1, code), found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
@@ -178,7 +179,7 @@ def test_standard_error_and_scatter_follow_from_each_other(
     ("old", "new", "refusal"),
     [
         ("load (N);", "", ("row-length", "line 2")),
-        ("viscoelastic friction (%)", "mu", ("missing-columns", "'viscoelastic friction'", "'speed (mm/s)'")),
+        ("viscoelastic friction (%)", "value", ("missing-columns", "'viscoelastic friction'", "'speed (mm/s)'")),
         ("speed (mm/s)", "pace (mm/s)", ("missing-columns", "'speed (mm/s)'")),
         ("temperature (degC)", "temperature", ("no-unit", "'temperature'", "'temperature (degC)'")),
         ("load (N)", "load (Pa)", ("wrong-unit", "'load (Pa)'", "'Pa'", "'N'")),
@@ -308,3 +309,23 @@ def test_curves_of_a_workbook_are_read(tmp_path: Path) -> None:
     assert vf.read_friction_curves(path, sheet="run 2").viscoelastic == pytest.approx([0.031], rel=1e-12)
     with refused("no-sheet", DataFileError):
         vf.read_friction_curves(path, sheet="run 3")
+
+
+@pytest.mark.parametrize(
+    ("header", "log"),
+    [
+        ("T (°C),Sliding Velocity (mm/s),COF,Fz (N)", False),
+        ("Temperature (°C),Gleitgeschwindigkeit (mm/s),Reibungszahl,Normalkraft (N)", False),
+        ("Temperature (°C),log v (mm/s),µ,load (N)", True),
+    ],
+)
+def test_columns_of_other_tribometers_are_known(tmp_path: Path, header: str, log: bool) -> None:
+    speeds = [math.log10(speed) if log else speed for speed in (20.0, 60.0, 200.0)]
+    path = tmp_path / "curves.csv"
+    rows = [f"{T},{speed!r},0.0{3 + n},25" for T in (20, 40) for n, speed in enumerate(speeds)]
+    path.write_text("\n".join([header, *rows]), encoding="utf-8")
+    curves = vf.read_friction_curves(path)
+    assert curves.speed == pytest.approx([0.02, 0.06, 0.2] * 2)
+    assert curves.viscoelastic == pytest.approx([0.03, 0.04, 0.05] * 2)
+    assert {"total-friction", "errors-unknown"} <= codes(curves.notes)
+    assert ("decadic-logarithms" in codes(curves.notes)) == log

@@ -367,10 +367,10 @@ def test_refusals_say(call: Callable[[], object], reader: Reader, sentence: str)
         ("load (N);", "", ", line 2: the row has 4 cells where the header names 3 columns."),
         (
             "viscoelastic friction (%)",
-            "mu",
+            "value",
             (
                 ": there is no column 'viscoelastic friction'; there are 'speed (mm/s)', 'temperature (degC)', "
-                "'load (N)', 'mu'; name them, e.g. columns={'viscoelastic_friction': 'heading'}."
+                "'load (N)', 'value'; name them, e.g. columns={'viscoelastic_friction': 'heading'}."
             ),
         ),
         (

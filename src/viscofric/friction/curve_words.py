@@ -5,15 +5,22 @@ from __future__ import annotations
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
 
+#: Coefficients of friction of which no heading says what they contain.
+FRICTION = (
+    *("friction coefficient", "coefficient of friction", "friction coeff.", "friction factor", "cof", "mu", "µ", "μ"),
+    *("reibungskoeffizient", "reibungszahl", "reibwert", "coefficient de frottement", "coeficiente de fricción"),
+    *("coefficiente di attrito", "摩擦係数", "摩擦系数"),
+)
+_SPEEDS = ("v", "velocity", "sliding speed", "sliding velocity", "disc speed", "disk speed", "gleitgeschwindigkeit")
 #: field -> (SI unit, empty for a pure number; the heading written; other headings accepted)
 COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
-    "speed": ("m/s", "speed", ("v", "sliding speed", "disc speed", "disk speed")),
+    "speed": ("m/s", "speed", _SPEEDS),
     "temperature": ("K", "temperature", ("T", "temp", "temp.")),
-    "load": ("N", "load", ("normal load", "normal force", "F", "Fn", "fn")),
+    "load": ("N", "load", ("normal load", "normal force", "F", "Fn", "fn", "Fz", "fz", "normalkraft")),
     "viscoelastic": (
         "",
         "viscoelastic friction",
-        ("viscoelastic", "viscoelastic friction coefficient", "mu viscoelastic", "friction coefficient"),
+        ("viscoelastic", "viscoelastic friction coefficient", "mu viscoelastic", *FRICTION),
     ),
     "viscoelastic_error": ("", "viscoelastic friction standard error", ("viscoelastic error", "friction error")),
     "viscoelastic_scatter": ("", "viscoelastic friction scatter", ("viscoelastic scatter",)),
@@ -29,7 +36,7 @@ COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     ),
     "consistency": ("", "consistency", ()),
     "consistency_error": ("", "consistency standard error", ("consistency error",)),
-    "slip": ("m/s", "slip", ("sliding velocity",)),
+    "slip": ("m/s", "slip", ("slip speed", "slip velocity")),
     "offset": ("N", "offset", ("zero",)),
     "mean_pressure": ("Pa", "mean contact pressure", ("contact pressure",)),
     "mean_pressure_error": ("Pa", "mean contact pressure error", ()),
@@ -56,6 +63,7 @@ CURVES = Vocabulary(
         ("viscoelastic friction standard error", ""),
         ("coulomb friction", ""),
     ),
+    logarithms=True,
 )
 
 #: Column -> unit, long name; the load's are those of `FrictionCurves.to_dataset`.

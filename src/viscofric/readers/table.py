@@ -147,6 +147,12 @@ class Table:
         problem = f"{self.rows[row][place].strip()} in column {self.columns[place].heading!r} must be {right}."
         return DataFileError(self.path, problem, int(self.lines[row]), code=code)
 
+    @property
+    def logarithm_notes(self) -> list[Note]:
+        """A note on columns whose logarithms were taken as decadic without the heading's word, if any."""
+        assumed = [repr(column.heading) for column in self.columns if column.assumed_decadic]
+        return [Note("decadic-logarithms", f"{' and '.join(assumed)}: read as decadic logarithms.")] if assumed else []
+
     def unused(self, used: Collection[int]) -> list[Column]:
         """Return the columns with a name at all other places."""
         return [column for place, column in enumerate(self.columns) if place not in used and column.name]
