@@ -225,7 +225,7 @@ def test_the_best_law_says_why_and_how_well_it_fits(tmp_path: Path) -> None:
 def test_files_of_the_other_kind_are_refused_in_the_words_of_the_command_line(tmp_path: Path) -> None:
     found = refusal("measure", curves(tmp_path / "curves.csv"))
     assert (found.code, "viscofric master" in found.sentence) == ("friction-curves", True)
-    (tmp_path / "pin.csv").write_text("v (mm/s);T (°C);F_N (N);µ\n1;20;5;0,3\n", encoding="utf-8")
+    (tmp_path / "pin.csv").write_text("v (mm/s);T (°C);F_N (N);value\n1;20;5;0,3\n", encoding="utf-8")
     for command in ("measure", "master"):
         found = refusal(command, tmp_path / "pin.csv")
         assert found.code == "missing-columns"

@@ -14,8 +14,8 @@ from viscofric.notes import Note, setting
 from viscofric.readers.source import Source
 
 #: What to give where a file does not state it.
-SPACING = setting("surface.spacing", "Spacing", "'5 um'")
-UNIT = replace(setting("surface.unit", "Unit", "'um'"), shell="--height-unit um")
+SPACING = setting("surface.spacing", "Spacing of points", "'5 um'")
+UNIT = replace(setting("surface.unit", "Unit of heights", "'um'"), shell="--height-unit um")
 
 
 @dataclass(frozen=True)
