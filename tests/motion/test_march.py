@@ -66,6 +66,15 @@ def test_a_march_whose_errors_never_fall_has_an_end(error):
         march(Unsteady(alternating=error), SCHEDULE, accuracy=1e-3)
 
 
+def test_a_contact_that_changes_by_much_within_the_shortest_step_is_refused_at_once():
+    """Each step adds five times the accuracy, and none is shorter than 1e-10 of the interval."""
+    with pytest.raises(ConvergenceError) as caught:
+        march(Unsteady(alternating=5e-3), SCHEDULE, accuracy=1e-3)
+    assert caught.value.code == "steps-not-converged"
+    assert caught.value.note.values["time"] == 0.0
+    assert 0.0 < caught.value.note.values["step"] <= 1e-10
+
+
 def test_a_march_by_ticks_whose_errors_never_fall_takes_every_tick():
     """A step of two ticks cannot be shorter: it is accepted, and the stated error shows it."""
     marked = tuple(np.linspace(0.0, 1.0, 101)[1:])

@@ -275,8 +275,17 @@ class _March(Generic[State]):
                 step *= _growth(ratio)
                 continue
             failed += ratio > 1.0
-            if failed > _FEW_LEAST and self.mover.can_tighten:
+            too_quick = ratio * self.share > 1.0  # the step alone adds more than the accuracy
+            if (failed > _FEW_LEAST or too_quick) and self.mover.can_tighten:
                 raise _NoisyError
+            if too_quick:
+                now = self._kink + time
+                raise ConvergenceError(
+                    f"at time {now:.6g} s the contact changes within {step:.2g} s, the shortest step up to the next "
+                    "time of the history, or asked for: give a time soon after it, or a slower change.",
+                    code="steps-not-converged",
+                    values={"time": now, "step": step},
+                )
             if failed > _MOST_LEAST:
                 raise ConvergenceError(
                     f"at time {self._kink + time:.6g} s the error does not fall with shorter steps; ask for less "
