@@ -350,13 +350,6 @@ def degrees(row):
     return f"{T},{f},{math.hypot(storage, loss)!r},{math.degrees(math.atan2(loss, storage))!r}"
 
 
-@pytest.mark.parametrize("header", ["T/°C,f/Hz,|E*|/MPa,δ/°", "T (°C),f (Hz),E* (MPa),Phase Angle (deg)"])
-def test_the_loss_angle_stands_for_a_modulus_that_is_missing(tmp_path, header):
-    sweeps = read_dma(write(tmp_path, header, *map(degrees, ROWS)))
-    assert_is_the_table(sweeps)
-    assert noted(sweeps.notes, "moduli-computed")
-
-
 def test_an_angle_in_another_unit_is_refused_and_a_single_one_beyond_ninety_degrees_left_out(tmp_path):
     rows = [*map(degrees, ROWS), "30,20,6,-0.3"]
     sweeps = read_dma(write(tmp_path, "T (°C),f (Hz),E* (MPa),phase (°)", *rows))
@@ -562,6 +555,25 @@ def test_sweeps_beside_each_other_have_their_temperature_above(tmp_path, above, 
     for missing in (";sample A;;30 °C;", "Rubber 7"):
         with refused("ambiguous-columns", None, "'#2'"):
             read_dma(write(tmp_path, missing, header, *rows))
+
+
+@pytest.mark.parametrize(("heading", "degrees"), [("phase angle (°)", True), ("δ [deg]", True), ("delta (rad)", False)])
+def test_the_phase_angle_stands_for_the_loss_tangent(tmp_path, heading, degrees):
+    rows = []
+    for T, f, storage, loss in (map(float, row.split(",")) for row in ROWS):
+        angle = np.arctan2(loss, storage)
+        rows.append(f"{T},{f},{np.hypot(storage, loss):.17g},{np.degrees(angle) if degrees else angle:.17g}")
+    assert_is_the_table(read_dma(write(tmp_path, f"T (°C),f (Hz),|E*| (MPa),{heading}", *rows)))
+    with refused("no-unit"):
+        read_dma(write(tmp_path, "T (°C),f (Hz),|E*| (MPa),delta", *rows))
+
+
+def test_columns_of_means_count_where_there_are_no_others(tmp_path):
+    header = "T (°C),f (Hz),E' mean (MPa),E' std (MPa),Mean E'' (MPa),E'' std (MPa)"
+    rows = [",".join([T, f, storage, "9", loss, "9"]) for T, f, storage, loss in (row.split(",") for row in ROWS)]
+    assert_is_the_table(read_dma(write(tmp_path, header, *rows)))
+    both = f"{HEADER},average storage modulus (MPa)"
+    assert_is_the_table(read_dma(write(tmp_path, both, *(f"{row},9" for row in ROWS))))
 
 
 def test_words_that_may_tell_specimens_apart_are_named(tmp_path):

@@ -43,6 +43,8 @@ _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
 _PLACE = re.compile(r"#\s*(?P<number>\d{1,4})")
 #: A longer heading is not parsed.
 _LONGEST_HEADING = 200
+#: A column of means, such as "E' mean", is one of the quantity where there is no other.
+_MEAN = re.compile(r"\b(mean|average|avg)\b\.?", re.IGNORECASE)
 #: Names are the same with and without these: "a_T", "a(T)", "aT".
 _MARKS = re.compile(r"[\s_().·\[\]-]")
 
@@ -165,6 +167,11 @@ class Vocabulary:
         for cell in cells:
             column = self.column(cell)
             found.append(replace(column, quantity="" if column.quantity in self.user_columns else column.quantity))
+        held = {column.quantity for column in found} | set(self.user_columns)
+        for n, column in enumerate(found):
+            what = "" if column.quantity else self.quantity(_MEAN.sub("", column.name).strip())
+            if what and what not in held and what != self.quantity(column.name):
+                found[n] = replace(column, quantity=what)
         for what, said in self.user_columns.items():
             place, unit = place_of(said, cells)
             if place is not None:

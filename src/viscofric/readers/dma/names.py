@@ -86,7 +86,7 @@ LOSS_TANGENT = frozenset(
     | {"loss tangent", "damping factor", "verlustfaktor", "facteur de perte", "facteur d'amortissement"}
     | {"factor de pérdida", "fattore di perdita", "fator de perda", "verliesfactor", "förlustfaktor"}
 )
-LOSS_ANGLE = frozenset(
+PHASE_ANGLE = frozenset(
     {
         "δ",
         "delta",
@@ -148,7 +148,7 @@ DMA = Vocabulary(
         "loss modulus": LOSS_MODULUS,
         "complex modulus": COMPLEX_MODULUS,
         "tan delta": LOSS_TANGENT,
-        "loss angle": LOSS_ANGLE,
+        "phase angle": PHASE_ANGLE,
         "angular frequency": ANGULAR_FREQUENCY,
         "reduced frequency": REDUCED_FREQUENCY,
         "reduced angular frequency": REDUCED_ANGULAR_FREQUENCY,

@@ -59,10 +59,10 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     if tangent is not None and table.columns[tangent].unit.lower() not in MISSING | {"1"}:  # a tangent has no unit
         del places["tan delta"]
     if "tan delta" not in places and not {"storage modulus", "loss modulus"} <= places.keys():
-        angle = table.place("loss angle")
-        places |= {} if angle is None else {"loss angle": angle}
+        angle = table.place("phase angle")
+        places |= {} if angle is None else {"phase angle": angle}
     missing = [] if "frequency" in places else ["frequency"]
-    if not places.keys() & {"tan delta", "loss angle"} or not places.keys() & {*_MODULI}:
+    if not places.keys() & {"tan delta", "phase angle"} or not places.keys() & {*_MODULI}:
         missing += [modulus for modulus in _MODULI[:2] if modulus not in places]
     if missing and "temperature" not in places:
         missing.insert(0, "temperature")
@@ -157,7 +157,7 @@ def _tangent(table: Table, places: dict[str, int]) -> Array:
     """Return tan δ as printed, or from the angle δ."""
     if "tan delta" in places:
         return table.numbers_or_missing(places["tan delta"])
-    place = places["loss angle"]
+    place = places["phase angle"]
     factor, _ = table.conversion(table.columns[place], "rad")
     angle = factor * table.numbers_or_missing(place)
     beyond = (angle < 0.0) | (angle >= 0.5 * math.pi)

@@ -92,7 +92,10 @@ def _insist_on_own_temperatures(source: Source, readings: dict[str, Readings]) -
     for (_, high, name, shown), (next_low, _, _, next_shown) in pairwise(spans):
         if next_low <= high:
             both = f"{shown} and {next_shown}"
-            problem = f"the sheets {both} each contain a DMA table and overlap; keep one of them, or choose one with "
+            problem = (
+                f"the sheets {both} each contain a DMA table and overlap; keep one of them (repetitions belong in one "
+                "sheet), or choose one with "
+            )
             remedy = setting("material.sheet", "Sheet", repr(name)) + "."
             values = {"sheets": list(readings)}
             raise DataFileError(source.path, problem, code="several-tables", remedy=remedy, values=values)
