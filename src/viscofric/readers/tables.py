@@ -73,7 +73,7 @@ def holds_table(source: Source, vocabulary: Vocabulary) -> bool:
     """Return whether a text has a row that names columns of such a table; never raises."""
     if source.text is None:
         return False
-    return bool(source.columns) or _in_text(source, vocabulary) is not None
+    return bool(source.columns) or _header_of_text(source, vocabulary) is not None
 
 
 def no_header(source: Source, vocabulary: Vocabulary) -> DataFileError:
@@ -223,7 +223,7 @@ def _stacked(
     blocks: list[list[NumberedRow]] = [[]]
     titles: list[Sequence[str]] = []
     for row in body:
-        if _without_end(row[1]) == _without_end(header):
+        if row[1][:1] == header[:1] and _without_end(row[1]) == _without_end(header):
             above: list[Sequence[str]] = []
             while blocks[-1] and sum(map(is_number, blocks[-1][-1][1])) < 2:
                 above.append(blocks[-1].pop()[1])
@@ -289,7 +289,13 @@ def _unit(cell: str) -> str:
 
 
 def _in_text(source: Source, words: Vocabulary) -> Found | None:
-    """Return the rows and the header of a text, split at the delimiter that makes most of a header.
+    """Return the rows and the header of a text."""
+    found = _header_of_text(source, words)
+    return None if found is None else _whole(source, words, *found)
+
+
+def _header_of_text(source: Source, words: Vocabulary) -> tuple[str, bool] | None:
+    """Return the delimiter that makes most of a header, and whether the header is a remark.
 
     Where no line is a header, remarks (``# f (Hz), E' (MPa)``) are looked at too.
     """
@@ -303,7 +309,7 @@ def _in_text(source: Source, words: Vocabulary) -> Found | None:
                 count = len(named(found.rows[found.header][1], words))
                 best = max(best or (-1, ""), (count, delimiter), key=lambda one: one[0])
         if best is not None:
-            return _whole(source, words, best[1], remarks)
+            return best[1], remarks
     return None
 
 
@@ -339,9 +345,9 @@ def _joined(lines: Sequence[str]) -> Iterator[NumberedLine]:
     place = 0
     while place < len(lines):
         end, line = place + 1, lines[place]
-        while _OPEN.search(line) and end < min(place + _MOST_WRAPPED, len(lines)):
+        while '"' in line and _OPEN.search(line) and end < min(place + _MOST_WRAPPED, len(lines)):
             line, end = f"{line} {lines[end]}", end + 1
-        if _OPEN.search(line):  # no end: the mark is none of quotation
+        if '"' in line and _OPEN.search(line):  # no end: the mark is none of quotation
             end, line = place + 1, lines[place]
         yield place + 1, line
         place = end
