@@ -20,7 +20,7 @@ from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
-from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw, checked_columns
+from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw
 from viscofric.showing import Items, Rows, rows_of
 from viscofric.units import (
     CELSIUS_ZERO,
@@ -84,17 +84,8 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         covariance: Any = None,
         notes: Iterable[str] = (),
     ) -> None:
-        kelvin, values, spread = checked_columns("shift factors", temperatures, log10_values, covariance)
-        object.__setattr__(self, "temperatures", kelvin)
-        object.__setattr__(self, "reference", positive(reference, "K", "reference"))
-        object.__setattr__(self, "log10_values", values)
-        self._refuse(np.array([self.reference]))
-        values = values - float(self._log10(np.asarray(self.reference)))
-        object.__setattr__(self, "log10_values", values)
-        object.__setattr__(self, "covariance", spread)
+        self._set_table("shift factors", temperatures, log10_values, reference, covariance)
         object.__setattr__(self, "notes", sentences(notes, "notes of shift factors"))
-        for column in (kelvin, values, spread):
-            column.flags.writeable = False
 
     def _items(self) -> Sequence[tuple[float, float]]:
         return rows_of(self.temperatures, self.log10_values)

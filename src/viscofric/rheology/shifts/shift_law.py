@@ -15,30 +15,9 @@ from viscofric.arrays import Array, Mask
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted
-from viscofric.units import Quantities, Quantity, kelvin_hint, to_si, to_si_array, to_si_in_shape
+from viscofric.units import Quantities, Quantity, kelvin_hint, positive, to_si, to_si_array, to_si_in_shape
 
 Temperatures: TypeAlias = Array | list[float] | list[str] | tuple[float, ...] | tuple[str, ...]
-
-
-def checked_columns(
-    what: str, temperatures: Quantities, log10_values: Any, covariance: Any
-) -> tuple[Array, Array, Array]:
-    """Return temperatures (n,) in K, values (n,) and their covariance (n, n), zero if none is given.
-
-    Raises InputError if shapes differ, a number is not finite, or the (at least two) temperatures do not ascend;
-    `what` names the values there, in the plural.
-    """
-    kelvin = to_si_array(temperatures, "K", "temperatures")
-    values = np.array(numbers(log10_values, what))
-    if kelvin.size < 2 or values.shape != kelvin.shape:
-        raise InputError(f"{what} need at least two temperatures, and one finite value for each.", code="wrong-length")
-    if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
-        raise InputError(
-            f"temperatures of {what} must ascend without repeats, above absolute zero.", code="not-ascending"
-        )
-    if covariance is None:
-        return kelvin, values, np.zeros((kelvin.size, kelvin.size))
-    return kelvin, values, checked_covariance(covariance, kelvin.size, what)
 
 
 def checked_covariance(values: Any, size: int, what: str) -> Array:
@@ -75,6 +54,30 @@ class Shift(Plotted, ABC):
     """A function of temperature, 1 at the reference: units, shapes and checks; subclasses define its logarithm."""
 
     reference: float  # K
+
+    def _set_table(
+        self, what: str, temperatures: Quantities, log10_values: Any, reference: Quantity, covariance: Any
+    ) -> None:
+        """Set temperatures and values (n,), zero at the reference, and their covariance; `what` names the values."""
+        kelvin, values = to_si_array(temperatures, "K", "temperatures"), np.array(numbers(log10_values, what))
+        if kelvin.size < 2 or values.shape != kelvin.shape:
+            raise InputError(
+                f"{what} need at least two temperatures, and one finite value for each.", code="wrong-length"
+            )
+        if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
+            raise InputError(
+                f"temperatures of {what} must ascend without repeats, above absolute zero.", code="not-ascending"
+            )
+        spread = np.zeros((kelvin.size, kelvin.size))
+        if covariance is not None:
+            spread = checked_covariance(covariance, kelvin.size, what)
+        columns = {"temperatures": kelvin, "log10_values": values, "covariance": spread}
+        for name, column in {**columns, "reference": positive(reference, "K", "reference")}.items():
+            object.__setattr__(self, name, column)
+        self._refuse(np.array([self.reference]))
+        values -= float(self._log10(np.asarray(self.reference)))
+        for column in columns.values():
+            column.flags.writeable = False
 
     @abstractmethod
     def _log10(self, kelvin: Array) -> Array:

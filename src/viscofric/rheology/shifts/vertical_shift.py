@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset, plain
 from viscofric.errors import InputError
-from viscofric.rheology.shifts.shift_law import NOMINAL, Shift, as_record, checked_columns
+from viscofric.rheology.shifts.shift_law import NOMINAL, Shift, as_record
 from viscofric.showing import Rows
 from viscofric.units import Quantities, Quantity, kelvin_hint, positive, shown_celsius, to_si, to_si_array
 
@@ -147,15 +147,7 @@ class VerticalShiftFactors(VerticalShift):
     def __init__(
         self, temperatures: Quantities, log10_values: Any, reference: Quantity, covariance: Any = None
     ) -> None:
-        kelvin, values, spread = checked_columns("vertical shifts", temperatures, log10_values, covariance)
-        object.__setattr__(self, "temperatures", kelvin)
-        object.__setattr__(self, "reference", positive(reference, "K", "reference"))
-        self._refuse(np.array([self.reference]))
-        values = values - float(np.interp(self.reference, kelvin, values))
-        object.__setattr__(self, "log10_values", values)
-        object.__setattr__(self, "covariance", spread)
-        for column in (kelvin, values, spread):
-            column.flags.writeable = False
+        self._set_table("vertical shifts", temperatures, log10_values, reference, covariance)
 
     def _shown(self) -> Rows:
         return (
