@@ -32,7 +32,7 @@ from viscofric.errors import InputError, brief
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note
-from viscofric.rheology.material import Material
+from viscofric.rheology.material import Material, alpha_and_b
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
@@ -80,11 +80,8 @@ class DrawnMaterials:
     def shifts(self, temperature: float) -> tuple[Array, Array]:
         """Return α and b of every material at a temperature (K), (samples,) each."""
         if temperature not in self._shifts:
-            alpha = [1.0 if one.shift is None else float(one.shift(temperature)) for one in self.materials]
-            b = [
-                1.0 if one.vertical_shift is None else float(one.vertical_shift(temperature)) for one in self.materials
-            ]
-            self._shifts[temperature] = np.array(alpha), np.array(b)
+            alpha, b = np.array([alpha_and_b(one, temperature) for one in self.materials]).T
+            self._shifts[temperature] = alpha, b
         return self._shifts[temperature]
 
     def friction(self, sensitivity: ComplianceSensitivity, temperature: float) -> Array:

@@ -186,8 +186,7 @@ class Material(Plotted):
                 values={"argument": "temperature"},
             )
         kelvin = positive(temperature, "K", "temperature")
-        alpha = float(self.shift(kelvin))
-        b = 1.0 if self.vertical_shift is None else float(self.vertical_shift(kelvin))
+        alpha, b = alpha_and_b(self, kelvin)
         return spectrum if alpha == 1.0 and b == 1.0 else spectrum.shifted(alpha, b)
 
     def at_reference(self, reference: Quantity) -> Material:
@@ -221,6 +220,12 @@ class Material(Plotted):
         Temperature and errors as of `at`; InputError also outside a table that is not extrapolated.
         """
         return self.at(temperature).complex_modulus(angular_frequency)
+
+
+def alpha_and_b(material: Material, kelvin: float) -> tuple[float, float]:
+    """Return α and b of a material at a temperature, 1 where it has none."""
+    alpha = 1.0 if material.shift is None else float(material.shift(kelvin))
+    return alpha, 1.0 if material.vertical_shift is None else float(material.vertical_shift(kelvin))
 
 
 def insist_on_material(given: object) -> None:

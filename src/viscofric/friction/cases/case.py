@@ -19,7 +19,7 @@ from viscofric.errors import InputError
 from viscofric.friction.cases.interpolation import Between, Node
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import Task
-from viscofric.rheology.material import Material
+from viscofric.rheology.material import Material, alpha_and_b
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import shown_celsius, shown_number
 
@@ -191,10 +191,7 @@ class Rubbers:
         """Return α and b of a case's material at its temperature."""
         key = case.material, case.sample, case.temperature
         if key not in self._shifts:
-            material = self.of(case)
-            alpha = 1.0 if material.shift is None else float(material.shift(case.temperature))
-            b = 1.0 if material.vertical_shift is None else float(material.vertical_shift(case.temperature))
-            self._shifts[key] = alpha, b
+            self._shifts[key] = alpha_and_b(self.of(case), case.temperature)
         return self._shifts[key]
 
     def modes(self, case: Case, *, at_reference: bool = False) -> RetardationSpectrum:

@@ -17,7 +17,7 @@ from viscofric.friction.identification.moduli import Block, ModulusObservation
 from viscofric.friction.identification.points import Points
 from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.rheology.shifts.laws import ShiftLaw
-from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.units import shown_celsius
 
@@ -95,8 +95,7 @@ class Shifts:
                 "factor is not found; give shift=, or one measured among them.",
                 code="outside-measured",
             )
-        inverse = 1.0 / self.temperatures[::-1]
-        return np.array([np.interp(1.0 / temperature, inverse, unit) for unit in np.eye(len(inverse))])[::-1]
+        return np.asarray(weights_between(self.temperatures, np.array([temperature]))[0])
 
     def table(self, log_alpha: Array, covariance: Array) -> ShiftFactors:
         """Return the factors found, of ln α (t,) with its covariance (t, t), about the reference."""

@@ -27,7 +27,7 @@ from viscofric.friction.shifting.placement import (
     scan_pairs,
 )
 from viscofric.notes import Note
-from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.gauge import Gauge
@@ -199,8 +199,7 @@ def _at_reference(chosen: Sequence[FrictionIsotherm], reference: float) -> tuple
     """Return the temperatures, and the weights with which their log10 α interpolate that of the reference."""
     temperatures = np.array([isotherm.temperature for isotherm in chosen])
     inside = np.clip(reference, temperatures[0], temperatures[-1])
-    weights = np.array([np.interp(-1.0 / inside, -1.0 / temperatures, unit) for unit in np.eye(len(temperatures))])
-    return temperatures, weights
+    return temperatures, weights_between(temperatures, np.array([inside]))[0]
 
 
 def _marginal(chosen: Sequence[FrictionIsotherm], factors: Array) -> Iterator[Note]:
