@@ -140,14 +140,12 @@ class JsonProgress(Silent):
 
     def __call__(self, event: Event) -> None:
         """Write an event."""
-        self._line(event.as_dict())
+        self.write(**event.as_dict())
 
     def write(self, event: str, **values: Any) -> None:
         """Write an event that is for programs only."""
-        self._line({"event": event, **values})
-
-    def _line(self, values: dict[str, Any]) -> None:
-        self._output.write(json.dumps(plain(values, digits=None), ensure_ascii=False, allow_nan=False) + "\n")
+        record = plain({"event": event, **values}, digits=None)
+        self._output.write(json.dumps(record, ensure_ascii=False, allow_nan=False) + "\n")
         self._output.flush()
 
 

@@ -124,13 +124,9 @@ def _numbers(one: Comparison) -> tuple[str, str, str, str]:
     )
 
 
-def _verdict(outcome: Outcome) -> str:
-    return "passed" if outcome.passed else "FAILED"
-
-
 def _line(outcome: Outcome) -> str:
     """Return one line for a file or a pipe: name, numbers of the worst comparison, verdict, time."""
-    start = f"{outcome.check.name:<18} {_verdict(outcome)} {outcome.seconds:6.1f} s"
+    start = f"{outcome.check.name:<18} {'passed' if outcome.passed else 'FAILED'} {outcome.seconds:6.1f} s"
     worst = outcome.worst
     if outcome.trouble or worst is None:
         return f"{start}  {outcome.trouble or 'nothing to compare'}"

@@ -130,14 +130,12 @@ def nominal_temperatures(*temperatures: Array) -> Array:
     if together.size == 0:
         return together
     parts = np.split(together, np.flatnonzero(np.diff(together) > SAME_TEMPERATURE) + 1)
-    means: Array = np.array([part.mean() for part in parts])
-    return means
+    return np.array([part.mean() for part in parts])
 
 
 def nearest(nominal: Array, temperature: Array) -> Integers:
     """Return, for each temperature, the index of the nominal one nearest to it."""
-    index: Integers = np.abs(np.asarray(temperature)[:, None] - nominal[None, :]).argmin(axis=1)
-    return index
+    return np.asarray(np.abs(np.asarray(temperature)[:, None] - nominal[None, :]).argmin(axis=1))
 
 
 def reference_temperature(tree: xr.DataTree) -> float | None:
@@ -155,14 +153,12 @@ def reach(tree: xr.DataTree, cases: xr.Dataset) -> Array:
     radius = values(cases, "radius") if "radius" in cases.variables else number(tree.attrs, "indenter_radius")
     sides = np.array([values(cases, name) for name in ("front", "rear", "half_width")])
     farthest: Array = np.where(np.isfinite(sides), sides, -np.inf).max(axis=0)
-    ratio: Array = np.where(farthest > 0.0, farthest, np.nan) / radius
-    return ratio
+    return np.asarray(np.where(farthest > 0.0, farthest, np.nan) / radius)
 
 
 def is_wide(tree: xr.DataTree, cases: xr.Dataset) -> Mask:
     """Whether each contact is too wide for small strain; not where its size is not known."""
-    wide: Mask = reach(tree, cases) > SMALL_STRAIN
-    return wide
+    return np.asarray(reach(tree, cases) > SMALL_STRAIN)
 
 
 def knows_range(cases: xr.Dataset) -> bool:
@@ -173,8 +169,7 @@ def knows_range(cases: xr.Dataset) -> bool:
 def is_extrapolated(cases: xr.Dataset) -> Mask:
     """Whether each case rests on frequencies that were not measured; not where it was not solved."""
     friction = "predicted" if "predicted" in cases.variables else "friction_coefficient"
-    outside: Mask = (values(cases, "within_measured_frequencies") == 0.0) & np.isfinite(values(cases, friction))
-    return outside
+    return np.asarray((values(cases, "within_measured_frequencies") == 0.0) & np.isfinite(values(cases, friction)))
 
 
 def remarks(tree: xr.DataTree, cases: xr.Dataset) -> list[tuple[str, ...]]:
@@ -185,5 +180,4 @@ def remarks(tree: xr.DataTree, cases: xr.Dataset) -> list[tuple[str, ...]]:
 
 def interpolated(cases: xr.Dataset) -> Mask:
     """Whether each case was interpolated on a curve of solved ones, instead of solved itself."""
-    found: Mask = values(cases, "interpolated") == 1.0
-    return found
+    return np.asarray(values(cases, "interpolated") == 1.0)

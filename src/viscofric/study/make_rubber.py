@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, cast, overload
+from typing import Any, cast
 
 from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
@@ -95,7 +95,7 @@ def _from_step_tests(table: MaterialTable) -> Rubber:
     """Superpose creep or relaxation tests, and fit their spectrum."""
     tests = read_steps_of(table)
     with _errors_of(table.steps):
-        fit = _superposed(table, tests)
+        fit = superpose(tests, _reference(table), **_alone(table))
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
         spectrum = fit_retardation_spectrum(fit, tau_ratio=table.tau_ratio, method=table.spectrum, modes=table.modes)
     if spectrum.fit is not None and not fit.check.holds:
@@ -167,7 +167,7 @@ def _read_sweeps(table: MaterialTable) -> IsothermalSweeps:
 def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
     sweeps = _read_sweeps(table)
     with _errors_of(table.dma or ()):
-        fit = _superposed(table, sweeps)
+        fit = superpose(sweeps, _reference(table), by=table.shift_by, weights=table.shift_weights, **_alone(table))
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
     spectrum, flowing = _spectrum(table, fit.master_curve, _verdict(fit), liquids)
     return Rubber(
@@ -258,19 +258,10 @@ def _verdict(fit: Superposition) -> tuple[str, ...]:
     return tuple(failed if check.consistent else [*failed, check.sentences[-1]])
 
 
-@overload
-def _superposed(table: MaterialTable, tests: IsothermalSweeps) -> Superposition: ...
-@overload
-def _superposed(table: MaterialTable, tests: StepTests) -> StepSuperposition: ...
-def _superposed(table: MaterialTable, tests: IsothermalSweeps | StepTests) -> Superposition | StepSuperposition:
-    reference = _reference(table)
-    common = _how(table) | {
-        "shift": None if table.shift_factors is None else _given_factors(table, table.shift_factors),
-        "fixed": table.fixed_shift_factors or None,
-    }
-    if isinstance(tests, IsothermalSweeps):
-        return superpose(tests, reference, by=table.shift_by, weights=table.shift_weights, **common)
-    return superpose(tests, reference, **common)
+def _alone(table: MaterialTable) -> dict[str, Any]:
+    """Return how tests of one kind are superposed."""
+    given = None if table.shift_factors is None else _given_factors(table, table.shift_factors)
+    return _how(table) | {"shift": given, "fixed": table.fixed_shift_factors or None}
 
 
 def _reference(table: MaterialTable) -> float:

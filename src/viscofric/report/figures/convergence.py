@@ -30,13 +30,10 @@ def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None)
     between = interpolated(cases)
     with np.errstate(divide="ignore", invalid="ignore"):
         error = values(cases, "friction_error") / friction
-    for mask, marker, filled, label in (
-        (~between, "o", True, "error estimate"),
-        (between, "o", False, "error estimate, interpolated"),
-    ):
-        _points(axes, x, error, mask, BLUE, marker, filled, label)
+    _points(axes, x, error, ~between, BLUE, "o", "error estimate")
+    _points(axes, x, error, between, BLUE, "o", "error estimate, interpolated", markerfacecolor="none")
     balance = np.abs(values(cases, "energy_balance"))
-    _points(axes, x, balance, ~between, ORANGE, "^", True, "energy balance")
+    _points(axes, x, balance, ~between, ORANGE, "^", "energy balance")
     if accuracy is not None and np.isfinite(accuracy):
         axes.axhline(accuracy, color=VERMILION, linewidth=1.2, linestyle=(0, (4, 2)), label="requested accuracy")
     axes.set_yscale("log")
@@ -47,7 +44,7 @@ def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None)
 def plot_cells(axes: Axes, cases: xr.Dataset) -> None:
     """Draw how many cells along the longer edge the finest grid of every solved case has."""
     cells = values(cases, "cells")
-    _points(axes, _along(cases), cells, ~interpolated(cases), GREEN, "s", True, "cells")
+    _points(axes, _along(cases), cells, ~interpolated(cases), GREEN, "s", "cells")
     axes.set_yscale("log", base=2)
     axes.yaxis.set_major_formatter(lambda number, _: f"{number:.0f}")
     axes.minorticks_off()
@@ -79,13 +76,12 @@ def _along(cases: xr.Dataset) -> Array:
     return np.asarray(1e3 * values(cases, "speed") if _has_speeds(cases) else 1.0 + np.arange(cases.sizes["case"]))
 
 
-def _points(axes: Axes, x: Array, y: Array, mask: Mask, colour: str, marker: str, filled: bool, label: str) -> None:
+def _points(axes: Axes, x: Array, y: Array, mask: Mask, colour: str, marker: str, label: str, **look: Any) -> None:
     shown = mask & np.isfinite(y) & (y >= 0.0)
     if shown.any():
-        style: dict[str, Any] = {"color": colour, "marker": marker, "markersize": _FEW, "linestyle": "none"}
-        face = colour if filled else "none"
-        style |= {"markerfacecolor": face, "alpha": 0.75, "label": label, "rasterized": int(shown.sum()) > _MANY}
-        axes.plot(x[shown], np.maximum(y[shown], _SMALLEST), **style)
+        look |= {"color": colour, "marker": marker, "markersize": _FEW, "linestyle": "none", "alpha": 0.75}
+        y = np.maximum(y[shown], _SMALLEST)
+        axes.plot(x[shown], y, label=label, rasterized=int(shown.sum()) > _MANY, **look)
 
 
 def _finish(axes: Axes, cases: xr.Dataset, label: str) -> None:

@@ -40,8 +40,6 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from viscofric.arrays import Array
-
 
 _GLANCE = "at-a-glance"
 _MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
@@ -260,7 +258,12 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
         is_open,
         _MEANINGS if "contact_area_fraction" not in full else _SEEDS_MEAN if "seeds" in full else _ROUGH_MEANINGS,
     )
-    return _with_remarks(table, [_state(*one) for one in zip(*_states(full), remarks(tree, full), strict=True)])
+    failed = values(full, "failed") == 1.0
+    doubts = [
+        (*(["not solved"] if failed[row] else []), *(["interpolated"] if between[row] else []), *doubt)
+        for row, doubt in enumerate(remarks(tree, full))
+    ]
+    return _with_remarks(table, doubts)
 
 
 def _unit(cases: xr.Dataset, name: str) -> str:
@@ -269,21 +272,11 @@ def _unit(cases: xr.Dataset, name: str) -> str:
 
 def _varied_columns(cases: xr.Dataset) -> list[Column]:
     """Return columns of the other quantities that vary; names of rubbers stand before them."""
-    found = []
-    for name in VARIED:
-        if name == "load" or name not in cases or len(np.unique(cases[name].values)) < 2:
-            continue
-        found.append(Column(name.replace("_", " "), name, partial(value_label, cases, name)))
-    return found
-
-
-def _states(cases: xr.Dataset) -> tuple[Array, Array]:
-    """Return which cases failed, and which were interpolated."""
-    return values(cases, "failed") == 1.0, values(cases, "interpolated") == 1.0
-
-
-def _state(failed: bool, between: bool, doubts: tuple[str, ...]) -> tuple[str, ...]:
-    return (*(["not solved"] if failed else []), *(["interpolated"] if between else []), *doubts)
+    return [
+        Column(name.replace("_", " "), name, partial(value_label, cases, name))
+        for name in VARIED
+        if name != "load" and name in cases and len(np.unique(cases[name].values)) > 1
+    ]
 
 
 def measurement_table(tree: xr.DataTree) -> Table | None:

@@ -269,7 +269,7 @@ def key_numbers(tree: xr.DataTree) -> list[KeyNumber]:
 def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     found = []
     prediction, agreement = solved_cases(tree), group(tree, "agreement")
-    if prediction is not None and np.isfinite(values(prediction, "friction_coefficient")).any():
+    if prediction is not None:
         friction = values(prediction, "friction_coefficient")
         remark = f"predicted, over all requested cases{_caveat(tree, prediction)}"
         found.append(KeyNumber("Viscoelastic friction coefficient", _range(friction), remark))

@@ -145,11 +145,7 @@ def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list
 
 def over_all_dimensions(dataset: xarray.Dataset, name: str) -> Any:
     """Return the values of a variable over all dimensions of its data set, in their order."""
-    variable, sizes = dataset[name], dataset.sizes
-    values = np.asarray(variable.values)
-    order = [variable.dims.index(dimension) for dimension in sizes if dimension in variable.dims]
-    shape = [size if dimension in variable.dims else 1 for dimension, size in sizes.items()]
-    return np.broadcast_to(values.transpose(order).reshape(shape), list(sizes.values()))
+    return dataset[name].broadcast_like(dataset).transpose(*dataset.sizes).values
 
 
 def _plain(value: Any) -> Any:

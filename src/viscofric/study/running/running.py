@@ -6,7 +6,7 @@ import contextlib
 import math
 import time
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.friction.cases.solving import solve
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from viscofric.study.run_file.settings import ClusterTable
-
-    Value: TypeAlias = str | int | float | bool
 
 
 @dataclass(frozen=True)
@@ -38,7 +36,7 @@ class Event:
     seconds: float | None = None  # duration
     reason: str | None = None  # why it failed, what is wrong with the stored contact, or what the run waits for
 
-    def as_dict(self) -> dict[str, Value]:
+    def as_dict(self) -> dict[str, Any]:
         """Return the attributes that are set."""
         values = ((field.name, getattr(self, field.name)) for field in fields(self))
         return {name: value for name, value in values if value is not None}
@@ -181,12 +179,9 @@ class _Run:
                     self.solves += 1
                 outcomes[key] = outcome
                 pass_on()
-                self._report_outcome(by_key[key], outcome, begun.get(key))
-
-    def _report_outcome(self, task: Task, outcome: Outcome, begun: float | None) -> None:
-        seconds = None if begun is None else round(time.monotonic() - begun, 6)
-        reason = getattr(outcome, "reason", None)
-        self.report("solved" if reason is None else "failed", task, seconds=seconds, reason=reason)
+                seconds = round(time.monotonic() - begun[key], 6) if key in begun else None
+                reason = getattr(outcome, "reason", None)
+                self.report("solved" if reason is None else "failed", by_key[key], seconds=seconds, reason=reason)
 
     def count_again(self) -> None:
         """Count the cases with a result at the next event, however recent the last count."""

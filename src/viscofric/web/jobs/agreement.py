@@ -97,13 +97,8 @@ def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options
     if options.accuracy is not None:
         solver["accuracy"] = options.accuracy
     uncertainty = {**requested.get("uncertainty", {}), "members": 0}
-    return {
-        **requested,
-        "conditions": conditions,
-        "solver": solver,
-        "uncertainty": uncertainty,
-        "outputs": {"fields": "none"},
-    }
+    tables = {"conditions": conditions, "solver": solver, "uncertainty": uncertainty, "outputs": {"fields": "none"}}
+    return {**requested, **tables}
 
 
 def _contacts(requested: dict[str, Any], curves: FrictionCurves, context: Context) -> Contacts:

@@ -122,11 +122,8 @@ def table_of_files(study: Mapping[str, Any], context: Context, names: Sequence[s
         _insist_on_upload(context.files / name, context.files)
     tables = [name for name in names if holds_friction_curves(context.files / name)]
     if not tables:
-        before = {
-            key: value
-            for key, value in study.get("measurement", {}).items()
-            if key not in ("curves", "columns", "sheet")
-        }
+        of_curves = ("curves", "columns", "sheet")
+        before = {key: value for key, value in study.get("measurement", {}).items() if key not in of_curves}
         return {**before, "mtm": names[0] if len(names) == 1 else list(names)}
     if len(names) > 1:
         other = next((name for name in names if name not in tables), None)
@@ -140,8 +137,7 @@ def measurement_table(study: Mapping[str, Any], context: Context) -> Measurement
     """Check [measurement] of a run file alone; paths are those of uploaded files."""
     if not study.get("measurement"):
         raise StudyError(Note("no-measurement", f"there is none; {_ABOUT}.", "measurement"))
-    values = {"measurement": study["measurement"]}
-    table = validated(_MeasurementTables, values).measurement
+    table = validated(_MeasurementTables, {"measurement": study["measurement"]}).measurement
     insist_on_uploads("measurement.mtm", table.mtm, context.files)
     insist_on_uploads("measurement.curves", table.curves, context.files)
     return table.relative_to(context.files)
@@ -151,8 +147,7 @@ def indenter_of(study: Mapping[str, Any]) -> Indenter | None:
     """Return the one indenter of [indenter]; None without such a table."""
     if not study.get("indenter"):
         return None
-    values = {"indenter": study["indenter"]}
-    table = validated(_IndenterTables, values).indenter
+    table = validated(_IndenterTables, {"indenter": study["indenter"]}).indenter
     for name, sizes in table.axes.items():
         if len(sizes) > 1:
             said = f"has {len(sizes)} values; friction was measured with one."

@@ -58,7 +58,7 @@ def _read(table: MaterialTable, study: dict[str, Any], context: Context) -> dict
         return _other(table, study, context)
     try:
         if table.dma is None:
-            return _read_other(table, _USUAL_REFERENCE)
+            return _read_other(table)
         beside = {"steps": _step_curves(read_steps_of(table))} if table.steps else {}
         traced = trace_dma(
             *table.dma,
@@ -87,7 +87,7 @@ def _one_or_each(temperatures: tuple[float, ...]) -> float | list[float | None]:
 def _of_sweeps(table: MaterialTable, traced: TracedSweeps) -> dict[str, Any]:
     sweeps, specimens = traced.sweeps, _specimens(traced)
     notes = [note for note in sweeps.notes if specimens is None or note_of(note).code != "repeats-differ"]
-    nearest = _nearest(sweeps.temperatures, _USUAL_REFERENCE)
+    nearest = _nearest(sweeps.temperatures)
     return {
         "source": "dma",
         "format": sweeps.format,
@@ -188,8 +188,7 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
         rubber = made_rubber(study, context)
     except DataFileError as error:
         key = "file" if table.file is not None else "master_curve"
-        requested = error.field if key == "master_curve" else None
-        raise JobError(error.note, requested or f"material.{key}") from None
+        raise JobError(error.note, (error.field if key == "master_curve" else None) or f"material.{key}") from None
     source = "catalogue" if table.catalogue else "file" if table.file else "master_curve"
     about = []
     if table.catalogue:
@@ -212,7 +211,7 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
 _PER_DECADE = 40
 
 
-def _read_other(table: MaterialTable, near: float) -> dict[str, Any]:
+def _read_other(table: MaterialTable) -> dict[str, Any]:
     """Return the ramps or step tests of [material]; the field of an `InputError` is the key of what is not stated."""
     common: dict[str, Any] = {"isotherms": [], "files": [], "flagged": [], "left_out": 0, "synthetic": False}
     if table.ramps is not None:
@@ -225,7 +224,7 @@ def _read_other(table: MaterialTable, near: float) -> dict[str, Any]:
             "deformation": ramps.deformation,
             "left_open": [*_given(table), *asked],
             "ramps": _ramps(ramps),
-            "reference": plain(round(float(np.clip(near, low, high)), 2)),
+            "reference": plain(round(float(np.clip(_USUAL_REFERENCE, low, high)), 2)),
             **listed("notes", ramps.notes),
         }
     tests = read_steps_of(table)
@@ -235,7 +234,7 @@ def _read_other(table: MaterialTable, near: float) -> dict[str, Any]:
         "deformation": tests.deformation,
         "left_open": _given(table),
         "steps": _step_curves(tests),
-        "reference": plain(round(_nearest(tests.temperatures, near), 2)),
+        "reference": plain(round(_nearest(tests.temperatures), 2)),
         **listed("notes", tests.notes),
     }
 
@@ -263,5 +262,5 @@ def _ramps(ramps: TemperatureRamps) -> list[dict[str, Any]]:
     ]
 
 
-def _nearest(temperatures: Array, near: float) -> float:
-    return float(temperatures[np.argmin(np.abs(temperatures - near))])
+def _nearest(temperatures: Array) -> float:
+    return float(temperatures[np.argmin(np.abs(temperatures - _USUAL_REFERENCE))])
