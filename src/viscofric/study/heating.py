@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     import xarray
 
     from viscofric.arrays import Array
-    from viscofric.heat.heating import Heating
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.study.cases.sweep import Sweep
     from viscofric.study.run_file.heating import HeatingTable
@@ -102,8 +101,9 @@ class Heatings(Singles):
         dimensions = {axis.name: len(axis) for axis in axes} | {"coulomb": size[1], "slip": size[2]}
         long = [name for name, count in dimensions.items() if count > 1]
         variables: dict[str, Any] = {
-            name: (long, column.reshape([dimensions[one] for one in long]), self._about(name))
-            for name, column in values.items()
+            name: (long, values[name].reshape([dimensions[one] for one in long]), {"units": unit, "long_name": words})
+            for name, (_, unit, words) in COLUMNS.items()
+            if name in values
         }
         coordinates = coordinates_of(axes, self._sweep.geometry)
         if self._interface is None:
@@ -148,10 +148,6 @@ class Heatings(Singles):
     def _curves(self) -> list[HistoryRecord]:
         return [one for one in self.outcomes[: len(self._members)] if isinstance(one, HistoryRecord)]
 
-    def _about(self, name: str) -> dict[str, str]:
-        _, unit, words = COLUMNS[name]
-        return {"units": unit, "long_name": words}
-
     def _task(self, cases: list[int], first: int, second: int) -> Task | Failure:
         case: Any = self._sweep.cases[cases[0]]
         label = f"heated curve at {shown_celsius(case.temperature, 'z.4g')} °C{case.body_label}"
@@ -163,9 +159,6 @@ class Heatings(Singles):
             return Task(solve_heated, self._arguments(case, first, second) | {"speeds": speeds}, label)
         except InputError as error:
             return Failure.of(error, label)
-
-    def _heating(self, first: int, second: int) -> Heating:
-        return self._table.heating(self._table.coulomb[first], self._slips[second])
 
     def _arguments(self, case: Any, first: int, second: int) -> dict[str, Any]:
         body: dict[str, Any]
@@ -180,7 +173,7 @@ class Heatings(Singles):
             "material": material,
             **body,
             "temperature": case.temperature,
-            "heating": self._heating(first, second),
+            "heating": self._table.heating(self._table.coulomb[first], self._slips[second]),
             "interface": self._interface,
             "indenter_modulus": case.modulus,
             "indenter_poisson_ratio": case.poisson_ratio,

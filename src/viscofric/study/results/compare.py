@@ -210,8 +210,7 @@ def _combined_error(name: str, tables: tuple[CaseTable, CaseTable], rows: tuple[
     if not stated:
         return None
     known = [np.where(np.isfinite(error), error, 0.0) for error in stated]
-    total: Array = np.sqrt(np.sum(np.square(known), axis=0))
-    return total
+    return np.asarray(np.sqrt(np.sum(np.square(known), axis=0)))
 
 
 def _largest_ratio(gap: Array, errors: Array) -> float | None:

@@ -176,8 +176,7 @@ def beyond_accuracy(cases: xarray.Dataset, accuracy: float) -> Mask:
     if {"indentation", "front", "rear"} <= set(cases.variables):
         slopes = np.ravel(2.0 * cases["indentation"].values / (cases["front"].values + cases["rear"].values))
         floor = FRICTION_FLOOR * float(np.max(slopes[np.isfinite(slopes)], initial=0.0))
-    beyond: Mask = error > accuracy * np.maximum(friction, floor) * (1.0 + _ROUNDING)
-    return beyond
+    return np.asarray(error > accuracy * np.maximum(friction, floor) * (1.0 + _ROUNDING))
 
 
 def open_results(path: str | Path) -> StudyResults:

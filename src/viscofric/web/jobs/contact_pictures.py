@@ -241,8 +241,7 @@ def _numbers(solution: ContactSolution | PeriodicSolution, more: dict[str, float
         for name, value in values.items()
         if name not in errors.values()
     }
-    found: dict[str, Any] = plain(own | {name: _with_error(value) for name, value in more.items()}, _DIGITS)
-    return found
+    return dict(plain(own | {name: _with_error(value) for name, value in more.items()}, _DIGITS))
 
 
 def _of_case(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) -> dict[str, float]:
