@@ -152,6 +152,11 @@ def test_headings_of_points_are_found_as_those_of_any_table(tmp_path, above):
     assert found.heights == pytest.approx(1e-6 * np.array([[0, 0.25], [5, 5.25], [10, 10.25]]), rel=1e-9)
 
 
+def test_true_minus_signs_are_read(tmp_path):
+    found = vf.read_topography(write(tmp_path, "1,−2,3\n−4,5,6\n"), unit="um", spacing="1 um")
+    assert found.heights == pytest.approx(1e-6 * np.array([[1, -2, 3], [-4, 5, 6]]))
+
+
 def test_positions_about_a_matrix_are_no_heights(tmp_path):
     rows = [",".join(map(str, row)) for row in ([0.0, 1, 2, 4], [5.0, 3, 1, 2], [10.0, 1, 1, 5])]
     for corner in ("", "x/y", "nan"):

@@ -49,7 +49,9 @@ MISSING = frozenset(
     | {"-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind"}  # of Windows
 )
 
-_IS_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+#: A number as printed, with a decimal point or comma.
+#: A number as printed, with a decimal point or comma.
+NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,7 +235,7 @@ def make_table(
         measured = [
             place
             for place, column in enumerate(columns)
-            if column.unit or column.quantity or all(_IS_NUMBER.fullmatch(row[place].strip()) for row in rows)
+            if column.unit or column.quantity or all(NUMBER.fullmatch(row[place].strip()) for row in rows)
         ]
         printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
         comma = decimal_comma(path, printed)

@@ -16,14 +16,13 @@ from viscofric.notes import Note, Remedy
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.one_table import only_table
 from viscofric.readers.source import Source, decimal_comma
-from viscofric.readers.table import MISSING
+from viscofric.readers.table import MISSING, NUMBER
 from viscofric.readers.tables import holds_table
 from viscofric.readers.topography.scan import EVEN, SPACING, UNIT, Scan, ScanOptions, name_of, scan_of_points
 from viscofric.units import conversion
 
 NUMPY = b"\x93NUMPY"
 _BLANKS = re.compile(r"\s+")
-_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _WHOLE = re.compile(r"[+-]?\d{1,15}")
 #: "# Width: 10.0 µm", as Gwyddion and others write above a matrix with lines along y.
 _REMARK = re.compile(r"#\s*(Width|Height|Value units)\s*:\s*(.+?)\s*$", re.IGNORECASE)
@@ -148,7 +147,7 @@ def _without_positions(table: Array) -> tuple[Array, list[Note], tuple[float, fl
 
 def _length(path: str, text: str) -> float:
     match = re.fullmatch(r"([0-9.,eE+-]+)\s*(\S+)", text)
-    if match is None or not _NUMBER.fullmatch(match[1]):
+    if match is None or not NUMBER.fullmatch(match[1]):
         raise DataFileError(path, f"{text!r} in its remarks is not a length such as '10 um'.", code="wrong-unit")
     factor, _ = conversion(match[2], "m", "width")
     return factor * float(match[1].replace(",", "."))
@@ -156,6 +155,7 @@ def _length(path: str, text: str) -> float:
 
 def _cells(line: str) -> list[str]:
     """Split a line at tabs, semicolons or commas, whichever there is first, or at blanks."""
+    line = line.replace("−", "-")
     for delimiter in "\t;":
         if delimiter in line:
             return [cell.strip() for cell in line.split(delimiter)]
@@ -167,7 +167,7 @@ def _cells(line: str) -> list[str]:
 
 
 def _is_number(cell: str) -> bool:
-    return cell.lower() in MISSING or _NUMBER.fullmatch(cell) is not None
+    return cell.lower() in MISSING or NUMBER.fullmatch(cell) is not None
 
 
 def _parsed(path: str, text: str) -> _Text:
@@ -212,7 +212,7 @@ def _insist_on_delimiters(path: str, found: list[tuple[int, list[str]]]) -> None
 def _number(path: str, cell: str, line: int) -> float:
     if cell.lower() in MISSING:
         return math.nan
-    if _NUMBER.fullmatch(cell) is None:
+    if NUMBER.fullmatch(cell) is None:
         raise DataFileError(path, f"{cell[:40]!r} is not a number.", line, code="not-a-number")
     value = float(cell.replace(",", "."))
     if not math.isfinite(value):
