@@ -205,7 +205,7 @@ def test_only_tables_are_printed_in_place_of_a_file(tmp_path: Path, monkeypatch:
         ["material", "convert", "rubber.json", "-", "--format", "csv"],
     ):
         done = CliRunner().invoke(main, arguments)
-        assert (done.exit_code, done.stdout, "nothing but tables" in done.stderr) == (2, "", True), arguments
+        assert (done.exit_code, done.stdout, "give a name" in done.stderr) == (2, "", True), arguments
     assert CliRunner().invoke(main, ["verify", "--list", "--json"]).exit_code == 2
     assert CliRunner().invoke(main, ["new", "-", "--json"]).exit_code == 2
     assert not list(tmp_path.iterdir())

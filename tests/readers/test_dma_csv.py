@@ -557,7 +557,35 @@ def test_sweeps_beside_each_other_have_their_temperature_above(tmp_path, above, 
             read_dma(write(tmp_path, missing, header, *rows))
 
 
-@pytest.mark.parametrize(("heading", "degrees"), [("phase angle (°)", True), ("δ [deg]", True), ("delta (rad)", False)])
+@pytest.mark.parametrize(
+    ("above", "header"),
+    [
+        (";20 °C;;30 °C;;40 °C", "f (Hz);E' (MPa);E'' (MPa);E' (MPa);E'' (MPa);E' (MPa)"),  # one without its E''
+        (";20 °C;;;30 °C;", "f (Hz);E' (MPa);E'' (MPa);tan δ;E' (MPa);E'' (MPa)"),  # of the first alone
+        (";20 °C;;30 °C;", "f (Hz);E' (MPa);E'' (MPa);G' (MPa);G'' (MPa)"),
+        (";20 °C;;30 °C;", "f (Hz);E' (MPa);E'' (MPa);lg E' (MPa);lg E'' (MPa)"),
+        (";A, 20 °C;;B, 20 °C;", "f (Hz);E' (MPa);E'' (MPa);E' (MPa);E'' (MPa)"),  # two specimens
+    ],
+)
+def test_what_differs_beside_each_other_is_not_taken_apart(tmp_path, above, header):
+    rows = ["1;5;0,5;4;0,4;3", "10;6;0,7;5;0,6;4"]
+    cells = header.count(";") + 1
+    with pytest.raises(DataFileError) as caught:
+        read_dma(write(tmp_path, above, header, *(";".join(row.split(";")[:cells]) for row in rows)))
+    assert caught.value.code in {"ambiguous-columns", "deformation-contradicts"}
+
+
+@pytest.mark.parametrize("unit", ["%", "-", "gon"])
+def test_a_phase_angle_is_in_degrees_or_radian(tmp_path, unit):
+    with pytest.raises(DataFileError) as caught:
+        read_dma(write(tmp_path, f"T (°C),f (Hz),|E*| (MPa),delta ({unit})", "20,1,5,0.1", "20,2,6,0.1"))
+    assert caught.value.code in {"wrong-unit", "no-unit"}
+
+
+@pytest.mark.parametrize(
+    ("heading", "degrees"),
+    [("phase angle (°)", True), ("δ [deg]", True), ("Phasenwinkel (Grad)", True), ("delta (rad)", False)],
+)
 def test_the_phase_angle_stands_for_the_loss_tangent(tmp_path, heading, degrees):
     rows = []
     for T, f, storage, loss in (map(float, row.split(",")) for row in ROWS):

@@ -88,6 +88,19 @@ def test_a_master_curve_that_a_fit_has_written_is_read_again(tmp_path):
         read_dma(path, temperature="30 degC")
 
 
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["T = 25 °C;;", "f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "T = 50 °C;;", "f (Hz);E' (MPa);E'' (MPa)", "1;4;0.4"],
+        [";25 °C;;50 °C;", "f (Hz);E' (MPa);E'' (MPa);E' (MPa);E'' (MPa)", "1;5;0.5;4;0.4", "10;6;0.6;5;0.5"],
+    ],
+    ids=["below", "beside"],
+)
+def test_sweeps_of_several_temperatures_are_no_master_curve(tmp_path, lines):
+    with refused("dma-sweeps"):
+        read_master_curve(write(tmp_path, *lines), "25 degC")
+
+
 def test_logarithms_of_a_base_that_is_not_stated_are_refused(tmp_path):
     rows = ["-3,0.7,-0.3", "3,0.95,-0.15", "0,0.78,-0.05"]
     with refused("logarithm-unknown"):

@@ -180,8 +180,11 @@ def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
     if topography.is_line != (shape == "profile"):
         held, other = ("one line", "--profile") if topography.is_line else ("a map", "--height-map")
         raise DataFileError(str(path), f"holds {held} of heights; give it by {other}.", code="not-heights")
+    if topography.missing:
+        problem = f"{topography.missing} of its {topography.heights.size} heights are missing; fill them in the file."
+        raise DataFileError(str(path), problem, code="missing-heights")
     try:
-        heights, (along, across) = topography.complete(), topography.spacing
+        heights, (along, across) = topography.heights, topography.spacing
         made = Profile(heights[:, 0], along) if topography.is_line else HeightMap(heights, (along, across))
     except InputError as error:
         raise error.at(str(path)) from None

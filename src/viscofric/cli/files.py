@@ -56,7 +56,7 @@ class Named(click.Path):
         """Return the path."""
         found = super().convert(value, param, ctx)
         if found == DASH:
-            self.fail("`-` is no name of a file or folder, and nothing but tables can be printed.", param, ctx)
+            self.fail("`-` stands for standard input or output, which cannot be used here; give a name.", param, ctx)
         return found
 
 

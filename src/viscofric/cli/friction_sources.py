@@ -157,17 +157,21 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
 
 def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
     """Return the friction curves of the runs in files of a tribometer."""
-    from viscofric.errors import InputError
+    from viscofric.errors import DataFileError, InputError
     from viscofric.friction.curve_files import holds_friction_curves
     from viscofric.friction.measurement.tribometry import separate
     from viscofric.readers.mtm.read import read_mtm
 
-    curves = [path for path in paths if holds_friction_curves(path, settings.get("columns"))]
-    if curves:
-        problem = f"{curves[0]} holds friction curves, separated already; viscofric master and identify take it."
-        raise InputError(problem, code="friction-curves")
     settings = dict(settings)
-    runs = read_mtm(*paths, columns=settings.pop("columns", None), sheet=settings.pop("sheet", None))
+    headings, sheet = settings.pop("columns", None), settings.pop("sheet", None)
+    try:
+        runs = read_mtm(*paths, columns=headings, sheet=sheet)
+    except DataFileError as error:
+        curves = [path for path in paths if holds_friction_curves(path, headings)]
+        if not curves or error.code != "missing-columns" or "traction force" in error.note.values.get("known", ()):
+            raise
+        problem = f"{curves[0]} holds friction curves, not runs to be separated; viscofric master and identify take it."
+        raise InputError(problem, code="friction-curves") from None
     steps = settings.pop("except_steps")
     return _plain(separate(runs if steps is None else runs.select(except_steps=steps), **settings))
 

@@ -64,6 +64,7 @@ CURVES = Vocabulary(
         ("coulomb friction", ""),
     ),
     logarithms=True,
+    several="rows",
 )
 
 #: Column -> unit, long name; the load's are those of `FrictionCurves.to_dataset`.

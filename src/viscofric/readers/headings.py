@@ -8,7 +8,7 @@ import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from viscofric.errors import InputError, brief
 
@@ -21,7 +21,7 @@ _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNIT = (
     r"(?i:°[CKF]|℃|deg[CFK]|[mkM]?Hz|rad[/_]?s(?:ec)?|[kMG]?Pa|[kM]?psi|bar|[mkM]?N/[mc]?m(?:\^?2|²)|dynes?/cm(?:\^?2|²)"
-    r"|dyn/cm(?:\^?2|²)|kgf?/[mc]m(?:\^?2|²)|[mcµu]?m/s|1/s|rpm|1/[kMG]?Pa|mm|[µu]m|ms|min|cpm|Cel|%)|mN"
+    r"|dyn/cm(?:\^?2|²)|kgf?/[mc]m(?:\^?2|²)|[mcµu]?m/s|1/s|rpm|1/[kMG]?Pa|mm|[µun]m|ms|min|cpm|Cel|%)|mN"
 )
 _SEPARATED = re.compile(
     rf"^(?P<name>.*?[^\s/_,])(?:(?:\s+in\s+|_in_|\s*,\s*|_|\s+)(?P<unit>{_UNIT})"
@@ -85,6 +85,8 @@ class Vocabulary:
     offered: tuple[tuple[str, str], ...] = ()  # quantities that a form offers, each with an example of its unit
     user_columns: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, see `checked`
     logarithms: bool = False  # whether columns may hold logarithms of the quantities
+    # Whether several tables below each other are one, all rows alike, or of the temperatures in the lines above each.
+    several: Literal["refused", "rows", "titled"] = "refused"
 
     @cached_property
     def _meaning(self) -> dict[str, str]:

@@ -79,6 +79,11 @@ _TEMPERATURE_UNITS = dict.fromkeys(
     ("c", "cel", "degc", "celsius", "øc", ">c", "\ufffdc"), "degC"
 )  # the last ones damaged
 _TEMPERATURE_UNITS |= {"f": "degF", "degf": "degF", "k": "K"}
+#: Units of angles as instruments print them; pint would read "grad" as gradians and "%" as a part of a radian.
+_ANGLES = dict.fromkeys(
+    ("°", "º", "˚", "deg", "degree", "degrees", "grad", "degré", "degrés", "grados", "gradi"), "deg"
+)
+_ANGLES |= {"rad": "rad", "radian": "rad", "radians": "rad", "mrad": "mrad"}
 #: Units as people and instruments print them, in lower case -> as pint knows them.
 _SPELLINGS = {
     one.casefold(): one
@@ -128,7 +133,7 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     if unit == "K":
         text = _TEMPERATURE_UNITS.get(re.sub(r"[°º˚\s]", "", text.replace("℃", "C")).lower(), text)
     if unit == "rad":
-        text = re.sub("[°º˚]", "deg", text)
+        text = _ANGLES.get(text.strip().lower(), "an unknown unit")
     plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())
     folded = plain.replace(" ", "").casefold()
     try:

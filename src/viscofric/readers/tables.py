@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy
-from viscofric.readers.dma.names import temperature_of_title
+from viscofric.readers.dma.names import deformation_of, temperature_of_title
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
 from viscofric.readers.headings import heading, option_of, place_of
 from viscofric.readers.source import decimal_comma, same_unit
@@ -171,32 +171,40 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     block = np.searchsorted(first_lines, table.lines, side="right") if len(first_lines) > 1 else None
     held = tuple(tuple(title) for title, rows_of in zip(titles, blocks, strict=True) if rows_of)
     table = replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block, titles=held)
-    return _below_each_other(table) if block is None else table
+    if block is not None and words.several == "refused":
+        problem = f"holds {len(first_lines)} tables below each other, the second with its header above line "
+        raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
+    return _below_each_other(table) if block is None and words.several == "titled" else table
 
 
 def _below_each_other(table: Table) -> Table:
     """Return tables beside each other, such as E' and E'' of several temperatures, below each other.
 
-    Columns of quantities that are there once belong to all of them.  A temperature stands above each; else the table is
-    returned as it is.
+    Columns before them belong to all.  They have the same columns, and a temperature of its own stands above each; else
+    the table is returned as it is, and so it is where the user names columns, of which equal headings say too little.
     """
     places: dict[str, list[int]] = {}
     for place, column in enumerate(table.columns):
         if column.quantity:
             places.setdefault(column.quantity, []).append(place)
     shared = [some[0] for some in places.values() if len(some) == 1]
-    sets = list(zip(*(some for some in places.values() if len(some) > 1), strict=False))
+    repeated = [some for some in places.values() if len(some) > 1]
+    if len({len(some) for some in repeated}) != 1 or not table.above or any(one.given for one in table.columns):
+        return table
+    sets = list(zip(*repeated, strict=True))
     starts = [min(one) for one in sets]
     apart = all(max(one) < start for one, start in zip(sets, starts[1:], strict=False))
-    if len(sets) < 2 or not table.above or not apart:
+    if not apart or any(place >= starts[0] for place in shared):
         return table
     above = [*table.above[-1], *[""] * len(table.columns)]
     label = next((cell for cell in above[: starts[0]] if cell.strip()), "")
     titles = [_title(label, above[start:end]) for start, end in zip(starts, [*starts[1:], len(above)], strict=True)]
-    if any(temperature_of_title(title) is None for title in titles):
+    kelvins = {temperature_of_title(title) for title in titles}
+    if None in kelvins or len(kelvins) < len(titles):
         return table
     columns = [[table.columns[place] for place in (*shared, *one)] for one in sets]
-    if any([(c.quantity, c.unit) for c in one] != [(c.quantity, c.unit) for c in columns[0]] for one in columns):
+    kinds = [[(c.quantity, c.unit, c.base, deformation_of(c.name)) for c in one] for one in columns]
+    if any(one != kinds[0] for one in kinds):
         return table
     kept = [(number, row, one) for number, one in enumerate(sets, start=1) for row in range(len(table.rows))]
     kept = [(number, row, one) for number, row, one in kept if any(table.rows[row][place].strip() for place in one)]

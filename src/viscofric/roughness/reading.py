@@ -114,5 +114,5 @@ def _far_off(heights: Array, extreme: Callable[[Array], Any]) -> Note | None:
         return None
     count = int(np.count_nonzero(heights == value))
     held = "1 height of" if count == 1 else f"{count} heights of"
-    said = f"{held} {value:.6g} m lie far from all others"
+    said = f"{held} {value:.6g} m {'lies' if count == 1 else 'lie'} far from all others"
     return Note("missing-suspected", said, remedy=_AS_MISSING, values={"height": value, "count": count})

@@ -13,7 +13,7 @@ from viscofric.data import DEFORMATIONS, Deformation, MasterCurve
 from viscofric.errors import DataFileError, check_choice
 from viscofric.files import read_bytes
 from viscofric.notes import setting
-from viscofric.readers.dma.names import DMA, NOT_SAID
+from viscofric.readers.dma.names import DMA, NOT_SAID, temperature_of_title
 from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import delimited, dma_table, reptate, workbook
@@ -122,6 +122,9 @@ def _table(source: Source) -> tuple[Table, float]:
 
 
 def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
+    if table.block is not None and any(temperature_of_title(title) is not None for title in table.titles):
+        problem = "holds tables with temperatures of their own, no master curve"
+        raise DataFileError(table.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
     places = dma_table.find_columns(table, master_curve=True)
     doubts: list[str] = []
     frequency = dma_table.angular_frequency(table, places, doubts)

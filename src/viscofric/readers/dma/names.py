@@ -172,6 +172,7 @@ DMA = Vocabulary(
         ("strain amplitude", "%"),
     ),
     logarithms=True,
+    several="titled",
 )
 
 # "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.

@@ -73,6 +73,7 @@ TRACTION = Vocabulary(
         ("traction coefficient", ""),
         ("replicate", ""),
     ),
+    several="rows",
 )
 #: Quantity -> SI unit; cells may be empty.
 OPTIONAL = {"zero force": "N", "time": "s", "track radius": "m"}

@@ -71,6 +71,7 @@ STEPS = Vocabulary(
         ("creep compliance", "1/MPa"),
         ("relaxation modulus", "MPa"),
     ),
+    several="titled",
 )
 
 _CREEP = re.compile(r"creep|fluage|kriech|retard", re.IGNORECASE)

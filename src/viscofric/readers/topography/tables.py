@@ -56,7 +56,7 @@ def is_table(source: Source) -> bool:
     plain = (line.strip() for line in source.text.splitlines()[:200])
     first = next((line for line in plain if line and not line.startswith("#")), "")
     cells = _cells(first)
-    return (bool(first) and all(map(_is_number, cells[1:] or cells))) or holds_table(source, HEIGHTS)
+    return (bool(first) and all(map(_is_number, cells))) or holds_table(source, HEIGHTS) or _has_corner(source.text)
 
 
 def read_array(source: Source, options: ScanOptions) -> Scan:
@@ -111,13 +111,15 @@ def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[st
         )
     factor, _ = conversion(options.unit or stated_unit or "m", "m", "unit")
     table, notes, step = _without_positions(_read(table, options))
+    distances = None if step is None else (factor * step[0], factor * step[1])
     heights = np.atleast_2d(table.T).T if min(np.shape(table)) > 1 or table.ndim == 1 else table.reshape(-1, 1)
     # Such remarks precede an image, whose lines follow one another along y.
     if (options.lines == "y" or "width" in remarks) and heights.shape[1] > 1:
         heights = heights.T
-    spacing = options.spacing or (step if step is None else (factor * step[0], factor * step[1]))
+        distances = None if distances is None else (distances[1], distances[0])
+    spacing = options.spacing or distances
     if "width" in remarks:
-        if spacing is not None:
+        if options.spacing is not None:
             raise DataFileError(source.path, "states its width; leave the spacing out.", code="spacing-not-needed")
         width = _length(source.path, remarks["width"])
         height = _length(source.path, remarks["height"]) if "height" in remarks else width
@@ -170,6 +172,14 @@ def _is_number(cell: str) -> bool:
     return cell.lower() in MISSING or NUMBER.fullmatch(cell) is not None
 
 
+def _has_corner(text: str) -> bool:
+    """Return whether a text is a matrix with positions in its first row and column, and a label in their corner."""
+    try:
+        return _without_positions(_parsed("", text).rows)[2] is not None
+    except DataFileError:
+        return False
+
+
 def _parsed(path: str, text: str) -> _Text:
     remarks: dict[str, str] = {}
     found: list[tuple[int, list[str]]] = []
@@ -205,7 +215,8 @@ def _insist_on_delimiters(path: str, found: list[tuple[int, list[str]]]) -> None
         first = [int(cells[0]) for _, cells in found]
         if any(np.diff(first) <= 0):
             number, cells = found[0]
-            problem = f"'{','.join(cells)}' may be one number with a decimal comma, or two; write a decimal point."
+            problem = f"'{','.join(cells)}' may be one number with a decimal comma, or two; separate columns by "
+            problem += "semicolons or tabs, or write a decimal point."
             raise DataFileError(path, problem, number, code="ambiguous-decimals")
 
 
