@@ -118,17 +118,18 @@ class ContactOnLayers:
         more = bent * ((1.0 + self._slope) / 2.0 if self.line else (2.0 + self._slope) / 3.0)
         return ThicknessEffect(more - less, indentation)
 
-    def thickness_for(self, change: float, *, bonded: bool = True) -> float:
+    def thickness_for(self, change: float) -> float:
         """Return the least thickness, m, that changes friction by at most `change` (relative); one radius or more."""
+
+        def enough(radii: float) -> bool:
+            return abs(self.on(Layer(radii * self.radius)).friction) <= change
+
         low, high = THINNEST, _THICKEST
-        if abs(self.on(Layer(low * self.radius, bonded)).friction) <= change:
+        if enough(low):
             return low * self.radius
         for _ in range(_BISECTIONS):
             middle = float(np.sqrt(low * high))
-            if abs(self.on(Layer(middle * self.radius, bonded)).friction) > change:
-                low = middle
-            else:
-                high = middle
+            low, high = (low, middle) if enough(middle) else (middle, high)
         return high * self.radius
 
     def _friction(self, seen: _Waves, measure: Array) -> float:

@@ -138,19 +138,7 @@ def _pvb() -> Material:
     share = np.array(
         [0.1606, 0.07877, 0.2912, 0.071155, 0.2688, 0.089568, 0.030183, 0.0076056, 0.0009634, 0.0004059, 0.0006143]
     )
-    tau = [
-        3.2557e-11,
-        4.9491e-9,
-        7.2427e-8,
-        9.8635e-6,
-        2.8059e-3,
-        0.16441,
-        2.2648,
-        35.364,
-        9367.5,
-        641410.0,
-        41347000.0,
-    ]
+    tau = [3.2557e-11, 4.9491e-9, 7.2427e-8, 9.8635e-6, 2.8059e-3, 0.16441, 2.2648, 35.364, 9367.5, 6.4141e5, 4.1347e7]
     relaxation = RelaxationSpectrum(glass * (1.0 - share.sum()), glass * share, tau)
     shift = WLF(C1=20.7, C2=91.1, reference="20 degC")
     return Material(relaxation.to_retardation(), shift, 0.5, "PVB interlayer (plasticised polyvinyl butyral)")
