@@ -297,6 +297,31 @@ def test_sliding_before_a_jump_at_the_start_is_at_the_first_speed_and_temperatur
     assert run.friction_coefficient[:2] == pytest.approx(steady.friction_coefficient, rel=1e-2)
 
 
+def test_turning_back_at_the_start_after_sliding_is_turning_back_after_a_slide():
+    """The first of two points at the start, too, is compared with that of the coarser grid."""
+    turned, later = (
+        vf.motion.solve_transient(
+            RUBBER,
+            CYLINDER,
+            vf.motion.History(
+                [0.0, slide, slide, slide + 1e-3], load=LOAD, speed=[0.2, 0.2, -0.2, -0.2], before="sliding"
+            )
+            if slide
+            else vf.motion.History([0.0, 0.0, 1e-3], load=LOAD, speed=[0.2, -0.2, -0.2], before="sliding"),
+            times=[slide, slide, slide + 1e-3],
+            accuracy=1e-2,
+        )
+        for slide in (0.0, 5e-4)
+    )
+    largest = turned.friction_coefficient.max()
+    assert turned.friction_coefficient[-1] < 0.0
+    assert turned.friction_coefficient == pytest.approx(later.friction_coefficient, abs=1e-2 * largest)
+    values = np.array([[2.0], [3.0], [4.0]])
+    for clock in ([0.0, 5e-324, 1.0], [1.0, 1.0 + 2e-16, 2.0]):
+        times = np.array(clock)
+        assert solve._interpolated(times, times, values, times[[0, 2]]) == pytest.approx(values)
+
+
 @pytest.mark.parametrize("line", [True, False])
 def test_far_wake_is_the_sum_over_its_cells(line):
     response, window = response_of(line, 0.1, 1.0, None, 500.0), Box(0, 0, 50, 1)

@@ -284,7 +284,7 @@ def _interpolated(clock: Array, given: Array, values: Array, kinks: Array) -> Ar
 
     They are cubics of the logarithm of the time since the kink: first steps are short.
     """
-    found = np.empty((len(clock), values.shape[1]))
+    found = np.repeat(values[:1], len(clock), axis=0)  # before a jump at the start
     for start, end in itertools.pairwise(kinks):
         begin = np.nextafter(start, math.inf)  # the second of two points, at a jump
         inside = (given >= (begin if begin in given else start)) & (given <= end)
