@@ -45,6 +45,26 @@ def test_small_oscillation_has_the_stiffness_of_the_complex_modulus() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("place", ["start", "end", "inside"])
+@pytest.mark.parametrize(("control", "low"), [("load", 1.0), ("indentation", 1e-4)])
+def test_a_punch_under_a_square_wave_has_the_complex_modulus_of_its_frequency(
+    place: str, control: str, low: float
+) -> None:
+    """A punch is linear: harmonics are in the ratio 2 a E(ω)/(1 − ν²), wherever in the period the jumps are."""
+    half, high = 0.01, 1.02 * low  # a step of the depth ten times as large would lift the punch
+    time, value = {
+        "start": ([0.0, 0.0, half, half, 2.0 * half], [low, high, high, low, low]),
+        "end": ([0.0, half, half, 2.0 * half, 2.0 * half], [low, low, high, high, low]),
+        "inside": (half * np.array([0.0, 0.4, 0.4, 1.4, 1.4, 2.0]), [low, low, high, high, low, low]),
+    }[place]
+    period = vf.motion.History(time, **{control: value})
+    cycle = vf.motion.solve_cycle(SLS, vf.FlatPunch("1 mm"), period)
+    modulus = complex(SLS.spectrum.complex_modulus(np.pi / half))
+    exact = 2.0 * 1e-3 * modulus / 0.75
+    assert cycle.storage_stiffness == pytest.approx(exact.real, rel=1e-3)  # the accuracy
+    assert cycle.loss_tangent == pytest.approx(modulus.imag / modulus.real, rel=1e-3)
+
+
 def test_contact_that_is_lost_in_every_period() -> None:
     # Independent solution: MDR, three refinements, extrapolated; 3e-6.  The rest is the sampling of the sine.
     phase, values = sine(128, 1.0, 1.5)

@@ -177,10 +177,11 @@ class _Search:
     ) -> Track[Watched]:
         """Return one period in the periodic state."""
         mover = Watch.of(repeating, schedule)
-        first, last = schedule.at(schedule.start), schedule.at(schedule.end, after=False)
+        # Before a jump at the start, which is a part of the period.
+        first, last = (schedule.at(time, after=False) for time in (schedule.start, schedule.end))
         state = mover.begin()
         if schedule.before == "untouched":
-            state = mover.step(state, schedule.at(schedule.start, after=False), first)
+            state = mover.step(state, first, first)
         if self.coarser is not None:
             state = mover.with_memory(state, repeating.memory_from(*self.coarser))
         mixing, plain = _Anderson(self.damping), False
