@@ -64,6 +64,21 @@ def test_a_source_that_comes_back_meets_its_own_heat() -> None:
     assert back[-1] > 1.05 * onward[-1]
 
 
+def test_times_that_differ_by_rounding_are_one_time() -> None:
+    """Such as a time asked for next to one of the history: the rise is that without one of them."""
+    time = np.array([0.0, 0.01, np.nextafter(0.01, 1.0), 0.03, 0.05])
+    heating = vf.Heating(rubber=RUBBER, counterface=STEEL)
+    both, one = (
+        path_rise(
+            Passage(each, np.stack([0.1 * each, 0.0 * each], 1), np.full(len(each), SIZE), "disc"),
+            np.diff(each, prepend=0.0), np.diff(each, prepend=0.0), heating,
+        )
+        for each in (time, np.delete(time, 2))
+    )  # fmt: skip
+    assert np.delete(both.face, 2) == pytest.approx(one.face, rel=1e-9)
+    assert np.delete(both.below, 2) == pytest.approx(one.below, rel=1e-9)
+
+
 @pytest.mark.parametrize(("shape", "power"), [("disc", 2), ("strip", 1)])
 def test_distances_have_a_probability_of_one(shape: str, power: int) -> None:
     for spread in (1e-5, 1e-2, 1.0, 9.9, 10.1):

@@ -109,20 +109,23 @@ def _responses(passage: Passage, body: ThermalProperties) -> Array:
 def _response(passage: Passage, body: ThermalProperties, row: int, last: int, radius: float) -> Array:
     time, places = passage.time, passage.position
     start, end = math.sqrt(time[row] - time[last - 1]), math.sqrt(time[row] - time[last])
+    length = float(time[last] - time[last - 1])
+    whole = length / (start + end)  # their difference, of intervals as short as rounding, too
     way = places[last] - places[last - 1]
     parts = min(_PARTS, 1 + math.ceil(math.hypot(*way) / (_STEP * radius)))
     # Parts by the path, and by the time in which heat spreads over the contact, which M changes with.
     spreading = radius / math.sqrt(body.diffusivity) * _SPREADING
-    inside = spreading[(spreading > end) & (spreading < start)]
-    edges = np.sort(np.append(np.linspace(end, start, parts + 1), inside))
+    inside = (spreading[(spreading > end) & (spreading < start)] - end) / whole
+    edges = np.sort(np.append(np.linspace(0.0, 1.0, parts + 1), inside))
     half = 0.5 * np.diff(edges)[:, None]
-    root = (edges[:-1, None] + half * (1.0 + _NODES)).ravel()  # √t, in which 1/√t has no pole
-    share = (start**2 - root**2) / (start**2 - end**2)
+    place = (edges[:-1, None] + half * (1.0 + _NODES)).ravel()
+    root = end + whole * place  # √t, in which 1/√t has no pole
+    share = (1.0 - place) * whole * (start + root) / length
     away = places[row] - places[last - 1] - share[:, None] * way
     spread = body.diffusivity * root**2 / radius**2
     scale = body.volume_heat * math.sqrt(math.pi * body.diffusivity) * radius ** _POWER[passage.shape]
-    each = 2.0 * (half * _WEIGHTS).ravel() * density(np.hypot(*away.T) / radius, spread, passage.shape)
-    each /= scale * (start**2 - end**2)
+    each = 2.0 * whole * (half * _WEIGHTS).ravel() * density(np.hypot(*away.T) / radius, spread, passage.shape)
+    each /= scale * length
     return np.asarray(between_depths(spread, passage.shape) @ each)
 
 
