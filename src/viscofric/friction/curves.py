@@ -279,7 +279,15 @@ class FrictionCurves(Plotted):
     def select(self, keep: Mask | Integers) -> FrictionCurves:
         """Return some of the entries, with the same notes and source.
 
-        `keep` is a mask of the entries, or their indices in the order wanted; InputError if it does not fit.
+        Parameters
+        ----------
+        keep : (n,) array of bool, or array of int
+            Mask of the entries, or their indices in the order wanted.
+
+        Raises
+        ------
+        InputError
+            If a mask has another length, or there is no such entry.
         """
         rows = picked(keep, len(self), "entries")
         columns = {
@@ -290,10 +298,18 @@ class FrictionCurves(Plotted):
         return replace(self, **columns)
 
     def at_temperature(self, temperature: Quantity) -> FrictionCurves:
-        """Return the entries at one temperature (K if a plain number), in ascending speed.
+        """Return the entries at one temperature, in ascending speed.
 
-        It is the nearest one within 1 K; where measured, with all that scatter about the same nominal one (less than 1
-        K apart).  InputError if there is none so near.
+        Parameters
+        ----------
+        temperature : float, str or pint.Quantity
+            K if a plain number.  The nearest available temperature is used, if within 1 K; where measured, with all
+            that scatter about the same nominal one (less than 1 K apart).
+
+        Raises
+        ------
+        InputError
+            If there is none so near.
         """
         wanted = positive(temperature, "K", "temperature")
         there = self.temperatures
@@ -313,7 +329,18 @@ class FrictionCurves(Plotted):
         return self.select(rows[np.argsort(self.speed[rows], kind="stable")])
 
     def at_load(self, load: Quantity) -> FrictionCurves:
-        """Return the entries whose load is within 5 % of one in `load_unit`; InputError if there are none."""
+        """Return the entries whose load is within 5 % of the one given.
+
+        Parameters
+        ----------
+        load : float, str or pint.Quantity
+            In `load_unit` if a plain number.
+
+        Raises
+        ------
+        InputError
+            If there are none.
+        """
         unit = self.load_unit
         wanted = positive(load, unit, "load")
         keep = np.abs(self.load - wanted) <= SAME_LOAD * wanted

@@ -129,7 +129,13 @@ class ShearStress(Plotted):
         return replace(law, fitted_pressures=(float(self.mean_pressure.min()), float(self.mean_pressure.max())))
 
     def compare_laws(self) -> LawComparison[InterfaceLaw]:
-        """Fit every law and choose as for shift factors; see `LawComparison`.  InputError if no law can be fitted."""
+        """Fit every law and choose by Akaike's criterion, as laws of shift factors are chosen; see `LawComparison`.
+
+        Raises
+        ------
+        InputError
+            If no law can be fitted.
+        """
         compared = compare_stress_laws(self._table, *self._way)
         pressures = float(self.mean_pressure.min()), float(self.mean_pressure.max())
         rows = {

@@ -190,7 +190,18 @@ class Material(Plotted):
         return spectrum if alpha == 1.0 and b == 1.0 else spectrum.shifted(alpha, b)
 
     def at_reference(self, reference: Quantity) -> Material:
-        """Return the same material, described about another reference temperature; argument and errors as of `at`."""
+        """Return the same material, described about another reference temperature.
+
+        Parameters
+        ----------
+        reference : float or quantity
+            K, or text such as ``"60 degC"``.
+
+        Raises
+        ------
+        InputError
+            As for `at`.
+        """
         spectrum = self.at(reference)
         shift = None if self.shift is None else self.shift.at_reference(reference)
         return replace(self, spectrum=spectrum, shift=shift)
@@ -198,8 +209,18 @@ class Material(Plotted):
     def modes_at(self, temperature: Quantity | None = None) -> RetardationSpectrum:
         """Return the retardation modes at a temperature, for what cannot do without: creep and the free contact.
 
-        Those of a table are fitted to it once, at its reference (`notes_on_modes` says how well).  Argument and errors
-        as of `at`; InputError also if no modes describe the table to 0.05 decades (rms of log10 E' and log10 E'').
+        Those of a table are fitted to it once, at its reference (`notes_on_modes` says how well).
+
+        Parameters
+        ----------
+        temperature : float or quantity, optional
+            As for `at`.
+
+        Raises
+        ------
+        InputError
+            If the material is a table that no modes describe to 0.05 decades (rms of log10 E' and log10 E''), or for
+            the reasons of `at`.
         """
         if isinstance(self.spectrum, RetardationSpectrum):
             return self._moved(self.spectrum, temperature)
@@ -215,9 +236,24 @@ class Material(Plotted):
         return modes_of_table(self.spectrum)  # type: ignore[arg-type]
 
     def complex_modulus(self, angular_frequency: ArrayLike, temperature: Quantity | None = None) -> ComplexArray:
-        """Return E(ω, T) = E' + iE'', Pa, in the shape of the angular frequency, rad/s.
+        """Return E(ω, T) = E' + iE'', Pa.
 
-        Temperature and errors as of `at`; InputError also outside a table that is not extrapolated.
+        Parameters
+        ----------
+        angular_frequency : array_like
+            rad/s.
+        temperature : float, str or pint.Quantity, optional
+            K if a plain number; that of the spectrum or table if left out.
+
+        Returns
+        -------
+        complex array
+            In the shape of `angular_frequency`.
+
+        Raises
+        ------
+        InputError
+            If a frequency is outside a table that is not extrapolated, or the shift is unknown at the temperature.
         """
         return self.at(temperature).complex_modulus(angular_frequency)
 

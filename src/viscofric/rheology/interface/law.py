@@ -143,9 +143,12 @@ class InterfaceLaw(Shown, ABC):
         return np.asarray(10.0**decades)
 
     def standard_error(self, speed: Quantities, temperature: Quantities | None = None) -> Any:
-        """Return the standard error of log10 τ_s, decades, by the delta method; arguments and errors as of a call.
+        """Return the standard error of log10 τ_s, decades, by the delta method; arguments as of a call.
 
-        InputError also if the law has no covariance.
+        Raises
+        ------
+        InputError
+            As a call, or if the law has no covariance.
         """
         if self.covariance is None:
             raise InputError(

@@ -171,7 +171,23 @@ class ParametricLaw(ShiftLaw):
     # --- uncertainty -----------------------------------------------------------------------------------------
 
     def gradient(self, temperature: Any) -> Array:
-        """Return the derivatives of log10 α(T) by each of `parameters`, (..., n); argument and errors as of `log10`."""
+        """Return the derivatives of log10 α(T) by the constants.
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        (..., n) array
+            In the shape of `temperature`, then one for each of `parameters`; zero at the reference.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it.
+        """
         kelvin = in_kelvin(temperature)
         self._refuse(np.atleast_1d(kelvin))
         return self._gradient(kelvin)

@@ -240,7 +240,15 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the factors with their covariance to a CSV file that `read_shift_factors` reads back unchanged.
 
-        An existing file is overwritten; DataFileError if it cannot be written.
+        Parameters
+        ----------
+        path : str or path
+            An existing file is overwritten.
+
+        Raises
+        ------
+        DataFileError
+            If the file cannot be written.
         """
         text = io.StringIO()
         text.write(f"# viscofric shift factors\n# reference (degC): {_in_celsius(self.reference)}\n")
@@ -304,7 +312,15 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
     def compare_laws(self, *, above: Quantity | None = None) -> LawComparison[ParametricLaw]:
         """Fit every law and choose the one that the table supports best; see `LawComparison`.
 
-        Measured temperatures below `above` are left out; InputError if no law describes the table.
+        Parameters
+        ----------
+        above : float or quantity, optional
+            Leave out measured temperatures below this one.
+
+        Raises
+        ------
+        InputError
+            If no law describes the table.
         """
         return compare_laws(self._table(above))
 

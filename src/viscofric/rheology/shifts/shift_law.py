@@ -88,7 +88,18 @@ class Shift(Plotted, ABC):
 
     @abstractmethod
     def at_reference(self, reference: Quantity) -> Self:
-        """Return the same shift, 1 at another temperature (K if a plain number); InputError where it is not valid."""
+        """Return the same shift, 1 at another temperature.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If the shift is not valid there; see `log10`.
+        """
 
     @overload
     def log10(self, temperature: Quantity) -> float: ...
@@ -161,7 +172,20 @@ class ShiftLaw(Shift):
     def standard_error(self, temperature: Any) -> Any:
         """Return the standard error of log10 α(T), decades; zero at the reference.
 
-        Argument, shape and errors as of `log10`; InputError also if constants were given without a covariance.
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        float or array
+            In the shape of `temperature`.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it, or if the law's constants were given without a covariance.
         """
         kelvin = in_kelvin(temperature)
         self._refuse(np.atleast_1d(kelvin))
@@ -172,9 +196,18 @@ class ShiftLaw(Shift):
     @overload
     def extrapolates(self, temperature: Temperatures) -> Mask: ...
     def extrapolates(self, temperature: Any) -> Any:
-        """Return whether temperatures, as of `log10`, lie outside those that the law was fitted on.
+        """Say whether the law rests on extrapolation at a temperature.
 
-        A law that was not fitted, or one that is valid at measured temperatures only, extrapolates nowhere.
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+
+        Returns
+        -------
+        bool or array of bool
+            In the shape of `temperature`; True outside the temperatures that the law was fitted on.  A law that
+            was not fitted, or one that is valid at measured temperatures only, extrapolates nowhere.
         """
         outside = self._outside(in_kelvin(temperature))
         return bool(outside) if np.ndim(outside) == 0 else outside
@@ -187,9 +220,24 @@ class ShiftLaw(Shift):
     @overload
     def valid_at(self, temperature: Temperatures, *, above_pole: float = 0.0) -> Mask: ...
     def valid_at(self, temperature: Any, *, above_pole: float = 0.0) -> Any:
-        """Return whether the law has a value at temperatures, where `log10` raises no error, in their shape.
+        """Return whether the law has a value at a temperature, where `log10` raises no error.
 
-        `above_pole` is a distance to keep from a pole of the law, K; for figures, as α has no bound there.
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them
+            Plain numbers are in K.
+        above_pole : float
+            Distance to keep from a pole of the law, K; for figures, as α has no bound there.
+
+        Returns
+        -------
+        bool or array of bool
+            In the shape of `temperature`.
+
+        Raises
+        ------
+        InputError
+            If a temperature is not above absolute zero.
         """
         kelvin, margin = in_kelvin(temperature), to_si(above_pole, "delta_degC", "above_pole")
         valid = self._valid(np.ravel(kelvin)).reshape(np.shape(kelvin))
@@ -209,9 +257,18 @@ class ShiftLaw(Shift):
         return True
 
     def values_at(self, temperatures: Any) -> tuple[Array, Array]:
-        """Return log10 α and its standard error in the shape of `temperatures`, NaN where the law is not valid.
+        """Return log10 α and its standard error, also where the law has no value.
 
-        Standard errors that are not known (`has_standard_error`) are zero.
+        Parameters
+        ----------
+        temperatures : array or list of float, str or quantity
+            Plain numbers are in K.
+
+        Returns
+        -------
+        log10, standard_error : array
+            In the shape of `temperatures`, NaN where the law is not valid (`valid_at`).  Standard errors that are not
+            known (`has_standard_error`) are zero.
         """
         kelvin = in_kelvin(temperatures)
         valid = self.valid_at(kelvin)
@@ -222,7 +279,23 @@ class ShiftLaw(Shift):
         return values, errors
 
     def covariance_at(self, temperatures: Temperatures) -> Array:
-        """Return the covariance (n, n) of log10 α at n temperatures, zero where unknown; errors as of `log10`."""
+        """Return the covariance of log10 α at several temperatures.
+
+        Parameters
+        ----------
+        temperatures : (n,) array or list of float, str or quantity
+            Plain numbers are in K.
+
+        Returns
+        -------
+        (n, n) array
+            Zero where it is not known.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it.
+        """
         kelvin = np.ravel(in_kelvin(temperatures))
         self._refuse(kelvin)
         return self._covariance(kelvin)

@@ -186,9 +186,22 @@ class ModulusTable(FrequencyResponse, Items[tuple[float, float, float]]):
         )
 
     def complex_modulus(self, angular_frequency: ArrayLike) -> ComplexArray:
-        """Return E(ω) = E' + iE'', Pa, in the shape of the angular frequency, rad/s, of any sign.
+        """Return E(ω) = E' + iE'', Pa.
 
-        InputError if a frequency is outside the table and not to be extrapolated, or is NaN.
+        Parameters
+        ----------
+        angular_frequency : array_like
+            rad/s, of any sign.
+
+        Returns
+        -------
+        complex array
+            In the shape of `angular_frequency`.
+
+        Raises
+        ------
+        InputError
+            If a frequency is outside the table and not to be extrapolated, or is NaN.
         """
         signed = in_si(angular_frequency, "rad/s", "angular_frequency", infinite=True)
         omega = np.abs(signed)
@@ -212,9 +225,19 @@ class ModulusTable(FrequencyResponse, Items[tuple[float, float, float]]):
         return np.asarray(1.0 / self.complex_modulus(angular_frequency))
 
     def shifted(self, alpha: float, b: float = 1.0) -> ModulusTable:
-        """Return the table at another temperature, of shift factor α and vertical shift b, both above zero.
+        """Return the table at another temperature.
 
         From E(ω, T) = b E(αω, T0): every frequency is divided by α, every modulus multiplied by b.
+
+        Parameters
+        ----------
+        alpha, b : float
+            Shift factor and vertical shift there.
+
+        Raises
+        ------
+        InputError
+            If one is not above zero and finite.
         """
         alpha, b = checked_shift(alpha, b)
         return ModulusTable(

@@ -200,14 +200,32 @@ class MaterialSamples(Plotted, Items["Material"]):
         return float(np.mean([shift.log10(temperature) for shift in shifts]))
 
     def spectrum_band(self, level: float = 0.95) -> Band:
-        """Return limits (n,) that hold each C, 1/Pa, at the times `tau` with probability `level`.
+        """Return limits of every C, 1/Pa, at the times `tau`.
 
         Single modes are poorly determined: neighbouring modes compensate each other.
+
+        Parameters
+        ----------
+        level : float
+            Probability that the limits include, between 0 and 1.
+
+        Returns
+        -------
+        Band
+            Lower limit, median and upper limit, (n,) each.
         """
         return _limits(self.C, level)
 
     def band(self, value: Callable[[Material], ArrayLike], level: float = 0.95) -> Band:
-        """Return limits of a number or array that a function makes of a `Material`, with probability `level`."""
+        """Return limits of anything that follows from a material.
+
+        Parameters
+        ----------
+        value : callable
+            Of a `Material`: a number or an array, always of the same shape.
+        level : float
+            Above 0 and below 1.
+        """
         insist_on_function(value, "value", needed=True)
         return _limits(np.array([value(material) for material in self.materials]), level)
 
