@@ -97,11 +97,33 @@ class InversePolynomial(ParametricLaw):
         return np.array(self.coefficients)
 
     def with_parameters(self, parameters: Any) -> InversePolynomial:
-        """Return a polynomial with other coefficients c_k (degree,), with the same reference and range."""
+        """Return a polynomial with other coefficients, with the same reference and range.
+
+        Parameters
+        ----------
+        parameters : (degree,) array
+            Coefficients c_k, as of the class.
+
+        Raises
+        ------
+        InputError
+            If log10 α does not fall with temperature over the range.
+        """
         return InversePolynomial(parameters, self.reference, self.fitted_range)
 
     def at_reference(self, reference: Quantity) -> InversePolynomial:
-        """Return the same polynomial about another temperature of its range: powers of a shifted variable."""
+        """Return the same polynomial about another temperature of its range: powers of a shifted variable.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If it is outside the range of the polynomial.
+        """
         kelvin = positive(reference, "K", "reference")
         self._refuse(np.array([kelvin]))
         moved = _moved(self.degree, 1.0 / kelvin - 1.0 / self.reference)

@@ -105,7 +105,18 @@ class DensityShift(VerticalShift):
         return np.asarray(np.log10(kelvin / self.reference) - self.expansion * warmer / math.log(10.0))
 
     def at_reference(self, reference: Quantity) -> DensityShift:
-        """Return the same law with b = 1 at another temperature and the same expansivity."""
+        """Return the same law with b = 1 at another temperature and the same expansivity.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If it is not above absolute zero.
+        """
         return DensityShift(positive(reference, "K", "reference"), self.expansion)
 
 
@@ -190,7 +201,18 @@ class VerticalShiftFactors(VerticalShift):
         return np.asarray(np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", weights, self.covariance, weights), 0.0)))
 
     def at_reference(self, reference: Quantity) -> VerticalShiftFactors:
-        """Return the same table with b = 1 at another temperature of its range."""
+        """Return the same table with b = 1 at another temperature.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If it is outside the measured range.
+        """
         kelvin = positive(reference, "K", "reference")
         self._refuse(np.array([kelvin]))
         change = np.eye(self.temperatures.size) - self._weights(np.array([kelvin]))

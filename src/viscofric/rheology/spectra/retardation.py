@@ -122,7 +122,23 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         return np.asarray(1.0 / self.compliance(angular_frequency))
 
     def creep_compliance(self, time: ArrayLike) -> Array:
-        """Return J(t) after a step of stress, 1/Pa, in the shape of `time` (s, not below zero)."""
+        """Return J(t) after a step of stress, 1/Pa.
+
+        Parameters
+        ----------
+        time : array_like
+            s, not below zero.
+
+        Returns
+        -------
+        array
+            In the shape of `time`.
+
+        Raises
+        ------
+        InputError
+            If a time is below zero.
+        """
         seconds = checked_times(time, "creep compliance")
         total = np.full(seconds.shape, 1.0 / self.E_inf)
         for compliance, retardation in zip(self.C, self.tau, strict=True):
@@ -130,7 +146,23 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         return total
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
-        """Return E(t) after a step of strain, Pa, in the shape of `time` (s, not below zero)."""
+        """Return E(t) after a step of strain, Pa.
+
+        Parameters
+        ----------
+        time : array_like
+            s, not below zero.
+
+        Returns
+        -------
+        array
+            In the shape of `time`.
+
+        Raises
+        ------
+        InputError
+            If a time is below zero.
+        """
         return self.to_relaxation().relaxation_modulus(time)
 
     def to_relaxation(self) -> RelaxationSpectrum:
@@ -310,7 +342,23 @@ class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         return np.asarray(1.0 / modulus)
 
     def relaxation_modulus(self, time: ArrayLike) -> Array:
-        """Return E(t) after a step of strain, Pa, in the shape of `time` (s, not below zero)."""
+        """Return E(t) after a step of strain, Pa.
+
+        Parameters
+        ----------
+        time : array_like
+            s, not below zero.
+
+        Returns
+        -------
+        array
+            In the shape of `time`.
+
+        Raises
+        ------
+        InputError
+            If a time is below zero.
+        """
         seconds = checked_times(time, "relaxation modulus")
         total = np.full(seconds.shape, self.E0)
         for modulus, relaxation in zip(self.E, self.tau, strict=True):
@@ -318,7 +366,23 @@ class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         return total
 
     def creep_compliance(self, time: ArrayLike) -> Array:
-        """Return J(t) after a step of stress, 1/Pa, in the shape of `time` (s, not below zero); not for a liquid."""
+        """Return J(t) after a step of stress, 1/Pa; not for a liquid.
+
+        Parameters
+        ----------
+        time : array_like
+            s, not below zero.
+
+        Returns
+        -------
+        array
+            In the shape of `time`.
+
+        Raises
+        ------
+        InputError
+            If a time is below zero, or E0 is zero.
+        """
         return self.to_retardation().creep_compliance(time)
 
     def to_retardation(self) -> RetardationSpectrum:
