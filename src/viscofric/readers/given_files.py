@@ -11,9 +11,12 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
+from viscofric.notes import Remedy
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.source import Source, Test, checked_sheet
 from viscofric.units import Quantity, kelvin_hint, positive, shown_celsius
+
+_ITS_FILES = Remedy("*sorted(Path(folder).glob('*')).", "FOLDER/*.csv.", 'dma = ["a.csv", "b.csv"].')
 
 
 def files_of(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]], reader: str) -> list[str]:
@@ -58,7 +61,7 @@ def bytes_of(path: str) -> bytes:
     """Return the content of a file, or raise `DataFileError`."""
     if "\0" not in path and Path(path).is_dir():
         raise DataFileError(
-            path, "is a folder, not a data file; give its files, e.g. *sorted(Path(folder).glob('*')).", code="folder"
+            path, "is a folder, not a data file; give its files, e.g. ", code="folder", remedy=_ITS_FILES
         )
     return read_bytes(path)
 

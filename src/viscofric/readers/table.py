@@ -50,7 +50,6 @@ MISSING = frozenset(
 )
 
 #: A number as printed, with a decimal point or comma.
-#: A number as printed, with a decimal point or comma.
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 
 

@@ -57,6 +57,8 @@ _CONTENT: dict[TestKind, tuple[str, Callable[[Any], Iterable[Any]], tuple[str, .
     "creep": ("creep_tests", lambda test: test.tests, (*_STEP, "creep_compliance")),
     "relaxation": ("relaxation_tests", lambda test: test.tests, (*_STEP, "relaxation_modulus")),
 }
+#: Words of several -> the word of one, if not without its s.
+_ONE = {"frequencies": "frequency"}
 #: Quantity -> heading (in tension, in shear), width of a range, factor and offset to what is printed.
 _PRINTED = {
     "temperature": (("T (°C)",), 16, 1.0, -273.15),
@@ -86,7 +88,9 @@ def described(kind: TestKind, test: Any, files: Iterable[str]) -> tuple[dict[str
         **listed("notes", test.notes),
     }
     what = "moduli" if kind not in ("creep", "relaxation") else "responses"
-    count = "an amplitude sweep" if kind == "amplitude" else f"{len(rows)} {noun.replace('_', ' ')}"
+    words = noun.replace("_", " ")
+    several = f"{len(rows)} {words}" if len(rows) != 1 else f"1 {_ONE.get(words, words.removesuffix('s'))}"
+    count = "an amplitude sweep" if kind == "amplitude" else several
     lines = [f"{test.format}; {what} in {test.deformation}; {count}"]
     shear = test.deformation == "shear"
     cells = [[_PRINTED[name][0][-1 if shear else 0] for name in names]]
