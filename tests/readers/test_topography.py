@@ -165,6 +165,9 @@ def test_positions_about_a_matrix_are_no_heights(tmp_path):
         assert found.heights == pytest.approx(1e-6 * np.array([[1, 2, 4], [3, 1, 2], [1, 1, 5]]))
         assert found.spacing == pytest.approx((5e-6, 10e-6))
         assert "positions-in-matrix" in codes(found.history)
+        image = vf.read_topography(write(tmp_path, text), unit="um", lines="y")
+        assert (image.shape, image.spacing) == ((3, 3), pytest.approx((10e-6, 5e-6)))
+        assert image.heights[2, 0] == pytest.approx(4e-6)
     uneven = vf.read_topography(write(tmp_path, text.replace("5.0", "6.0")), unit="um", spacing="5 um")
     assert uneven.shape == (4, 4)
 
