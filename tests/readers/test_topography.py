@@ -175,7 +175,8 @@ def test_positions_about_a_matrix_are_no_heights(tmp_path):
 @pytest.mark.parametrize(
     ("text", "arguments", "refusal"),
     [
-        ("1,5\n1,25\n0,75\n", {"spacing": "1 um"}, ("ambiguous-decimals", 1, "'1,5'")),  # one column, or two
+        ("1,5\n1,25\n0,75\n", {}, ("ambiguous-decimals", 1, "'1,5'")),  # one column, or two
+        ("1,5\n2,25\n3,75\n", {"spacing": "1 um"}, ("ambiguous-decimals", 1, "'1,5'")),
         ("1,234;5,678\n9,123;4,567\n", {"spacing": "1 um"}, ("ambiguous-decimals", 1, "'1,234'")),
         ("1,2,3,4\n5,6,7,8\n", {}, ("no-spacing",)),
         ("1,2,3,4\n5,6\n", {"spacing": "1 um"}, ("row-length", 2, "2 numbers", "4")),

@@ -73,7 +73,7 @@ def read_text_table(source: Source, options: ScanOptions) -> Scan:
     assert source.text is not None
     if holds_table(source, HEIGHTS):
         return _points(source, options)
-    table = _parsed(source.path, source.text)
+    table = _parsed(source.path, source.text, are_points=options.spacing is None)
     if options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3):
         factor, _ = conversion(options.unit or "m", "m", "unit")
         rows = np.column_stack([table.rows[:, :-1], _read(table.rows[:, -1], options)])
@@ -175,12 +175,13 @@ def _is_number(cell: str) -> bool:
 def _has_corner(text: str) -> bool:
     """Return whether a text is a matrix with positions in its first row and column, and a label in their corner."""
     try:
-        return _without_positions(_parsed("", text).rows)[2] is not None
+        return _without_positions(_parsed("", text, are_points=False).rows)[2] is not None
     except DataFileError:
         return False
 
 
-def _parsed(path: str, text: str) -> _Text:
+def _parsed(path: str, text: str, *, are_points: bool) -> _Text:
+    """Return the numbers of a text; `are_points`: whether two columns are positions and heights."""
     remarks: dict[str, str] = {}
     found: list[tuple[int, list[str]]] = []
     for number, line in enumerate(text.splitlines(), 1):
@@ -201,7 +202,7 @@ def _parsed(path: str, text: str) -> _Text:
         if len(cells) != wanted:
             problem = f"the line holds {len(cells)} numbers where the first holds {wanted}."
             raise DataFileError(path, problem, number, code="row-length")
-    _insist_on_delimiters(path, found)
+    _insist_on_delimiters(path, found, are_points=are_points)
     decimal_comma(path, ((cell, number) for number, cells in found for cell in cells if "," in cell))
     if not _is_number(found[0][1][0]):  # a label in the corner of positions
         found[0][1][0] = ""
@@ -209,11 +210,11 @@ def _parsed(path: str, text: str) -> _Text:
     return _Text(rows, [number for number, _ in found], remarks)
 
 
-def _insist_on_delimiters(path: str, found: list[tuple[int, list[str]]]) -> None:
-    """Refuse whole numbers in pairs, which may be one number with a decimal comma, unless the first ones ascend."""
+def _insist_on_delimiters(path: str, found: list[tuple[int, list[str]]], *, are_points: bool) -> None:
+    """Refuse whole numbers in pairs, which may be one number with a decimal comma, unless they ascend as positions."""
     if all(len(cells) == 2 and _WHOLE.fullmatch(cells[0]) and cells[1].isdecimal() for _, cells in found):
         first = [int(cells[0]) for _, cells in found]
-        if any(np.diff(first) <= 0):
+        if not are_points or any(np.diff(first) <= 0):
             number, cells = found[0]
             problem = f"'{','.join(cells)}' may be one number with a decimal comma, or two; separate columns by "
             problem += "semicolons or tabs, or write a decimal point."
