@@ -100,6 +100,16 @@ def test_links_between_pages_lead_somewhere() -> None:
     assert not dead
 
 
+def test_rows_of_tables_end_in_their_line() -> None:
+    """A row that goes on in the next line is two rows on the page."""
+    broken = []
+    for page in pages():
+        lines = (DOCS / page).read_text("utf-8").splitlines()
+        rows = [n for n in range(1, len(lines)) if lines[n].startswith("|") and lines[n - 1].startswith("|")]
+        broken += [f"{page}, line {n + 1}" for n in rows if not lines[n].rstrip().endswith("|")]
+    assert broken == []
+
+
 def test_every_command_is_in_the_reference_with_all_its_options(extensions: dict[str, ModuleType]) -> None:
     page = extensions["command_pages"].page()
 
