@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -97,16 +97,14 @@ def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: fl
     mesh = pressure_mesh(axes, x, y, seen, highest)
     draw_outline(axes, x, y, seen)
     axes.plot([0.0], [0.0], marker="+", color=WHITE, markersize=9, markeredgewidth=1.2, linestyle="none")
-    axes.plot(
-        [contact.centre_of_pressure / _MILLI],
-        [0.0],
-        marker="o",
-        color=VERMILION,
-        markersize=4,
-        markeredgecolor=WHITE,
-        markeredgewidth=0.6,
-        linestyle="none",
-    )
+    dot: dict[str, Any] = {
+        "marker": "o",
+        "color": VERMILION,
+        "markersize": 4,
+        "markeredgecolor": WHITE,
+        "markeredgewidth": 0.6,
+    }
+    axes.plot([contact.centre_of_pressure / _MILLI], [0.0], linestyle="none", **dot)
     axes.set_xlim(-reach / _MILLI, reach / _MILLI)
     axes.set_ylim(-reach / _MILLI, reach / _MILLI)
     draw_arrow(axes, (0.04, 0.945), (0.21, 0.945))
@@ -183,24 +181,10 @@ def plot_trail(axes: Axes, contact: Contact, x: Array, displacement: Array) -> N
     height = -displacement / 1e-6
     ahead = np.interp(-x, x, height, left=np.nan, right=np.nan)
     behind = (x < 0.0) & np.isfinite(ahead)
-    axes.fill_between(
-        x / _MILLI,
-        height,
-        np.maximum(ahead, height),
-        where=behind,
-        color=ORANGE,
-        alpha=0.35,
-        linewidth=0.0,
-        label="not yet recovered",
-    )
-    axes.plot(
-        x[behind] / _MILLI,
-        ahead[behind],
-        color=GREY,
-        linewidth=1.0,
-        linestyle=(0, (1.5, 1.2)),
-        label="mirror image of the surface ahead",
-    )
+    area: dict[str, Any] = {"color": ORANGE, "alpha": 0.35, "linewidth": 0.0, "label": "not yet recovered"}
+    axes.fill_between(x / _MILLI, height, np.maximum(ahead, height), where=behind, **area)
+    dots: dict[str, Any] = {"color": GREY, "linewidth": 1.0, "linestyle": (0, (1.5, 1.2))}
+    axes.plot(x[behind] / _MILLI, ahead[behind], label="mirror image of the surface ahead", **dots)
     axes.plot(x / _MILLI, height, color=INK, label="surface")
     rear, front = contact.edges
     touched = (x >= rear) & (x <= front)

@@ -249,14 +249,13 @@ def plot_measured(axes: Axes, points: Measured, nominal: Array) -> None:
     for index, look in enumerate(looks(nominal.size)):
         rows = np.flatnonzero((which == index) & np.isfinite(speed) & np.isfinite(points.friction))
         if rows.size:
-            axes.errorbar(
-                speed[rows],
-                points.friction[rows],
-                yerr=points.scatter[rows],
-                fmt=look.marker,
-                color=look.colour,
-                elinewidth=1.0,
-            )
+            bars: dict[str, Any] = {
+                "yerr": points.scatter[rows],
+                "fmt": look.marker,
+                "color": look.colour,
+                "elinewidth": 1.0,
+            }
+            axes.errorbar(speed[rows], points.friction[rows], **bars)
 
 
 def _finish(axes: Axes, handles: list[Any], title: str, label: str) -> None:

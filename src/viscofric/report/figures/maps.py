@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import matplotlib.patheffects
@@ -53,15 +53,8 @@ def plot_friction_map(
     ridge = maximum_ridge(speed, temperature, friction)
     if ridge.size:
         around = [matplotlib.patheffects.withStroke(linewidth=3.0, foreground=WHITE)]
-        axes.plot(
-            1e3 * ridge[:, 0],
-            ridge[:, 1] - 273.15,
-            color=VERMILION,
-            marker="D",
-            markersize=3.5,
-            path_effects=around,
-            label="maximum",
-        )
+        look: dict[str, Any] = {"color": VERMILION, "marker": "D", "markersize": 3.5, "path_effects": around}
+        axes.plot(1e3 * ridge[:, 0], ridge[:, 1] - 273.15, label="maximum", **look)
     if y.size <= MARKED_TEMPERATURES:
         axes.hlines(y, x.min(), x.max(), colors=WHITE, linewidths=0.6, linestyles=":", alpha=0.7)
     axes.set_xscale("log")
@@ -140,16 +133,8 @@ def _mark_points(
         axes.plot(1e3 * speed[columns], temperature[rows] - 273.15, "x", color=INK, markersize=4, clip_on=False)
     if measurement is not None:
         at, kelvin = measurement
-        axes.plot(
-            1e3 * at,
-            kelvin - 273.15,
-            "o",
-            color="none",
-            markeredgecolor=WHITE,
-            markersize=4,
-            clip_on=False,
-            markeredgewidth=1.0,
-        )
+        look: dict[str, Any] = {"color": "none", "markeredgecolor": WHITE, "markeredgewidth": 1.0, "markersize": 4}
+        axes.plot(1e3 * at, kelvin - 273.15, "o", clip_on=False, **look)
 
 
 _ROWS = 120  # of a map, about

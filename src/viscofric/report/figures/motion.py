@@ -237,8 +237,8 @@ def _drawn(data: xr.Dataset, quantity: str) -> tuple[str, tuple[_Line, ...]]:
 
 
 def _title(data: xr.Dataset, quantity: str) -> str:
-    per_area = data.attrs.get("geometry") == "periodic"
-    return _PER_AREA.get(quantity, "") if per_area and quantity in _PER_AREA else _QUANTITIES[quantity][0]
+    titles = _PER_AREA if data.attrs.get("geometry") == "periodic" else {}
+    return titles.get(quantity, _QUANTITIES[quantity][0])
 
 
 def _unit_of(data: xr.Dataset, columns: list[str]) -> Unit:

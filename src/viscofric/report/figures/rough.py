@@ -124,16 +124,9 @@ def mark_motion(axes: Axes, direction: tuple[float, float]) -> None:
 def plot_power_spectra(axes: Axes, spectra: Mapping[str, PowerSpectrum]) -> None:
     """Draw power spectra over the wave number, with wavelengths along the top."""
     for look, (name, spectrum) in zip(looks(len(spectra)), spectra.items(), strict=True):
-        few = len(spectrum.wave_number) <= 60
-        axes.loglog(
-            spectrum.wave_number,
-            spectrum.density,
-            color=look.colour,
-            linestyle=look.dashes,
-            marker=look.marker if few else "",
-            markersize=3.5,
-            label=name,
-        )
+        marker = look.marker if len(spectrum.wave_number) <= 60 else ""
+        style: dict[str, Any] = {"color": look.colour, "linestyle": look.dashes, "marker": marker, "markersize": 3.5}
+        axes.loglog(spectrum.wave_number, spectrum.density, label=name, **style)
     axes.set_xlabel("wave number $q$ (rad/m)")
     axes.set_ylabel(r"$C(q)$ (m$^4$)")
     axes.tick_params(which="both", top=False)
@@ -231,13 +224,8 @@ def plot_friction_by_cut_off(
 ) -> None:
     """Draw μ(v) of Persson's theory for several cut-offs of the surface."""
     for look, theory, label in zip(looks(len(theories)), theories, labels, strict=True):
-        axes.plot(
-            theory.speed,
-            theory.friction_coefficient[temperature],
-            color=look.colour,
-            linestyle=look.dashes,
-            label=label,
-        )
+        friction = theory.friction_coefficient[temperature]
+        axes.plot(theory.speed, friction, color=look.colour, linestyle=look.dashes, label=label)
     _speed_axes(axes, "friction coefficient")
 
 

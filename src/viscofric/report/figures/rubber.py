@@ -140,30 +140,16 @@ def plot_master_curve(
         ("loss", "$E''$", "o", VERMILION, (0, (5, 1.5))),
     ):
         value = getattr(measured, name) / _PASCAL_PER_MEGAPASCAL
-        handles += axes.plot(
-            frequency,
-            value,
-            marker,
-            color=colour,
-            markersize=3.5,
-            markeredgewidth=0.8,
-            fillstyle="none",
-            label=f"{symbol} {origin(synthetic)}",
-        )
+        dots: dict[str, Any] = {"color": colour, "markersize": 3.5, "markeredgewidth": 0.8, "fillstyle": "none"}
+        handles += axes.plot(frequency, value, marker, label=f"{symbol} {origin(synthetic)}", **dots)
         if fitted is not None:
             order = np.argsort(fitted.angular_frequency, kind="stable")
             line, part = fitted.angular_frequency[order], getattr(fitted, name)[order] / _PASCAL_PER_MEGAPASCAL
             handles += axes.plot(line, part, color=INK, linestyle=dashes, linewidth=1.2, label=f"{symbol} fitted")
         if bounds is not None:
             lower, upper = getattr(bounds, name) / _PASCAL_PER_MEGAPASCAL
-            look: dict[str, Any] = {
-                "color": colour,
-                "alpha": 0.25,
-                "linewidth": 0,
-                "zorder": 1,
-                "label": f"{symbol}, 95 %",
-            }
-            bands.append(axes.fill_between(bounds.angular_frequency, lower, upper, **look))
+            look: dict[str, Any] = {"color": colour, "alpha": 0.25, "linewidth": 0, "zorder": 1}
+            bands.append(axes.fill_between(bounds.angular_frequency, lower, upper, label=f"{symbol}, 95 %", **look))
     axes.set_xscale("log")
     axes.set_yscale("log")
     if bands and frequency.size:
@@ -200,16 +186,8 @@ def plot_residuals(
         left = np.log10(value / fit)
         rms = float(np.sqrt(np.mean(left**2))) if left.size else 0.0
         largest = max(largest, float(np.max(np.abs(left), initial=0.0)))
-        handles += axes.plot(
-            frequency,
-            left,
-            marker,
-            color=colour,
-            markersize=3,
-            markeredgewidth=0.7,
-            fillstyle="none",
-            label=f"{symbol}, rms {rms:#.3g}",
-        )
+        dots: dict[str, Any] = {"color": colour, "markersize": 3, "markeredgewidth": 0.7, "fillstyle": "none"}
+        handles += axes.plot(frequency, left, marker, label=f"{symbol}, rms {rms:#.3g}", **dots)
     axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=0)
     axes.set_ylim(-1.12 * largest, 1.12 * largest)
     axes.set_xlabel(_reduced_label(measured, reference_temperature))

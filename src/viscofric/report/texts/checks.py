@@ -350,11 +350,5 @@ def _accuracy(cases: xr.Dataset, accuracy: float, rough: bool) -> Check:
             "which is common to the cases of one material and load. They are marked in the tables, and their errors "
             "include that of the interpolation."
         )
-    counted = {
-        "largest": largest,
-        "requested": accuracy,
-        "beyond": beyond,
-        "interpolated": between,
-        "of": friction.size,
-    }
-    return Check.of("Accuracy", beyond == 0, Note("accuracy", words, values=counted))
+    counted = {"largest": largest, "requested": accuracy, "beyond": beyond, "interpolated": between}
+    return Check.of("Accuracy", beyond == 0, Note("accuracy", words, values={**counted, "of": friction.size}))

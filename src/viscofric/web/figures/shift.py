@@ -89,10 +89,8 @@ def _factors(shift: dict[str, Any]) -> Spec:
             ("isotherms, 95 %", ~held, "circle", "blue"),
             ("fixed manually", held, "square", "orange"),
         ):
-            columns = (
-                np.array(factors[one], dtype=float)[rows] for one in ("temperature", "log10_shift_factor", "error95")
-            )
-            x, y, error = columns
+            names = ("temperature", "log10_shift_factor", "error95")
+            x, y, error = (np.array(factors[one], dtype=float)[rows] for one in names)
             if rows.any():
                 traces.append(points(x, y, name, error=error, symbol=symbol, colour=colour))
     drawn = [row for row in shift["laws"] if row.get("line") and row["same_as"] == ""]
@@ -227,15 +225,8 @@ def _causal(found: dict[str, Any]) -> Spec:
             ("loss", "E″ computed from E′", "circle", "vermilion"),
         ):
             x, y = (np.array(found[one], dtype=float)[rows] for one in ("angular_frequency", f"{key}_deviation"))
-            look: Spec = {
-                "symbol": symbol,
-                "colour": colour,
-                "size": 6,
-                "group": name,
-                "open": not inside,
-                "legend": inside,
-            }
-            traces.append(points(x, y, name if inside else f"{name}, not evaluated", **look))
+            look: Spec = {"symbol": symbol, "colour": colour, "size": 6, "open": not inside, "legend": inside}
+            traces.append(points(x, y, name if inside else f"{name}, not evaluated", group=name, **look))
     return figure(
         "Kramers–Kronig",
         REDUCED_FREQUENCY,

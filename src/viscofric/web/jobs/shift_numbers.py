@@ -56,7 +56,9 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
         "reference": plain(float(law.reference)),
         "used": rubber.shift_used,
         "origin": rubber.shift_origin,
-        "factors": None if factors is None else _table(factors, held),
+        "factors": None
+        if factors is None
+        else with_bars(factors.to_dataset()) | {"held": places_held(factors.temperatures, held)},
         "laws": [] if factors is None else [_law(row, rubber, factors) for row in laws],
         "explanation": "" if rubber.laws is None else rubber.laws.explanation,
         "material": {
@@ -101,10 +103,6 @@ def _factors(rubber: Rubber) -> ShiftFactors | None:
     if rubber.superposed is not None:
         return rubber.superposed.shift_factors
     return rubber.material.shift if isinstance(rubber.material.shift, ShiftFactors) else None
-
-
-def _table(factors: ShiftFactors, held: Mapping[float, float]) -> dict[str, Any]:
-    return with_bars(factors.to_dataset()) | {"held": places_held(factors.temperatures, held)}
 
 
 def places_held(temperatures: Array, held: Mapping[float, float]) -> list[bool]:
