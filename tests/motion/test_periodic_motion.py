@@ -338,7 +338,7 @@ def test_sliding_before_a_jump_at_the_start_is_at_the_first_speed_and_temperatur
     assert run.friction_coefficient[1] == run.friction_coefficient[0]  # the pressure does not jump
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_errors_just_after_a_start_given_by_positions_are_those_of_a_jump_of_the_speed() -> None:
     """Modes that matter at the times asked for after a start are kept: friction is within its errors."""
     tau = np.geomspace(1e-9, 1.0, 6)
