@@ -68,12 +68,38 @@ def test_abaqus_moduli_are_long_term_unless_stated(tmp_path):
 
 
 def test_abaqus_units_that_are_not_stated_are_noted(tmp_path):
-    card = opened(tmp_path, ABAQUS)
-    assert card.material.spectrum.E_inf == pytest.approx(60.0)
+    card = opened(tmp_path, ABAQUS.replace("60.0", "60.0e6"))
+    assert card.material.spectrum.E_inf == pytest.approx(60e6)
     assert [note.code for note in card.notes] == ["unit-assumed", "unit-assumed"]
+    assert card.notes[0].values == {"assumed": {"modulus_unit": "Pa", "time_unit": "s"}}
     with pytest.warns(UserWarning, match="card: ") as caught:
         read_card(tmp_path / "card")
     assert [str(one.message) for one in caught] == [f"{tmp_path / 'card'}: {note}" for note in card.notes]
+
+
+@pytest.mark.parametrize("form", ["abaqus", "ansys", "ls-dyna"])
+def test_moduli_that_cannot_be_in_pascal_are_refused_without_a_unit(tmp_path, form):
+    text = {"abaqus": ABAQUS, "ansys": ANSYS.replace("60.0e6", "60.0"), "ls-dyna": LS_DYNA}[form]
+    with refused("unit-unknown", DataFileError, naming=("modulus_unit",)):
+        opened(tmp_path, text)
+    assert opened(tmp_path, text, modulus_unit="Pa").material.spectrum.E_inf < 100.0
+
+
+def test_abaqus_keyword_lines_go_on_after_a_comma(tmp_path):
+    wrapped = ABAQUS.replace("*MATERIAL, ", "*MATERIAL,\n").replace("*ELASTIC, ", "*ELASTIC,\n** instantaneous\n ")
+    units = {"modulus_unit": "MPa", "time_unit": "s", "temperature_unit": "degC"}
+    card, same = opened(tmp_path, wrapped, **units), opened(tmp_path, ABAQUS, **units)
+    assert card.material.name == "EPDM70"
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(same.material.complex_modulus(OMEGA), rel=1e-14)
+
+
+def test_a_shift_that_is_no_subroutine_is_not_called_one(tmp_path):
+    table = ABAQUS.replace("*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=TABULAR\n0., 20.\n-1., 40.")
+    fictive = ANSYS.replace("1,2,TN", "1,3,FICT")
+    for text, option in ((table, "TABULAR"), (fictive, "FICT")):
+        card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s")
+        assert card.material.shift is None
+        assert {note.code: note.values.get("option") for note in card.notes}["shift-not-read"] == option
 
 
 def test_abaqus_elastic_bulk_is_exact_and_its_poisson_ratio_noted(tmp_path):
@@ -129,7 +155,7 @@ def test_abaqus_arrhenius_has_its_own_gas_constant_and_zero(tmp_path):
     text = "*PHYSICAL CONSTANTS, ABSOLUTE ZERO=-273.15, UNIVERSAL GAS CONSTANT=8314.0\n" + ABAQUS.replace(
         "*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=ARRHENIUS\n20., 1.2e8"
     )
-    shift = opened(tmp_path, text).material.shift
+    shift = opened(tmp_path, text, modulus_unit="MPa").material.shift
     # Energy in mJ/mol with the gas constant in mJ/(mol K): E0/R = 14433 K.
     expected = 1.2e8 / 8314.0 * (1 / 323.15 - 1 / 293.15) / math.log(10)
     assert shift.log10("50 degC") == pytest.approx(expected)
@@ -196,6 +222,34 @@ def test_ansys_card_by_hand(tmp_path):
     assert card.material.shift.activation_energy == pytest.approx(15000 * GAS_CONSTANT)
 
 
+def test_ansys_commands_of_other_materials_do_not_count(tmp_path):
+    steel = "MP,EX,2,210e9\nMP,PRXY,2,0.3\n"
+    other = ANSYS.replace(",1,60.0e6", ",3,5e6").replace("PRXY,1", "PRXY,3").replace("NY,1,", "NY,3,")
+    units = {"modulus_unit": "Pa", "time_unit": "s", "temperature_unit": "K"}
+    alone = opened(tmp_path, ANSYS, **units)
+    card = opened(tmp_path, steel + ANSYS + other.replace("SHIFT,1,1,2,TN", "SHIFT,3,1,2,TN"), **units)
+    expected = alone.material.complex_modulus(OMEGA)
+    assert card.material.complex_modulus(OMEGA) == pytest.approx(expected, rel=1e-14)
+    (values,) = (note.values for note in card.notes if note.code == "first-of-several")
+    assert values == {"materials": 2, "read": "1"}
+
+
+def test_ansys_constants_go_on_after_the_last_one(tmp_path):
+    pairs = ANSYS.replace("TBDATA,1,0.5,0.01,0.3,1.0", "TBDATA,,0.5,0.01\nTBDATA,,0.3,1.0")
+    assert pairs != ANSYS
+    units = {"modulus_unit": "Pa", "time_unit": "s", "temperature_unit": "K"}
+    expected = opened(tmp_path, ANSYS, **units).material.complex_modulus(OMEGA)
+    assert opened(tmp_path, pairs, **units).material.complex_modulus(OMEGA) == pytest.approx(expected, rel=1e-14)
+
+
+def test_ansys_units_command_states_the_units(tmp_path):
+    card = opened(tmp_path, "/UNITS,MPA\n" + ANSYS.replace("60.0e6", "60.0"), temperature_unit="K")
+    assert card.material.spectrum.E_inf == pytest.approx(60e6)
+    assert not any(note.code == "unit-assumed" for note in card.notes)
+    with refused("unit-unknown", DataFileError):
+        opened(tmp_path, "/UNITS,BIN\n" + ANSYS.replace("60.0e6", "60.0"))
+
+
 def test_ansys_arithmetic_in_fields(tmp_path):
     text = ANSYS.replace("2,TN\nTBDATA,1,303.15,15000", "3,WLF\nTBDATA,1,273+2*(10-5),17.44,-(-51.6)")
     shift = opened(tmp_path, text, temperature_unit="K").material.shift
@@ -213,6 +267,12 @@ def test_ansys_arithmetic_in_fields(tmp_path):
         ("303.15,15000", "303.15", ("missing-constants",)),
         ("60.0e6", "__import__('os')", ("not-a-number",)),
         ("60.0e6", "9**9**9", ("not-a-number",)),
+        ("60.0e6", "60.0e6,-1e4", ("several-temperatures", "line 2")),
+        (
+            "TBDATA,1,0.4,5.0",
+            "TBTEMP,20\nTBDATA,1,0.4,5\nTBTEMP,60\nTBDATA,1,0.5,5",
+            ("several-temperatures", "line 5"),
+        ),
         (",2,SHEAR", ",2,INTEGRAL", ("no-terms",)),
     ],
 )

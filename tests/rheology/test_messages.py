@@ -261,8 +261,8 @@ SAID = [
         lambda: abaqus("0.3, 0.3, 1.0", "0.5, 0.5, 1.0"),
         "relative-moduli",
         (
-            "card: the long-term shear modulus is zero (the relative moduli add up to 1): a liquid has no rubber "
-            "plateau, which a Material needs."
+            "card: the long-term shear modulus is zero (the relative moduli add up to 1, or no term is constant): a "
+            "liquid has no rubber plateau, which a Material needs."
         ),
     ),
     (
@@ -288,7 +288,10 @@ SAID = [
     (
         lambda: ansys("MP,PRXY,1,0.45\n", ""),
         "no-modulus",
-        "card: contains no MP,EX or no MP,PRXY (nor NUXY), so that its instantaneous moduli are not known.",
+        (
+            "card: contains no MP,EX or no MP,PRXY (nor NUXY) of material 1, so that its instantaneous moduli are not "
+            "known."
+        ),
     ),
     (
         lambda: ansys("TBDATA,1,0.4,5.0", "TBDATA,2,0.4"),
@@ -386,7 +389,10 @@ NOTES = [
         {"modulus_unit": "MPa", "time_unit": "s"},
         [
             "Keywords that were not read: *MULLINSEFFECT.",
-            "*TRS, DEFINITION=USER is a subroutine outside the card; the material holds at its reference only.",
+            (
+                "*TRS, DEFINITION=USER is a subroutine outside the card; the material holds at its reference "
+                "temperature only."
+            ),
         ],
     ),
     (
@@ -395,6 +401,16 @@ NOTES = [
         ["The file holds 2 viscoelastic materials; the first, 'EPDM70', was read."],
     ),
     (COMSOL, {}, ["Parameters that were not read: width."]),
+    (
+        ABAQUS.replace("60.0", "60e6"),
+        {"temperature_unit": "degC"},
+        [
+            (
+                "The card does not state its units; Pa and s were assumed (give others with modulus_unit='MPa', "
+                "time_unit='ms')."
+            ),
+        ],
+    ),
 ]
 
 

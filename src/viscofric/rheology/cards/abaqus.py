@@ -14,7 +14,7 @@ from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.cards.card import Reading, Solid, Writing, number_text, relative_series, tensile
+from viscofric.rheology.cards.card import Reading, Solid, Writing, number_text, relative_series, tensile, unread_shift
 from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
@@ -140,15 +140,19 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
 
 def _blocks(text: str) -> list[_Block]:
     blocks: list[_Block] = []
+    continued = False  # a keyword line that ends in a comma goes on in the next one
     for row, line in enumerate(text.splitlines(), start=1):
         line = line.strip()
         if not line or line.startswith("**"):
             continue
-        if line.startswith("*"):
-            head, *options = (part.strip() for part in line[1:].split(","))
-            pairs = (option.partition("=") for option in options if option)
-            named = {key.strip().upper(): value.strip() for key, _, value in pairs}
-            blocks.append(_Block(head.upper().replace(" ", ""), named, row))
+        if line.startswith("*") or continued:
+            options = line
+            if not continued:
+                head, _, options = line[1:].partition(",")
+                blocks.append(_Block(head.strip().upper().replace(" ", ""), {}, row))
+            pairs = (option.partition("=") for option in options.split(",") if option.strip())
+            blocks[-1].options.update({key.strip().upper(): value.strip() for key, _, value in pairs})
+            continued = line.endswith(",")
         elif blocks and blocks[-1].keyword in _UNDERSTOOD:
             try:
                 numbers = [float(part) if part.strip() else 0.0 for part in line.rstrip(",").split(",")]
@@ -306,11 +310,5 @@ def _shift(
             f"line {block.row}: *TRS, DEFINITION={kind} lacks numbers; WLF has 3, ARRHENIUS 2.",
             code="missing-constants",
         )
-    notes.append(
-        Note(
-            "shift-in-subroutine",
-            f"*TRS, DEFINITION={kind} is a subroutine outside the card; the material holds at its reference only.",
-            values={"option": kind},
-        )
-    )
+    notes.append(unread_shift(f"*TRS, DEFINITION={kind}", kind))
     return None

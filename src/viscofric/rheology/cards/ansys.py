@@ -12,12 +12,12 @@ import ast
 import operator
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.cards.card import Reading, Solid, Writing, relative_series, tensile
+from viscofric.rheology.cards.card import Reading, Solid, Writing, relative_series, tensile, unread_shift
 from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
@@ -25,6 +25,11 @@ from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
 
 NAME = "ANSYS"
 _MOST_CONSTANTS = 10_000
+_PROPERTIES = ("EX", "PRXY", "NUXY", "DENS")
+#: TB labels by the four letters that count.
+_LABELS = {"PRON": "PRONY", "SHIF": "SHIFT"}
+#: Unit of stress of the systems of /UNITS in which time is in s.
+_UNIT_SYSTEMS = {"SI": "Pa", "MKS": "Pa", "MPA": "MPa"}
 _PAIRS = 3  # of modulus and time on one TBDATA, which takes six constants
 _ARITHMETIC: dict[type, Callable[[float, float], float]] = {
     ast.Add: operator.add,
@@ -68,12 +73,33 @@ class _Table:
     """One TB command and the constants of its TBDATA, by their number."""
 
     name: str
+    material: str
     option: str
     row: int
     values: dict[int, float] = field(default_factory=dict)
+    last: int = 0  # number of the constant filled last, after which a TBDATA without a number goes on
+    tables: int = 1  # one for each TBTEMP
+
+    def fill(self, fields: list[str], row: int) -> None:
+        """Take the constants of a TBDATA: the number of the first, and their values."""
+        first = _number(fields[0], row) if fields[0] else self.last + 1.0
+        if not 1 <= first <= _MOST_CONSTANTS:
+            raise InputError(
+                f"line {row}: TBDATA begins at constant {first:g}; expected 1 or above.", code="out-of-range"
+            )
+        for place, value in enumerate(fields[1:], start=int(first)):
+            if value:
+                self.values[place] = _number(value, row)
+                self.last = place
 
     def constants(self) -> list[float]:
-        """All constants from the first; missing ones are an error."""
+        """All constants from the first; missing ones are an error, and so are those of several temperatures."""
+        if self.tables > 1:
+            raise InputError(
+                f"line {self.row}: TB,{self.name},…,{self.option} has constants at several temperatures (TBTEMP); keep "
+                "those of one.",
+                code="several-temperatures",
+            )
         count = max(self.values, default=0)
         missing = [place for place in range(1, count + 1) if place not in self.values]
         if missing:
@@ -86,15 +112,31 @@ class _Table:
 
 def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     """Return the material of the commands."""
-    properties, tables, ignored = _commands(text)
+    found_properties, tables, ignored, stated_unit = _commands(text)
+    if reading.modulus_unit is None and stated_unit:
+        reading = replace(reading, modulus_unit=stated_unit, time_unit=reading.time_unit or "s")
     notes: list[str] = [] if content else reading.unit_note()
+    materials = list(dict.fromkeys(table.material for table in tables if table.name == "PRONY"))
+    first = materials[0] if materials else ""
+    tables = [table for table in tables if table.material == first]
+    if len(materials) > 1:
+        notes.append(
+            Note(
+                "first-of-several",
+                f"The file holds {len(materials)} viscoelastic materials; the first, {first}, was read.",
+                values={"materials": len(materials), "read": first},
+            )
+        )
+    ignored |= {f"TB,{table.name}" for table in tables if table.name not in ("PRONY", "SHIFT")}
     if ignored:
         notes.append(Note("not-read", f"Commands that were not read: {', '.join(sorted(ignored))}."))
+    properties = found_properties.get(first, {})
     modulus = properties.get("EX")
     ratio = properties.get("PRXY", properties.get("NUXY"))
     if modulus is None or ratio is None:
         raise InputError(
-            "contains no MP,EX or no MP,PRXY (nor NUXY), so that its instantaneous moduli are not known.",
+            f"contains no MP,EX or no MP,PRXY (nor NUXY) of material {first}, so that its instantaneous moduli are not "
+            "known.",
             code="no-modulus",
         )
     if not (modulus > 0.0 and 0.0 <= ratio < 0.5):
@@ -119,33 +161,47 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     return Solid(spectrum, ratio if alike else poisson, shift, "", (*notes, *found))
 
 
-def _commands(text: str) -> tuple[dict[str, float], list[_Table], set[str]]:
-    """Return properties (MP), tables (TB with TBDATA), and names of the commands that are ignored."""
-    properties: dict[str, float] = {}
+def _commands(text: str) -> tuple[dict[str, dict[str, float]], list[_Table], set[str], str | None]:
+    """Return properties (MP) by material, tables (TB with TBDATA), ignored commands, and the unit of /UNITS, if any."""
+    properties: dict[str, dict[str, float]] = {}
     tables: list[_Table] = []
     ignored: set[str] = set()
+    unit: str | None = None
     for row, line in enumerate(text.splitlines(), start=1):
         for command in line.partition("!")[0].split("$"):
             head, *fields = (part.strip() for part in command.split(","))
             head = head.upper()
-            if head == "MP" and len(fields) >= 3 and fields[0].upper() in ("EX", "PRXY", "NUXY", "DENS"):
-                properties.setdefault(fields[0].upper(), _number(fields[2], row))
+            if head == "MP" and len(fields) >= 3 and fields[0].upper() in _PROPERTIES:
+                properties.setdefault(_material(fields), {})[fields[0].upper()] = _property(fields, row)
             elif head == "TB" and fields:
                 option = fields[4].upper() if len(fields) > 4 else ""
-                tables.append(_Table(fields[0].upper()[:5], option, row))
+                tables.append(
+                    _Table(_LABELS.get(fields[0].upper()[:4], fields[0].upper()), _material(fields), option, row)
+                )
+            elif head == "TBTEMP" and tables:
+                tables[-1].tables += bool(tables[-1].values)
+                tables[-1].last = 0
             elif head == "TBDATA" and tables and fields:
-                first = _number(fields[0], row) if fields[0] else 1.0
-                if not 1 <= first <= _MOST_CONSTANTS:
-                    raise InputError(
-                        f"line {row}: TBDATA begins at constant {first:g}; expected 1 or above.", code="out-of-range"
-                    )
-                for place, value in enumerate(fields[1:], start=int(first)):
-                    if value:
-                        tables[-1].values[place] = _number(value, row)
-            elif head and not head.startswith("/"):
-                ignored.add(f"{head},{fields[0]}" if head == "MP" and fields else head)
-    ignored |= {f"TB,{table.name}" for table in tables if table.name not in ("PRONY", "SHIFT")}
-    return properties, tables, ignored
+                tables[-1].fill(fields, row)
+            elif head == "/UNITS" and fields and fields[0].upper() in _UNIT_SYSTEMS:
+                unit = _UNIT_SYSTEMS[fields[0].upper()]
+            elif head == "/UNITS" or (head and not head.startswith("/")):
+                ignored.add(f"{head},{fields[0]}" if head in ("MP", "/UNITS") and fields else head)
+    return properties, tables, ignored, unit
+
+
+def _material(fields: list[str]) -> str:
+    """Return the number, or the parameter, of the material that a command is about."""
+    return (fields[1].upper() if len(fields) > 1 else "") or "1"
+
+
+def _property(fields: list[str], row: int) -> float:
+    """Return the value of an MP command; a polynomial in the temperature is refused."""
+    if any(one and _number(one, row) != 0.0 for one in fields[3:]):
+        raise InputError(
+            f"line {row}: MP,{fields[0].upper()} depends on temperature; give one value.", code="several-temperatures"
+        )
+    return _number(fields[2], row)
 
 
 def _number(field_text: str, row: int) -> float:
@@ -201,12 +257,5 @@ def _shift(
             f"line {table.row}: TB,SHIFT,…,{table.option} needs {3 if table.option == 'WLF' else 2} constants.",
             code="missing-constants",
         )
-    notes.append(
-        Note(
-            "shift-in-subroutine",
-            f"TB,SHIFT,…,{table.option or 'without option'} is a subroutine outside the card (constants "
-            f"{', '.join(f'{value:g}' for value in values)}); the material holds at its reference temperature only.",
-            values={"option": table.option, "constants": [float(value) for value in values]},
-        )
-    )
+    notes.append(unread_shift(f"TB,SHIFT,…,{table.option or 'without option'}", table.option, values))
     return None

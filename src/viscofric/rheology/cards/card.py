@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.errors import InputError
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
@@ -55,6 +56,20 @@ class Writing:
         return kelvin - CELSIUS_ZERO if self.temperature_unit == "degC" else kelvin
 
 
+#: Units of a card that states none.
+_ASSUMED = {"modulus_unit": "Pa", "time_unit": "s"}
+#: A glassy modulus below this is that of no solid but the softest gels, Pa; 10 GPa in MPa.
+SOFTEST = 1e4
+
+
+def give_units(names: Iterable[str]) -> Remedy:
+    """Return how the units of a card are given: only in Python, whose material file all others read."""
+    example = {"modulus_unit": "modulus_unit='MPa'", "time_unit": "time_unit='ms'"}
+    said = ", ".join(example[name] for name in names)
+    written = f"vf.write_card(vf.read_card('card.inp', {said}), 'rubber.json', format='json')"
+    return Remedy(f"with {said}", f"in Python, which makes a material file of the card: {written}")
+
+
 @dataclass(frozen=True)
 class Reading:
     """Units of a card; Pa and s by default, with a note, and temperatures judged by their size."""
@@ -88,13 +103,15 @@ class Reading:
 
     def unit_note(self) -> list[str]:
         """Return a sentence on the units that were assumed, if any."""
-        assumed = [unit for given, unit in ((self.modulus_unit, "Pa"), (self.time_unit, "s")) if not given]
+        stated = {"modulus_unit": self.modulus_unit, "time_unit": self.time_unit}
+        assumed = {name: _ASSUMED[name] for name, unit in stated.items() if not unit}
         if not assumed:
             return []
         note = Note(
             "unit-assumed",
-            f"The card does not state its units; {' and '.join(assumed)} were assumed (give others with "
-            "modulus_unit= and time_unit=).",
+            f"The card does not state its units; {' and '.join(assumed.values())} were assumed",
+            remedy=" (give others " + give_units(assumed) + ").",
+            values={"assumed": assumed},
         )
         return [note]
 
@@ -157,6 +174,18 @@ def card_law(law: Any) -> WLF | Arrhenius | None:
     return law if isinstance(law, (WLF, Arrhenius)) else None
 
 
+def unread_shift(command: str, option: str, constants: Sequence[float] = ()) -> Note:
+    """Return the note on a shift that is a subroutine of the user, or of a kind that is not read."""
+    user = option == "USER"
+    why = "is a subroutine outside the card" if user else "is not read"
+    given = f" (constants {', '.join(f'{value:g}' for value in constants)})" if constants else ""
+    return Note(
+        "shift-in-subroutine" if user else "shift-not-read",
+        f"{command} {why}{given}; the material holds at its reference temperature only.",
+        values={"option": option, **({"constants": [float(value) for value in constants]} if constants else {})},
+    )
+
+
 #: Shear and bulk modes of a card whose times and ratios agree within this are one relaxation.
 _ALIKE = 1e-9
 
@@ -170,8 +199,8 @@ def tensile(shear: RelaxationSpectrum, bulk: RelaxationSpectrum | None) -> tuple
     """
     if shear.E0 <= 0.0:
         raise InputError(
-            "the long-term shear modulus is zero (the relative moduli add up to 1): a liquid has no rubber plateau, "
-            "which a Material needs.",
+            "the long-term shear modulus is zero (the relative moduli add up to 1, or no term is constant): a liquid "
+            "has no rubber plateau, which a Material needs.",
             code="relative-moduli",
         )
     if bulk is None:

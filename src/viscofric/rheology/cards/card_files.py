@@ -17,7 +17,7 @@ from viscofric.files import file_path, read_text
 from viscofric.lazy import renamed
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
-from viscofric.rheology.cards.card import Card, Reading, UnitSystem, Writing, card_law
+from viscofric.rheology.cards.card import SOFTEST, Card, Reading, Solid, UnitSystem, Writing, card_law, give_units
 from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stored_content
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.shifts.law_comparison import LARGEST_SCATTER
@@ -263,7 +263,8 @@ def open_card(
         Found by content if not given.
     modulus_unit, time_unit, temperature_unit : str, optional
         Units of a card that was not written by viscofric, such as ``"MPa"``, ``"ms"``, ``"degC"``.  Without them
-        Pa and s are assumed, and temperatures judged by their size; the notes say so.
+        Pa and s are assumed, and temperatures judged by their size; the notes say so.  Moduli that cannot be in Pa
+        are refused.
 
     Returns
     -------
@@ -308,12 +309,23 @@ def open_card(
         content = stored_content(text)
         reading = Reading(modulus_unit or modulus_unit_of(content), time_unit, temperature_unit)
         solid = _PROGRAMS[found].read(text, reading, content)
+        _insist_on_units(solid)
         material, notes = material_of(solid, content)
         return Card(material, _PROGRAMS[found].name, short_notes((*solid.notes, *notes)))
     except DataFileError:
         raise
     except InputError as error:
         raise DataFileError(path, error.note) from None
+
+
+def _insist_on_units(solid: Solid) -> None:
+    """Raise an error where assumed units give moduli of no solid."""
+    assumed = any("modulus_unit" in note_of(note).values.get("assumed", ()) for note in solid.notes)
+    glass = solid.spectrum.E_inf
+    if assumed and glass < SOFTEST:
+        problem = f"E = {glass:.3g} (instantaneous) is not in Pa, and the card does not state its units; give them "
+        remedy = give_units(["modulus_unit"]) + "."
+        raise InputError(Note("unit-unknown", problem, remedy=remedy, values={"glass": float(glass)}))
 
 
 def read_card(
