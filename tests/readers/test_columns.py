@@ -112,6 +112,34 @@ def test_numbers_without_a_header_are_offered_by_their_place(tmp_path):
     assert caught.value.note.values["headings"] == ["#1", "#2", "#3", "#4"]
 
 
+@pytest.mark.parametrize(
+    ("said", "unit", "base"), [("log f1", " (Hz)", 10), ("lg(f1/Hz)", "", 10), ("ln f1", " (Hz)", math.e)]
+)
+def test_a_column_that_the_user_names_may_hold_logarithms(tmp_path, said, unit, base):
+    path = write(
+        tmp_path, f"T (degC),{said}{unit},E' (MPa),E'' (MPa)", "20,1,5,0.5", "20,2,6,0.7", "30,1,4,.4", "30,2,5,.6"
+    )
+    sweeps = read_dma(path, columns={"frequency": said + unit})
+    assert sweeps.isotherms[0].angular_frequency == pytest.approx(
+        [2 * math.pi * base, 2 * math.pi * base**2], rel=1e-12
+    )
+    assert bool(noted(sweeps.notes, "decadic-logarithms")) == said.startswith("log")
+
+
+def test_logarithms_in_tables_without_them_are_refused(tmp_path):
+    creep = write(tmp_path, "T (degC),log t (s),J (1/MPa)", *(f"20,{n},{n}" for n in range(1, 6)))
+    with refused("logarithm-unknown", None, "'log t (s)'"):
+        vf.read_step_tests(creep, deformation="tension", columns={"time": "log t (s)"})
+    runs = write(
+        tmp_path, "T_C,log v (mm/s),ball speed (mm/s),load (N),traction force (N)", "30,2,95,25,1", "30,1,90,25,1"
+    )
+    with refused("logarithm-unknown"):
+        read_mtm(runs, columns={"disc_speed": "log v (mm/s)"})
+    plain = write(tmp_path, "T (degC),Logger time (s),J (1/MPa)", *(f"20,{n},{n}" for n in range(1, 6)))
+    tests = vf.read_step_tests(plain, deformation="tension", columns={"time": "Logger time (s)"})
+    assert tests.tests[0].time == pytest.approx([1, 2, 3, 4, 5])
+
+
 def test_wrong_mappings_are_refused(tmp_path):
     path = write(tmp_path, "T_C,f_Hz,E'_MPa,E''_MPa", *ROWS)
     with refused("unknown-quantity", None, "colour", "storage_modulus"):

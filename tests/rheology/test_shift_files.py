@@ -27,6 +27,15 @@ def table(header, scale=LOG10, temperatures=CELSIUS, mark=","):
     return "\n".join([header, *rows]) + "\n"
 
 
+def test_columns_that_are_not_read_are_named(tmp_path):
+    path = written(tmp_path, "T (degC),log aT,log bT,std\n0,1.5,0.01,0.1\n20,0,0,0.1\n40,-1,-0.01,0.1\n")
+    (note,) = (one for one in read_shift_factors(path).notes if one.code == "unused-columns")
+    assert note.values == {"headings": ["log bT", "std"]}
+    saved = tmp_path / "saved.csv"
+    ShiftFactors(CELSIUS + 273.15, LOG10, 293.15, 0.01 * np.eye(4)).save(saved)
+    assert "unused-columns" not in codes(read_shift_factors(saved).notes)
+
+
 @pytest.mark.parametrize("reference", [283.15, 293.15, 288.6180339887])
 def test_saved_factors_come_back_with_their_covariance(tmp_path, reference):
     rng = np.random.default_rng(1)

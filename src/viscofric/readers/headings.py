@@ -36,6 +36,8 @@ _FUNCTION = re.compile(
 )
 #: "log f (Hz)", "log10(E'/Pa)", "ln(ω) (rad/s)": a logarithm, and what it is of.
 _LOGARITHM = re.compile(r"(?P<kind>log[\s_]*10|log|lg|ln)[\s_]*(?P<of>\S.*)", re.IGNORECASE)
+#: Of a column that the user names, the beginning has to be a word of its own: "logger time" is none.
+_SAID_LOGARITHM = re.compile(r"(?i:log[\s_]*10|log|lg|ln)(?![a-z])")
 _ARGUMENT = re.compile(r"\((?P<first>[^()]*)\)(?P<rest>.*)|\((?P<whole>.*)\)")
 _CELSIUS = re.compile(r"°?[CF]|deg[CF]|℃", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
@@ -109,13 +111,9 @@ class Vocabulary:
         """Return the column under a heading, with the quantity that it names, or of which it names the logarithm."""
         found = heading(text)
         what = self.quantity(found.name)
-        log = None if what or not self.logarithms else _LOGARITHM.fullmatch(found.heading)
-        if log:
-            argument = _ARGUMENT.fullmatch(log["of"])
-            of = heading((argument["whole"] or f"{argument['first']} {argument['rest']}") if argument else log["of"])
-            base = math.e if log["kind"].lower() == "ln" else 10.0
-            if what := self.quantity(of.name):
-                return replace(of, heading=found.heading, quantity=what, base=base)
+        of = None if what or not self.logarithms else _logarithm(found.heading)
+        if of and (inner := self.quantity(of.name)):
+            return replace(of, quantity=inner)
         return replace(found, quantity=what)
 
     def missing(self, found: Iterable[str]) -> list[str]:
@@ -178,8 +176,20 @@ class Vocabulary:
             place, unit = place_of(said, cells)
             if place is not None:
                 column = found[place]
+                if _SAID_LOGARITHM.match(column.heading) and not _SAID_LOGARITHM.match(what):
+                    column = _logarithm(column.heading) or column
                 found[place] = replace(column, quantity=what, unit=unit or column.unit, given=True)
         return tuple(found)
+
+
+def _logarithm(text: str) -> Column | None:
+    """Return the column under the heading of a logarithm, with name and unit of what it is of; None for any other."""
+    log = _LOGARITHM.fullmatch(text)
+    if log is None:
+        return None
+    argument = _ARGUMENT.fullmatch(log["of"])
+    of = heading((argument["whole"] or f"{argument['first']} {argument['rest']}") if argument else log["of"])
+    return replace(of, heading=text, base=math.e if log["kind"].lower() == "ln" else 10.0)
 
 
 #: The vocabulary of a table whose columns are found by names alone.

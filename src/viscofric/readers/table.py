@@ -74,20 +74,28 @@ class Table:
 
     def numbers(self, column: int) -> Array:
         """Return a column as printed, finite numbers only, or raise `DataFileError`."""
-        one = self.columns[column]
+        one = self._plain(column)
         return np.array(
             [self._number(row[column], one, int(line)) for row, line in zip(self.rows, self.lines, strict=True)]
         )
 
     def numbers_or_missing(self, column: int) -> Array:
         """Return a column as printed, NaN for a missing number."""
-        one = self.columns[column]
+        one = self._plain(column)
         return np.array(
             [
                 math.nan if row[column].strip().lower() in MISSING else self._number(row[column], one, int(line))
                 for row, line in zip(self.rows, self.lines, strict=True)
             ]
         )
+
+    def _plain(self, place: int) -> Column:
+        """Return a column; one of logarithms, which only the user can have named here, is refused in most tables."""
+        column = self.columns[place]
+        if column.base and not self.vocabulary.logarithms:
+            problem = f"column {column.heading!r} holds logarithms; write the numbers themselves in a column"
+            raise self.refused("logarithm-unknown", problem + ".")
+        return column
 
     def _number(self, cell: str, column: Column, line: int) -> float:
         text, heading = cell.strip(), column.heading
@@ -154,7 +162,7 @@ class Table:
         assumed = [repr(column.heading) for column in self.columns if column.assumed_decadic]
         return [Note("decadic-logarithms", f"{' and '.join(assumed)}: read as decadic logarithms.")] if assumed else []
 
-    def unused(self, used: Collection[int]) -> list[Column]:
+    def unused(self, used: Collection[int | None]) -> list[Column]:
         """Return the columns with a name at all other places."""
         return [column for place, column in enumerate(self.columns) if place not in used and column.name]
 

@@ -132,7 +132,10 @@ def read_shift_factors(
     notes = found.notes
     if spread is None:
         notes += (
-            Note("factors-exact", "The file of shift factors gives no uncertainty; the factors are taken as exact."),
+            Note(
+                "factors-exact",
+                "No column of the file of shift factors is a standard error; the factors are taken as exact.",
+            ),
         )
     stated = found.reference
     wanted = None if reference is None else positive(reference, "K", "reference")
@@ -215,6 +218,11 @@ def _from_table(source: Source) -> _Factors:
     assert at is not None  # nothing needed is missing
     log10 = _logarithms(table, table.numbers(of), _SCALES[name])
     reference, notes = _stated(source)
+    used = (at, of, table.place("standard error"))
+    unused = [one.heading for one in table.unused(used) if not _COVARIANCE.match(one.name)]
+    if unused:
+        said = f"Columns of the file of shift factors that are not read: {', '.join(map(repr, unused))}."
+        notes += (Note("unused-columns", said, values={"headings": unused}),)
     return _Factors(table.values(at, "K"), log10, reference, _covariance(table), notes)
 
 
