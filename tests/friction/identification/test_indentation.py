@@ -234,6 +234,11 @@ def test_tables_of_indentation_tests(tmp_path) -> None:
     with pytest.raises(InputError) as twice:
         vf.friction.read_indentation(path, control="load", temperature="23 degC")
     assert twice.value.code == "give-one"
+    warming = "".join(f"{n},{2},{100 + n},{23 + 10 * n}\n" for n in range(6))
+    path.write_text("time (s),load (N),depth (um),temperature (degC)\n" + warming, encoding="utf-8")
+    with pytest.raises(DataFileError) as several:
+        vf.friction.read_indentation(path, control="load")
+    assert several.value.code == "several-temperatures"
     path.write_text("time (s),load (N)\n0,1\n1,1\n", encoding="utf-8")
     with pytest.raises(DataFileError) as missing:
         vf.friction.read_indentation(path, control="load", temperature="23 degC")

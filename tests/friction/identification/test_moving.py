@@ -276,3 +276,30 @@ def test_tables_of_rebounds_and_oscillations(tmp_path) -> None:
     with pytest.raises(vf.DataFileError) as caught:
         vf.friction.read_rebound(path, mass="33 g", error=0.01, temperature=300.0)
     assert caught.value.code == "missing-columns"
+
+
+def test_all_columns_of_rebounds_and_oscillations_can_be_named(tmp_path) -> None:
+    path = tmp_path / "rebound.csv"
+    path.write_text("v1 (m/s),tc (ms),Fmax (N)\n1,2,3\n")
+    columns = {"speed": "v1 (m/s)", "contact_time": "tc (ms)", "peak_force": "Fmax (N)"}
+    (one,) = vf.friction.read_rebound(path, mass="33 g", error=0.01, temperature=300.0, columns=columns)
+    assert one.contact_time is not None
+    assert one.peak_force is not None
+    assert (one.speed[0], one.contact_time[0], one.peak_force[0]) == pytest.approx((1.0, 2e-3, 3.0))
+    path.write_text("f (Hz),S1 (N/m),S2 (N/m)\n1,200,20\n")
+    columns = {"storage_stiffness": "S1 (N/m)", "loss_stiffness": "S2 (N/m)"}
+    (stiffness,) = vf.friction.read_oscillation(
+        path, indentation=1e-4, amplitude=1e-6, error=0.01, temperature=300.0, columns=columns
+    )
+    assert (stiffness.storage_stiffness[0], stiffness.loss_stiffness[0]) == pytest.approx((200.0, 20.0))
+
+
+@pytest.mark.parametrize(
+    ("heading", "values", "code"), [("restitution", "60", "out-of-range"), ("height (mm)", "3", "missing-columns")]
+)
+def test_tables_that_are_no_rebounds_name_their_file(tmp_path, heading: str, values: str, code: str) -> None:
+    path = tmp_path / "rebound.csv"
+    path.write_text(f"speed (m/s),{heading}\n1,{values}\n")
+    with pytest.raises(vf.DataFileError) as caught:
+        vf.friction.read_rebound(path, mass="33 g", error=0.01, temperature=300.0)
+    assert (caught.value.code, caught.value.path) == (code, str(path))

@@ -14,12 +14,13 @@ from viscofric.friction.identification.indentation.record import RESPONSE, Contr
 from viscofric.friction.identification.indentation.tables import OscillationRecord, ReboundRecord
 from viscofric.motion.history import CONTROLS
 from viscofric.nominal import SAME_TEMPERATURE, numbered
+from viscofric.readers.dma.amplitudes import WIDEST_TEMPERATURE
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
-from viscofric.readers.one_table import HISTORY, history_columns, table_of
+from viscofric.readers.one_table import HISTORY, history_columns, insist_on_columns, table_of
 from viscofric.readers.table import Table
 from viscofric.readers.tables import name_columns
-from viscofric.units import Quantity, positive, to_si
+from viscofric.units import Quantity, positive, shown_celsius, to_si
 
 #: Quantity -> unit, and names of its column.
 _REBOUND = {
@@ -38,20 +39,23 @@ _OSCILLATION = {
 }
 
 
-def _vocabulary(kind: str, columns: Mapping[str, tuple[str, frozenset[str]]], *needed: str) -> Vocabulary:
+def _vocabulary(kind: str, columns: Mapping[str, tuple[str, frozenset[str]]], *needed: tuple[str, ...]) -> Vocabulary:
     return Vocabulary(
         kind,
-        {name: names for name, (_, names) in columns.items()},
-        needed=tuple((name,) for name in needed),
-        example=", ".join(repr(f"{name.replace('_', ' ')} ({unit})") for name, (unit, _) in columns.items()),
+        {name.replace("_", " "): names for name, (_, names) in columns.items()},
+        needed=needed,
+        example=f"{kind} has e.g. "
+        + ", ".join(repr(f"{name.replace('_', ' ')} ({unit})") for name, (unit, _) in columns.items()),
         key="indentation.columns",
-        offered=tuple((name, unit) for name, (unit, _) in columns.items()),
+        offered=tuple((name.replace("_", " "), unit) for name, (unit, _) in columns.items()),
     )
 
 
-_REBOUNDS = _vocabulary("a table of rebounds", _REBOUND, "speed")
+_REBOUNDS = _vocabulary(
+    "a table of rebounds", _REBOUND, ("speed",), ("restitution", "contact time", "peak force", "indentation")
+)
 _OSCILLATIONS = _vocabulary(
-    "a table of stiffness over frequency", _OSCILLATION, "frequency", "storage_stiffness", "loss_stiffness"
+    "a table of stiffness over frequency", _OSCILLATION, ("frequency",), ("storage stiffness",), ("loss stiffness",)
 )
 
 
@@ -71,7 +75,7 @@ def read_indentation(
     ----------
     path : str or path
         A table, text or workbook, with the columns ``time``, ``load`` and ``indentation``, and optionally
-        ``temperature``, whose mean is taken.  Units stand in the headings, such as ``load (N)``.
+        ``temperature``, whose mean is taken; it may range over 3 K.  Units stand in the headings, such as ``load (N)``.
     control : {"load", "indentation"}
         What was prescribed; the other one is the response.
     temperature : float, str or pint.Quantity, optional
@@ -120,12 +124,17 @@ def read_indentation(
     found = history_columns(path, columns, sheet)
     missing = [name for name in ("load", "indentation") if name not in found.values]
     if missing:
-        problem = f"there is no column of the {' and the '.join(missing)}; an indentation test has both."
+        problem = f"there is no column of the {' and the '.join(missing)}; an indentation test has both"
         raise DataFileError(path, problem, code="missing-columns", remedy=name_columns(HISTORY.key, missing))
     if found.load_unit != "N":
         raise DataFileError(path, f"load: is in {found.load_unit}, but must be in N.", code="wrong-unit")
-    _insist_on_one_temperature(path, kelvin, found.values.get("temperature"))
-    at = float(np.mean(found.values["temperature"])) if kelvin is None else kelvin
+    column = found.values.get("temperature")
+    _insist_on_one_temperature(path, kelvin, column)
+    if column is not None and np.ptp(column) > WIDEST_TEMPERATURE:
+        span = " to ".join(shown_celsius(float(one)) for one in (column.min(), column.max()))
+        problem = f"temperature ranges from {span} °C within the test; give the rows of one temperature."
+        raise DataFileError(path, problem, code="several-temperatures")
+    at = float(kelvin or 0.0) if column is None else float(np.mean(column))
     try:
         return IndentationRecord(
             found.values["time"], found.values["load"], found.values["indentation"], at,
@@ -284,19 +293,21 @@ def _read(
     """Return a record for each temperature of a table."""
     given = None if temperature is None else positive(temperature, "K", "temperature")
     table = table_of(path, vocabulary, columns, sheet)
-    places = {name: place for name in quantities if (place := table.place(name)) is not None}
-    missing = [name for (name,) in vocabulary.needed if name not in places]
-    if missing:
-        problem = f"there is no column of the {' and the '.join(missing)}; there are {table.headings()}"
-        raise DataFileError(path, problem, code="missing-columns")
+    insist_on_columns(table, vocabulary)
+    places = {name: place for name in quantities if (place := table.place(name.replace("_", " "))) is not None}
     values = {name: _values(table, place, quantities[name][0]) for name, place in places.items()}
     kelvin = values.pop("temperature", None)
     _insist_on_one_temperature(path, given, kelvin)
-    if kelvin is None:
-        return [make(float(given or 0.0), values)]
-    labels = numbered(kelvin, np.full(len(kelvin), SAME_TEMPERATURE))
-    rows = [labels == label for label in range(int(labels.max()) + 1)]
-    return [make(float(kelvin[row].mean()), {name: one[row] for name, one in values.items()}) for row in rows]
+    try:
+        if kelvin is None:
+            return [make(float(given or 0.0), values)]
+        labels = numbered(kelvin, np.full(len(kelvin), SAME_TEMPERATURE))
+        rows = [labels == label for label in range(int(labels.max()) + 1)]
+        return [make(float(kelvin[row].mean()), {name: one[row] for name, one in values.items()}) for row in rows]
+    except InputError as wrong:
+        if wrong.field not in values:
+            raise
+        raise DataFileError(path, wrong.note) from None
 
 
 def _insist_on_one_temperature(path: object, given: float | None, column: Array | None) -> None:

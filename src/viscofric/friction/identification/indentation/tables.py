@@ -45,7 +45,7 @@ class ReboundRecord(Plotted):
         Relative standard error of the measured values, independent from value to value: one for all, or one for each
         quantity, such as ``{"restitution": 0.005, "contact_time": 0.02}``.
     restitution : (n,) array of float, optional
-        Speed after the impact over that before it, above zero.
+        Speed after the impact over that before it, above zero and at most 1.
     contact_time : (n,) array of float, str or pint.Quantity, optional
         s.
     peak_force : (n,) array of float, str or pint.Quantity, optional
@@ -114,6 +114,13 @@ class ReboundRecord(Plotted):
             raise InputError(
                 "restitution: give it, or contact_time, peak_force or indentation; nothing was measured.",
                 code="give-one",
+                field="restitution",
+            )
+        if self.restitution is not None and np.any(self.restitution > 1.0):
+            largest = float(self.restitution.max())
+            raise InputError(
+                f"restitution: {largest:g} is above 1, so that the rebound would gain energy; per cent have '%'.",
+                code="out-of-range",
                 field="restitution",
             )
         pull = to_si(gravity, "m/s**2", "gravity")
