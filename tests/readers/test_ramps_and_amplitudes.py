@@ -96,13 +96,33 @@ def test_an_amplitude_sweep_is_read_on_its_way_up(tmp_path):
     assert "points-left-out" in codes(found.notes)
 
 
+@pytest.mark.parametrize(
+    "heading", ["double strain amplitude (%)", "DSA (%)", "strain p-p (%)", "peak to peak strain (%)"]
+)
+def test_double_amplitudes_are_refused(tmp_path, heading):
+    path = written(tmp_path, (f"60,10,4,.4,{0.1 * 2**n}" for n in range(8)), HEADER.rstrip() + f",{heading}\n")
+    with refused("double-amplitude", naming=(heading,)):
+        vf.read_amplitude_sweep(path, columns={"strain_amplitude": heading})
+
+
+@pytest.mark.parametrize(("largest", "read"), [(0.5, True), (50.0, False)])
+def test_amplitudes_without_unit_are_fractions_where_they_can_be(tmp_path, largest, read):
+    amplitudes = np.geomspace(1e-3, 1.0, 8) * largest
+    path = written(tmp_path, (f"60,10,4,.4,{one}" for one in amplitudes), HEADER.rstrip() + ",strain\n")
+    if read:
+        assert vf.read_amplitude_sweep(path).strain_amplitude == pytest.approx(amplitudes)
+    else:
+        with refused("missing-columns"):
+            vf.read_amplitude_sweep(path)
+
+
 def test_a_table_without_amplitudes_says_so(tmp_path):
     rows = [f"60,10,{0.1 * 2**n},{5 - 0.3 * n},0.5" for n in range(10)]
     path = tmp_path / "payne.csv"
-    path.write_text("\n".join(["T (degC),f (Hz),pp strain (%),G' (MPa),G'' (MPa)", *rows]), encoding="utf-8")
+    path.write_text("\n".join(["T (degC),f (Hz),probe strain (%),G' (MPa),G'' (MPa)", *rows]), encoding="utf-8")
     with pytest.raises(vf.DataFileError, check=lambda error: error.code == "missing-columns"):
         vf.read_amplitude_sweep(path)
-    named = vf.read_amplitude_sweep(path, columns={"strain_amplitude": "pp strain (%)"})
+    named = vf.read_amplitude_sweep(path, columns={"strain_amplitude": "probe strain (%)"})
     assert named.strain_amplitude[-1] == pytest.approx(0.512)
 
 

@@ -38,6 +38,9 @@ if TYPE_CHECKING:
     Tools = Sequence[tuple[str, str]]
 
 _OF_OSCILLATION = re.compile(r"complex|oscillat|amplitude|dynamic|\bdyn\b", re.IGNORECASE)
+_DOUBLE = re.compile(r"\bdouble\b|\bDSA\b|\bp-?p\b|\bpeak[ -]to[ -]peak\b", re.IGNORECASE)
+#: A strain amplitude above 200 % is that of no analyser; a number above it is in per cent.
+_LARGEST_FRACTION = 2.0
 #: Segment and number of a point, as HAAKE RheoWin prints them.
 _SEGMENT = re.compile(r"\d{1,6}\|\d{1,6}")
 _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the moduli", "'MPa'")
@@ -391,6 +394,9 @@ def _strain_amplitude(table: Table, notes: list[str], without_unit: str) -> Arra
     if len(found) != 1:
         return None
     column = table.columns[found[0]]
+    if _DOUBLE.search(column.heading):
+        problem = f"column {column.heading!r} holds double amplitudes (peak to peak); write half of them in a column."
+        raise table.refused("double-amplitude", problem)
     factor = STRAIN_FACTORS.get(column.unit.strip() or without_unit)
     if factor is None:
         said = f"The strain amplitudes were not read: column {column.heading!r} has no unit such as '%'."
@@ -401,6 +407,12 @@ def _strain_amplitude(table: Table, notes: list[str], without_unit: str) -> Arra
     except DataFileError:  # words in a column that is not needed
         return None
     if not column.unit.strip():
+        if np.nanmax(values, initial=0.0) > _LARGEST_FRACTION:
+            said = (
+                f"The strain amplitudes were not read: column {column.heading!r} has no unit; too large for fractions."
+            )
+            notes.append(Note("strain-amplitude-not-read", said))
+            return None
         said = f"Column {column.heading!r} has no unit; it was read as a fraction (0.01 is 1 %)."
         notes.append(Note("strain-without-unit", said))
     return np.where(values >= 0.0, values, np.nan)
