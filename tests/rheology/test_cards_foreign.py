@@ -151,6 +151,17 @@ def test_abaqus_hyperelastic_models(tmp_path, model, constants, shear):
     assert pytest.approx(3e6 * shear) == card.material.spectrum.E0
 
 
+@pytest.mark.parametrize(
+    ("model", "constants"), [("neo hooke", "0.5"), ("mooney-rivlin", "0.4, 0.1"), ("yeoh", "0.5, 0., 0.")]
+)
+def test_abaqus_moduli_at_several_temperatures_are_those_of_the_first(tmp_path, model, constants):
+    text = f"*MATERIAL, NAME=A\n*HYPERELASTIC, {model}\n{constants}\n0.4, 0.1\n*VISCOELASTIC, TIME=PRONY\n.5,,1.\n"
+    card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s")
+    assert pytest.approx(3e6) == card.material.spectrum.E0
+    assert card.material.poisson_ratio == 0.5
+    assert "first-line-taken" in {note.code for note in card.notes}
+
+
 def test_abaqus_arrhenius_has_its_own_gas_constant_and_zero(tmp_path):
     text = "*PHYSICAL CONSTANTS, ABSOLUTE ZERO=-273.15, UNIVERSAL GAS CONSTANT=8314.0\n" + ABAQUS.replace(
         "*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=ARRHENIUS\n20., 1.2e8"

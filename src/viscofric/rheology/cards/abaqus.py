@@ -233,7 +233,7 @@ def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tup
         raise InputError(
             "contains no *ELASTIC or *HYPERELASTIC with numbers, so that its moduli are not known.", code="no-modulus"
         )
-    if len(block.data) > 1 and elastic is not None:
+    if len(block.data) > 1:
         notes.append(
             Note("first-line-taken", f"Line {block.row}: elasticity depends on temperature; its first line was taken.")
         )
@@ -258,7 +258,7 @@ def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tup
 
 def _hyperelastic(block: _Block) -> tuple[float, float]:
     """Return the shear modulus at small strain and D1 = 2/K, in the card's unit."""
-    values = [number for row in block.data for number in row]
+    values = block.data[0]  # of one temperature
     options = {option.upper().replace("-", " ") for option in block.options}
     # number of constants, indices of those whose doubled sum is the shear modulus, and index of D1
     known = {"NEO HOOKE": ((0,), 1), "MOONEY RIVLIN": ((0, 1), 2), "YEOH": ((0,), 3)}
