@@ -329,3 +329,22 @@ def test_columns_of_other_tribometers_are_known(tmp_path: Path, header: str, log
     assert curves.viscoelastic == pytest.approx([0.03, 0.04, 0.05] * 2)
     assert {"total-friction", "errors-unknown"} <= codes(curves.notes)
     assert ("decadic-logarithms" in codes(curves.notes)) == log
+
+
+def test_curves_of_two_compounds_below_each_other_are_refused(tmp_path: Path) -> None:
+    header, rows = FOREIGN.split("\n", 1)
+    path = tmp_path / "curves.csv"
+    path.write_text(f"Compound A;;;\n{header}\n{rows}Compound B;;;\n{header}\n{rows}", encoding="utf-8")
+    with refused("several-tables"):
+        vf.read_friction_curves(path)
+    path.write_text(f"{header}\n{rows}{header}\n{rows}", encoding="utf-8")  # a header on each page
+    assert len(vf.read_friction_curves(path)) == 4
+
+
+@pytest.mark.parametrize("name", ["mean speed (mm/s)", "average temperature (degC)"])
+def test_means_of_speeds_and_temperatures_are_not_those_of_a_point(tmp_path: Path, name: str) -> None:
+    kind = "speed (mm/s)" if "speed" in name else "temperature (degC)"
+    path = tmp_path / "curves.csv"
+    path.write_text(FOREIGN.replace(kind, name), encoding="utf-8")
+    with refused("missing-columns"):
+        vf.read_friction_curves(path)

@@ -431,3 +431,14 @@ def test_the_contact_is_one_disc_in_any_history():
         rises.append(rise / most)
     assert 0.01 < rises[0] < 0.1
     assert rises[1] < 1e-9
+
+
+@pytest.mark.parametrize("end", [1e4, 1e6])
+def test_relaxation_after_a_quick_indentation_is_solved_however_long_it_is(end: float) -> None:
+    """The load of Lee and Radok, long after the indentation: 4/3 √R E(t)/(1 − ν²) δ^(3/2)."""
+    tau = np.geomspace(1e-6, 1e4, 11)
+    rubber = vf.Material(vf.RetardationSpectrum(1e6, 1e9, np.full(11, (1e-6 - 1e-9) / 11), tau))
+    history = vf.motion.History([0.0, 1e-3, end], indentation=[0.0, 1e-4, 1e-4])
+    run = vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=[end], accuracy=1e-3)
+    relaxed = 4.0 / 3.0 * np.sqrt(0.01) * 1e-6 / 0.75 * rubber.spectrum.relaxation_modulus(end)
+    assert run.load[0] == pytest.approx(relaxed, rel=1e-3)

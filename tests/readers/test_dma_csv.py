@@ -596,6 +596,22 @@ def test_the_phase_angle_stands_for_the_loss_tangent(tmp_path, heading, degrees)
         read_dma(write(tmp_path, "T (°C),f (Hz),|E*| (MPa),delta", *rows))
 
 
+def test_means_of_other_quantities_are_not_read(tmp_path):
+    header = "T (°C),f (Hz),mean strain (%),E' (MPa),E'' (MPa)"  # static, not the amplitude
+    rows = [",".join([T, f, "10", *rest]) for T, f, *rest in (row.split(",") for row in ROWS)]
+    sweeps = read_dma(write(tmp_path, header, *rows))
+    assert_is_the_table(sweeps)
+    assert all(one.strain_amplitude is None for one in sweeps.isotherms)
+
+
+def test_means_are_noted_and_need_no_column_of_temperature(tmp_path):
+    rows = [",".join(row.split(",")[1:]) for row in ROWS[:2]]
+    path = write(tmp_path, "f (Hz),E' mean (MPa),E'' mean (MPa)", *rows)
+    sweeps = vf.read_dma(path, temperature=293.15)
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6])
+    assert "means-read" in codes(sweeps.notes)
+
+
 def test_columns_of_means_count_where_there_are_no_others(tmp_path):
     header = "T (°C),f (Hz),E' mean (MPa),E' std (MPa),Mean E'' (MPa),E'' std (MPa)"
     rows = [",".join([T, f, storage, "9", loss, "9"]) for T, f, storage, loss in (row.split(",") for row in ROWS)]

@@ -101,6 +101,14 @@ def test_sweeps_of_several_temperatures_are_no_master_curve(tmp_path, lines):
         read_master_curve(write(tmp_path, *lines), "25 degC")
 
 
+def test_master_curves_of_two_materials_below_each_other_are_refused(tmp_path):
+    header = "f (Hz);E' (MPa);E'' (MPa)"
+    with refused("several-tables"):
+        read_master_curve(write(tmp_path, "Material A;;", header, "1;5;0.5", "Material B;;", header, "2;9;0.9"), 300.0)
+    pages = read_master_curve(write(tmp_path, header, "1;5;0.5", header, "2;9;0.9"), 300.0)  # a header on each page
+    assert pages.storage_modulus == pytest.approx([5e6, 9e6])
+
+
 def test_logarithms_of_a_base_that_is_not_stated_are_refused(tmp_path):
     rows = ["-3,0.7,-0.3", "3,0.95,-0.15", "0,0.78,-0.05"]
     with refused("logarithm-unknown"):

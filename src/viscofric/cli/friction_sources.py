@@ -157,7 +157,7 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
 
 def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
     """Return the friction curves of the runs in files of a tribometer."""
-    from viscofric.errors import DataFileError, InputError
+    from viscofric.errors import InputError
     from viscofric.friction.curve_files import holds_friction_curves
     from viscofric.friction.measurement.tribometry import separate
     from viscofric.readers.mtm.read import read_mtm
@@ -166,9 +166,10 @@ def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves
     headings, sheet = settings.pop("columns", None), settings.pop("sheet", None)
     try:
         runs = read_mtm(*paths, columns=headings, sheet=sheet)
-    except DataFileError as error:
+    except InputError as error:
         curves = [path for path in paths if holds_friction_curves(path, headings)]
-        if not curves or error.code != "missing-columns" or "traction force" in error.note.values.get("known", ()):
+        no_runs = error.code in ("missing-columns", "unknown-quantity")
+        if not (curves and no_runs) or "traction force" in error.note.values.get("known", ()):
             raise
         problem = f"{curves[0]} holds friction curves, not runs to be separated; viscofric master and identify take it."
         raise InputError(problem, code="friction-curves") from None

@@ -138,7 +138,7 @@ def read_friction_curves(
     unit = _load_unit(table, places["load"])
     found = {name: _read_column(table, name, place, unit) for name, place in places.items()}
     remarks = _remarks(str(path))
-    notes = [*remarks["note"], *table.logarithm_notes]
+    notes = [*remarks["note"], *table.heading_notes]
     if _is_any_friction(column := table.columns[places["viscoelastic"]]):
         said = f"Column {column.heading!r} was read as viscoelastic friction; friction measured in sliding includes "
         notes.append(Note("total-friction", said + "Coulomb friction, which must be subtracted first."))

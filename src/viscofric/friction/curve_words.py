@@ -64,6 +64,7 @@ CURVES = Vocabulary(
         ("coulomb friction", ""),
     ),
     logarithms=True,
+    means=frozenset({"viscoelastic friction"}),
     several="rows",
 )
 

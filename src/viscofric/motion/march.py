@@ -270,12 +270,12 @@ class _March(Generic[State]):
             reached = end if step == left else time + step
             tried = self._try(pair, [time, 0.5 * (time + reached), reached])
             ratio = self._ratio(pair, tried)
-            if ratio > 1.0 and step > max(least, _LEAST * (end - start)):
+            too_quick = ratio * self.share > 1.0  # the step alone adds more than the accuracy
+            if ratio > 1.0 and step > (least if too_quick else max(least, _LEAST * (end - start))):
                 self.rejected += 1
                 step *= _growth(ratio)
                 continue
             failed += ratio > 1.0
-            too_quick = ratio * self.share > 1.0  # the step alone adds more than the accuracy
             if (failed > _FEW_LEAST or too_quick) and self.mover.can_tighten:
                 raise _NoisyError
             if too_quick:
@@ -358,7 +358,8 @@ class _March(Generic[State]):
         worst = max(map(abs, over_scales(difference(pair), self._scales))) / 3.0
         if worst > self.accuracy and not self._limited:
             raise _TooLargeError(worst / self.accuracy)
-        self._pace, self._at = pace, replace(self._at, pair=pair, time=instant.time, since=reached, jumped=False)
+        jumped = instant.time == self._kink  # soon after a jump, by rounding
+        self._pace, self._at = pace, replace(self._at, pair=pair, time=instant.time, since=reached, jumped=jumped)
         if self.times is None and self._shown_from <= reached < end:
             self._record(pair, instant, asked=True)
         if self.progress is not None:

@@ -16,7 +16,8 @@ from viscofric.readers.headings import Vocabulary
 from viscofric.readers.source import Source, Test, checked_sheet
 from viscofric.units import Quantity, kelvin_hint, positive, shown_celsius
 
-_ITS_FILES = Remedy("*sorted(Path(folder).glob('*')).", "FOLDER/*.csv.", 'dma = ["a.csv", "b.csv"].')
+#: What to do with a folder, where files make one set.
+_ITS_FILES = Remedy("*sorted(Path(folder).glob('*')).", "FOLDER/*.csv.", '["a.csv", "b.csv"].')
 
 
 def files_of(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]], reader: str) -> list[str]:

@@ -32,9 +32,9 @@ def named(cells: Sequence[str], words: Vocabulary) -> set[str]:
     """Return the quantities that the cells of one row name."""
     if not any(cell[:1].isalpha() or cell[:1] in _BEFORE_LETTERS for cell in cells):
         return set()
-    if words.user_columns:
-        return {column.quantity for column in words.columns(cells)} - {""}
-    return {words.column(cell).quantity for cell in cells if 0 < len(cell) < _LONGEST_NAME} - {""}
+    if not words.user_columns:
+        cells = [cell if len(cell) < _LONGEST_NAME else "" for cell in cells]
+    return {column.quantity for column in words.columns(cells)} - {""}
 
 
 def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:

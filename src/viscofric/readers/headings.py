@@ -61,6 +61,7 @@ class Column:
     quantity: str = ""  # of the vocabulary
     given: bool = False  # named by the user, not recognised
     base: float = 0.0  # of the logarithm that the numbers are, 0 where they are none
+    is_mean: bool = False  # "E' mean (MPa)", where no column is of the quantity itself
 
     @property
     def unnumbered(self) -> str:
@@ -87,6 +88,7 @@ class Vocabulary:
     offered: tuple[tuple[str, str], ...] = ()  # quantities that a form offers, each with an example of its unit
     user_columns: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, see `checked`
     logarithms: bool = False  # whether columns may hold logarithms of the quantities
+    means: frozenset[str] = frozenset()  # quantities of which columns of means are read where there are no others
     # Whether several tables below each other are one, all rows alike, or of the temperatures in the lines above each.
     several: Literal["refused", "rows", "titled"] = "refused"
 
@@ -170,8 +172,8 @@ class Vocabulary:
         held = {column.quantity for column in found} | set(self.user_columns)
         for n, column in enumerate(found):
             what = "" if column.quantity else self.quantity(_MEAN.sub("", column.name).strip())
-            if what and what not in held and what != self.quantity(column.name):
-                found[n] = replace(column, quantity=what)
+            if what in self.means and what not in held:
+                found[n] = replace(column, quantity=what, is_mean=True)
         for what, said in self.user_columns.items():
             place, unit = place_of(said, cells)
             if place is not None:

@@ -81,7 +81,7 @@ _TEMPERATURE_UNITS = dict.fromkeys(
 _TEMPERATURE_UNITS |= {"f": "degF", "degf": "degF", "k": "K"}
 #: Units of angles as instruments print them; pint would read "grad" as gradians and "%" as a part of a radian.
 _ANGLES = dict.fromkeys(
-    ("°", "º", "˚", "deg", "degree", "degrees", "grad", "degré", "degrés", "grados", "gradi"), "deg"
+    ("°", "º", "˚", "deg", "deg.", "degree", "degrees", "grad", "degré", "degrés", "grados", "gradi"), "deg"
 )
 _ANGLES |= {"rad": "rad", "radian": "rad", "radians": "rad", "mrad": "mrad"}
 #: Units as people and instruments print them, in lower case -> as pint knows them.

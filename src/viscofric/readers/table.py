@@ -157,10 +157,12 @@ class Table:
         return DataFileError(self.path, problem, int(self.lines[row]), code=code)
 
     @property
-    def logarithm_notes(self) -> list[Note]:
-        """A note on columns whose logarithms were taken as decadic without the heading's word, if any."""
-        assumed = [repr(column.heading) for column in self.columns if column.assumed_decadic]
-        return [Note("decadic-logarithms", f"{' and '.join(assumed)}: read as decadic logarithms.")] if assumed else []
+    def heading_notes(self) -> list[Note]:
+        """Notes on columns of logarithms whose base is assumed, and on those of means."""
+        decadic = [repr(column.heading) for column in self.columns if column.assumed_decadic]
+        means = [repr(column.heading) for column in self.columns if column.is_mean]
+        notes = [Note("decadic-logarithms", f"{' and '.join(decadic)}: read as decadic logarithms.")] if decadic else []
+        return [*notes, Note("means-read", f"{' and '.join(means)}: means, read as the values.")] if means else notes
 
     def unused(self, used: Collection[int | None]) -> list[Column]:
         """Return the columns with a name at all other places."""

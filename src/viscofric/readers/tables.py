@@ -171,7 +171,8 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     block = np.searchsorted(first_lines, table.lines, side="right") if len(first_lines) > 1 else None
     held = tuple(tuple(title) for title, rows_of in zip(titles, blocks, strict=True) if rows_of)
     table = replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block, titles=held)
-    if block is not None and words.several == "refused":
+    between = any(cell.strip() for title in titles[1:] for cell in title)  # may say what tells the tables apart
+    if block is not None and (words.several == "refused" or (words.several == "rows" and between)):
         problem = f"holds {len(first_lines)} tables below each other, the second with its header above line "
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
     return _below_each_other(table) if block is None and words.several == "titled" else table

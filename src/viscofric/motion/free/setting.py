@@ -346,7 +346,7 @@ def with_fewer_kinks(schedule: Schedule, accuracy: float) -> Schedule:
     kinks, least = schedule.kinks, min(_BEND * accuracy, _MOST_BEND)
     kept = [float(kinks[0])]
     velocity = [[schedule.velocity(float(time), after=after) for after in (False, True)] for time in kinks]
-    fastest = max(math.hypot(*one) for pair in velocity for one in pair)
+    fastest = max(math.hypot(*one) for one in [velocity[0][1], *itertools.chain(*velocity[1:])])
     rates = _rates(schedule)
     steepest = float(np.abs(rates).max())
     for place in range(1, len(kinks) - 1):

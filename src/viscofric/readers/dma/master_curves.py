@@ -125,6 +125,9 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
     if table.block is not None and any(temperature_of_title(title) is not None for title in table.titles):
         problem = "holds tables with temperatures of their own, no master curve"
         raise DataFileError(table.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
+    if table.block is not None and any(cell.strip() for title in table.titles[1:] for cell in title):
+        problem = "holds several tables below each other; give each a file of its own."
+        raise DataFileError(table.path, problem, code="several-tables")
     places = dma_table.find_columns(table, master_curve=True)
     doubts: list[str] = []
     frequency = dma_table.angular_frequency(table, places, doubts)

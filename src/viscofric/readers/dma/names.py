@@ -172,6 +172,7 @@ DMA = Vocabulary(
         ("strain amplitude", "%"),
     ),
     logarithms=True,
+    means=frozenset({"temperature", "frequency", "storage modulus", "loss modulus", "complex modulus", "tan delta"}),
     several="titled",
 )
 

@@ -74,7 +74,8 @@ def read_text_table(source: Source, options: ScanOptions) -> Scan:
     if holds_table(source, HEIGHTS):
         return _points(source, options)
     table = _parsed(source.path, source.text, are_points=options.spacing is None)
-    if options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3):
+    are_points = options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3)
+    if are_points and _without_positions(table.rows)[2] is None:
         factor, _ = conversion(options.unit or "m", "m", "unit")
         rows = np.column_stack([table.rows[:, :-1], _read(table.rows[:, -1], options)])
         assumed = Note("unit-assumed", "positions and heights assumed to be in m", values={"unit": "m"})
@@ -202,7 +203,7 @@ def _parsed(path: str, text: str, *, are_points: bool) -> _Text:
         if len(cells) != wanted:
             problem = f"the line holds {len(cells)} numbers where the first holds {wanted}."
             raise DataFileError(path, problem, number, code="row-length")
-    _insist_on_delimiters(path, found, are_points=are_points)
+    _insist_on_delimiters(path, found, are_points=are_points and "width" not in remarks)
     decimal_comma(path, ((cell, number) for number, cells in found for cell in cells if "," in cell))
     if not _is_number(found[0][1][0]):  # a label in the corner of positions
         found[0][1][0] = ""

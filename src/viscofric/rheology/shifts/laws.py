@@ -104,7 +104,18 @@ class WLF(ParametricLaw):
         return np.stack([-fraction, self.C1 * fraction / (self.C2 + warmer)], axis=-1)
 
     def at_reference(self, reference: Quantity) -> WLF:
-        """Return the same law about another reference: C1 C2 and Tr − C2 are invariant (J. D. Ferry)."""
+        """Return the same law about another reference: C1 C2 and Tr − C2 are invariant (J. D. Ferry).
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If the law is not valid there.
+        """
         kelvin = positive(reference, "K", "reference")
         self._refuse(np.array([kelvin]))
         warmer = kelvin - self.reference

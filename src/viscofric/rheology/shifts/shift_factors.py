@@ -110,10 +110,18 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         return True
 
     def to_dataset(self, temperatures: Any = None) -> Dataset:
-        """Return the factors, at other temperatures than the table's if given, as a labelled data set.
+        """Return the factors as a labelled data set.
 
-        ``log10_shift_factor`` and its ``standard_error`` along ``temperature`` (K), NaN outside the table. Attribute
-        ``reference_temperature`` (K).
+        Parameters
+        ----------
+        temperatures : (n,) array or list of float, str or quantity, optional
+            Plain numbers are in K; None: those of the table.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``log10_shift_factor`` and its ``standard_error`` along ``temperature`` (K), NaN outside the table.
+            Attribute ``reference_temperature`` (K).
         """
         if temperatures is None:
             return self._dataset(self.temperatures, self.log10_values, self.standard_errors)
@@ -163,7 +171,18 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         )
 
     def at_reference(self, reference: Quantity) -> ShiftFactors:
-        """Return the same factors with α = 1 at another temperature of their range; see `ShiftLaw.at_reference`."""
+        """Return the same factors with α = 1 at another temperature of their range.
+
+        Parameters
+        ----------
+        reference : float, str or pint.Quantity
+            K if a plain number.
+
+        Raises
+        ------
+        InputError
+            If it lies outside the range of the table.
+        """
         kelvin = positive(reference, "K", "reference")
         self._refuse(np.array([kelvin]))
         return ShiftFactors(

@@ -304,10 +304,18 @@ class ShiftLaw(Shift):
         return np.zeros((kelvin.size, kelvin.size))
 
     def to_dataset(self, temperatures: Any) -> Dataset:
-        """Return log10 α over temperatures (n,), K if plain numbers, as a labelled data set.
+        """Return log10 α over temperature as a labelled data set.
 
-        ``log10_shift_factor`` and, where it is known, its ``standard_error``, along ``temperature`` (K); NaN where the
-        law is not valid.  Attributes: ``reference_temperature`` (K), or those of the law with its constants.
+        Parameters
+        ----------
+        temperatures : (n,) array or list of float, str or quantity
+            Plain numbers are in K.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``log10_shift_factor`` and, where it is known, its ``standard_error``, along ``temperature`` (K); NaN where
+            the law is not valid.  Attributes: ``reference_temperature`` (K), or those of the law with its constants.
         """
         kelvin = np.ravel(in_kelvin(temperatures))
         values, errors = self.values_at(kelvin)

@@ -31,10 +31,23 @@ class VerticalShift(Shift):
         return None
 
     def to_dataset(self, temperatures: Any) -> Dataset:
-        """Return log10 b over temperatures (n,), K if plain numbers, as a labelled data set; errors as of `log10`.
+        """Return log10 b over temperature as a labelled data set.
 
-        ``log10_vertical_shift`` and, where it is known, its ``vertical_standard_error``, along ``temperature`` (K).
-        Attributes: ``reference_temperature`` (K) and ``vertical_shift``, all of the shift as JSON.
+        Parameters
+        ----------
+        temperatures : (n,) array or list of float, str or quantity
+            Plain numbers are in K.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``log10_vertical_shift`` and, where it is known, its ``vertical_standard_error``, along ``temperature`` (K).
+            Attributes: ``reference_temperature`` (K) and ``vertical_shift``, all of the shift as JSON.
+
+        Raises
+        ------
+        InputError
+            Where `log10` raises it.
         """
         kelvin = to_si_array(temperatures, "K", "temperatures")
         values = self.log10(kelvin)

@@ -240,7 +240,7 @@ def read_points(
     if is_reduced(table, places):
         problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
         raise DataFileError(table.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
-    notes: list[str] = [*table.logarithm_notes]
+    notes: list[str] = [*table.heading_notes]
     if table.empty_rows:
         rows = "1 row holds" if table.empty_rows == 1 else f"{table.empty_rows} rows hold"
         notes.append(Note("empty-rows", f"{rows} neither frequency nor modulus; skipped."))
