@@ -198,6 +198,17 @@ def test_wrong_tables_are_refused_with_the_place(tmp_path: Path, old: str, new: 
         vf.read_friction_curves(path)
 
 
+@pytest.mark.parametrize("column", ["viscoelastic friction standard error", "viscoelastic friction scatter"])
+def test_errors_in_per_cent_of_a_plain_coefficient_are_refused(tmp_path: Path, column: str) -> None:
+    path = tmp_path / "curves.csv"
+    head, row = "speed (mm/s),temperature (degC),load (N),viscoelastic friction{},{} (%)\n", "20,30,25,{},1\n"
+    path.write_text((head + row).format("", column, 0.03), encoding="utf-8")
+    with refused("wrong-unit", DataFileError, naming=(column,)):
+        vf.read_friction_curves(path)
+    path.write_text((head + row).format(" (%)", column, 3), encoding="utf-8")
+    assert getattr(vf.read_friction_curves(path), f"viscoelastic_{column.split()[-1]}") == pytest.approx([0.01])
+
+
 @pytest.mark.parametrize(
     ("column", "cell", "refusal"),
     [

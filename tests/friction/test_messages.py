@@ -384,7 +384,14 @@ def test_refusals_say(call: Callable[[], object], reader: Reader, sentence: str)
             "friction (N)",
             ": column 'viscoelastic friction (N)' has the unit 'N'; it is a number without a unit, or in '%'.",
         ),
-        ("20;30", "-20;30", ", line 2: '-20' in column 'speed (mm/s)' must be above zero."),
+        (
+            "20;30",
+            "-20;30",
+            (
+                ", line 2: '-20' in column 'speed (mm/s)' must be above zero; give the mean friction of both "
+                "directions of motion in one row."
+            ),
+        ),
         ("200;60", "200;-300", ", line 3: '-300' in column 'temperature (degC)' must be above absolute zero."),
         ("2,5", "two", ", line 3: 'two' in column 'viscoelastic friction (%)' is not a finite number."),
         ("2,5", "", ", line 3: the cell in column 'viscoelastic friction (%)' is empty; give a number."),

@@ -31,6 +31,11 @@ from viscofric.units import CELSIUS_ZERO
 _TITLE = "viscofric friction curves"
 _REMARKS = ("source", "assumption", "note")
 
+_ABOVE_ZERO = {
+    "speed": "must be above zero; give the mean friction of both directions of motion in one row",
+    "temperature": "must be above absolute zero",
+    "load": "must be above zero",
+}
 #: Fields that are infinite where not known, an empty cell in the file.
 _OPEN = ("_error", "_scatter", "_freedom")
 _MOST_REPLICATES = 1e9
@@ -136,6 +141,7 @@ def read_friction_curves(
         raise DataFileError(str(path), problem, code="traction-runs", remedy=AS_RUNS)
     places = _places(table)
     unit = _load_unit(table, places["load"])
+    _insist_on_absolute_errors(table, places)
     found = {name: _read_column(table, name, place, unit) for name, place in places.items()}
     remarks = _remarks(str(path))
     notes = [*remarks["note"], *table.heading_notes]
@@ -212,6 +218,18 @@ def _places(table: Table) -> dict[str, int]:
     return places
 
 
+def _insist_on_absolute_errors(table: Table, places: dict[str, int]) -> None:
+    """Raise an error where an error in per cent may be one of the value, or of a friction coefficient of 1."""
+    for name, place in places.items():
+        value, _, kind = name.rpartition("_")
+        own, of = table.columns[place], table.columns[places.get(value, place)]
+        if kind in ("error", "scatter") and own.unit == "%" != of.unit:
+            problem = (
+                f"column {own.heading!r} is in per cent, perhaps relative, and {of.heading!r} is not; give both alike."
+            )
+            raise table.refused("wrong-unit", problem)
+
+
 def _load_unit(table: Table, place: int) -> str:
     """Return the unit of the load, N or N/m."""
     try:
@@ -236,7 +254,7 @@ def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:
         raise DataFileError(table.path, problem, code="wrong-unit")
     values = factor * values + shift
     if name in ("speed", "temperature", "load"):
-        bad, right = values <= 0.0, "must be above absolute zero" if name == "temperature" else "must be above zero"
+        bad, right = values <= 0.0, _ABOVE_ZERO[name]
     elif name == "replicates":
         bad = (values < 1.0) | (values != np.round(values)) | (values > _MOST_REPLICATES)
         right = "must be a whole number above zero"

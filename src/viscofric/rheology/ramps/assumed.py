@@ -31,7 +31,7 @@ def assumed_of(text: str, reference: float) -> ShiftLaw | Literal["universal"]:
                 f"{brief(text)}: write 'WLF 17.44, 51.6 K, -30 degC': C1, C2 and their reference.", code="no-law"
             )
         return WLF(to_si(parts[0], "dimensionless", "C1"), parts[1], parts[2])
-    return Arrhenius(positive(words, "J/mol", "assumed_shift"), reference)
+    return Arrhenius(positive(words, "J/mol", "activation energy"), reference)
 
 
 def assumed_law(
