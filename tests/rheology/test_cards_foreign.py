@@ -172,6 +172,13 @@ def test_abaqus_arrhenius_has_its_own_gas_constant_and_zero(tmp_path):
     assert shift.log10("50 degC") == pytest.approx(expected)
 
 
+def test_abaqus_energy_without_gas_constant_is_noted(tmp_path):
+    text = ABAQUS.replace("*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=ARRHENIUS\n20., 1.2e5")
+    card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s", temperature_unit="degC")
+    assert card.material.shift.activation_energy == pytest.approx(1.2e5)
+    assert [note.code for note in card.notes] == ["unit-assumed"]
+
+
 def test_abaqus_subroutines_and_other_keywords_are_reported(tmp_path):
     text = ABAQUS.replace("*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=USER\n*MULLINS EFFECT\n1.1, 2., 0.1")
     card = opened(tmp_path, text, modulus_unit="MPa", time_unit="s")
@@ -414,6 +421,8 @@ def test_comsol_parameters_have_units(tmp_path):
         ('nu 0.49 "Poisson ratio"\n', "", ("missing-constants",)),
         ("tau_1 10[ms]\n", "", ("missing-constants",)),
         ("10[ms]", "10[mm]", ("wrong-unit",)),
+        ("0.5[MPa]", "0.5", ("no-unit", "G_long_term 0.5[MPa]")),
+        ("25[degC]", "25", ("no-unit", "T_reference 25[degC]")),
         ("10[ms]", "ten", ("not-a-number", "line 4", "'tau_1 ten'")),
         ("0.5[MPa]", "0[MPa]", ("liquid",)),
     ],

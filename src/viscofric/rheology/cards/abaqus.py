@@ -303,6 +303,9 @@ def _shift(
         gas = GAS_CONSTANT
         if constants is not None and "UNIVERSAL GAS CONSTANT" in constants.options:
             gas = _number(constants, "UNIVERSAL GAS CONSTANT")
+        else:
+            said = f"The card has no universal gas constant; the activation energy {values[1]:g} was read in J/mol."
+            notes.append(Note("unit-assumed", said))
         # Only E0/R matters, whatever the unit of energy.
         return Arrhenius(values[1] / gas * GAS_CONSTANT, reading.kelvin(values[0], notes, zero))
     if kind in ("WLF", "ARRHENIUS"):
