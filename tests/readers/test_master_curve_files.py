@@ -109,6 +109,24 @@ def test_master_curves_of_two_materials_below_each_other_are_refused(tmp_path):
     assert pages.storage_modulus == pytest.approx([5e6, 9e6])
 
 
+def test_sweeps_in_one_table_are_no_master_curve(tmp_path):
+    head = "T (°C),f (Hz),E' (MPa),E'' (MPa)"
+    sweeps = [f"{T},{f},{10 - 0.1 * T + math.log10(f)},1" for T in (0, 30, 60) for f in (1, 10, 100)]
+    with refused("dma-sweeps"):
+        read_master_curve(write(tmp_path, head, *sweeps), "30 degC")
+    # Shift factors of whole decades bring isotherms to equal frequencies, with equal moduli.
+    shifted = [
+        f"{T},{f * 10 ** (1 - T / 30)},{10 + math.log10(f) - T / 30},1" for T in (0, 30, 60) for f in (1, 10, 100)
+    ]
+    assert len(read_master_curve(write(tmp_path, head, *shifted), "30 degC").angular_frequency) == 9
+
+
+def test_a_temperature_is_not_missed_in_a_master_curve(tmp_path):
+    with refused("missing-columns") as caught:
+        read_master_curve(write(tmp_path, "aT*f (Hz),E' (MPa),E'' (MPa)", *ROWS), "30 degC")
+    assert caught.value.note.values["missing"] == ["frequency"]
+
+
 def test_logarithms_of_a_base_that_is_not_stated_are_refused(tmp_path):
     rows = ["-3,0.7,-0.3", "3,0.95,-0.15", "0,0.78,-0.05"]
     with refused("logarithm-unknown"):

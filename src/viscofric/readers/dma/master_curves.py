@@ -24,6 +24,9 @@ from viscofric.units import Quantity, checked_poisson_ratio, conversion, positiv
 
 #: Reference temperatures are printed with few digits.
 _SAME_REFERENCE = 0.01  # K
+#: Relative difference of frequencies that are printed alike, K between isotherms, and relative difference of moduli
+#: that exceeds the scatter of isotherms on one curve.
+_SAME_FREQUENCY, _OTHER_TEMPERATURE, _OTHER_MODULUS = 1e-4, 1.0, 0.2
 _REMARKS = 20  # lines
 #: As `viscofric material fit` writes it above a master curve.
 _REFERENCE = re.compile(
@@ -70,8 +73,8 @@ def read_master_curve(
     Raises
     ------
     DataFileError
-        If the file cannot be read, columns contradict each other, a value is missing or not above zero, tension or
-        shear is not stated, or the file states another reference temperature.
+        If the file cannot be read or holds sweeps, columns contradict each other, a value is missing or not above zero,
+        tension or shear is not stated, or the file states another reference temperature.
     InputError
         If an argument is wrong.
 
@@ -146,7 +149,18 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
         temperature = factor * table.numbers(places["temperature"]) + offset
     named = {"frequency": frequency, "storage modulus": storage, "loss modulus": loss, "temperature": temperature}
     _insist_on_positive(table.path, table.lines, named)
+    if _are_sweeps(frequency, storage, temperature):
+        problem = "has other moduli at the same frequencies for each temperature: sweeps that are not shifted"
+        raise DataFileError(table.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
     return frequency, storage, loss, temperature
+
+
+def _are_sweeps(frequency: Array, storage: Array, temperature: Array) -> bool:
+    """Return whether moduli at equal frequencies and different temperatures differ, as those of no master curve."""
+    order = np.lexsort((temperature, frequency))
+    steps = [np.abs(np.diff(one[order])) for one in (np.log(frequency), temperature, np.log(storage))]
+    equal = (steps[0] < _SAME_FREQUENCY) & (steps[1] > _OTHER_TEMPERATURE)
+    return bool(3 * equal.sum() >= len(frequency)) and float(np.median(steps[2][equal])) > _OTHER_MODULUS
 
 
 def _stated_reference(source: Source) -> float:

@@ -67,7 +67,7 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     missing = [] if "frequency" in places else ["frequency"]
     if not places.keys() & {"tan delta", "phase angle"} or not places.keys() & {*_MODULI}:
         missing += [modulus for modulus in _MODULI[:2] if modulus not in places]
-    if missing and "temperature" not in places:
+    if missing and "temperature" not in places and not master_curve:
         missing.insert(0, "temperature")
     if missing:
         problem = f"no column for {' or '.join(missing)}; {names.DMA.example}, this one has {table.headings()}"
