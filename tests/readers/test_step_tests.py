@@ -35,6 +35,15 @@ def test_a_table_of_several_temperatures_is_read(tmp_path, delimiter):
     assert tests.notes == ()
 
 
+@pytest.mark.parametrize(("heading", "given"), [("G(t) (MPa)", "tension"), ("E(t) (MPa)", "shear")])
+def test_a_deformation_that_contradicts_the_heading_is_refused(tmp_path, heading, given):
+    path = written(tmp_path / "relax_25C.txt", ("t (s)", heading), [TIME, 10.0 * TIME**-0.2])
+    with refused("deformation-contradicts", DataFileError):
+        vf.read_step_tests(path, deformation=given)
+    other = "bending" if given == "shear" else "shear"
+    assert vf.read_step_tests(path, deformation=other).deformation == other
+
+
 def test_one_file_for_each_temperature(tmp_path):
     """Temperatures from names or arguments; E(t) states tension."""
     for celsius in (20, 40):

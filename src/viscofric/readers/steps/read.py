@@ -97,7 +97,7 @@ def read_step_tests(
     ------
     DataFileError
         If a file cannot be read, a column or unit is missing or wrong, a cell is no number, no temperature is known,
-        creep and relaxation are mixed, or tension or shear is not stated.
+        creep and relaxation are mixed, or tension or shear is not stated or contradicts `deformation`.
     InputError
         If no file is given, or an argument is wrong.
 
@@ -129,7 +129,7 @@ def read_step_tests(
         raise InputError(
             f"response_unit = {response_unit!r}: the files state their units; leave it out.", code="unit-not-needed"
         )
-    stated = deformation or _stated(parts)
+    stated = _stated(parts, deformation)
     notes: list[str] = list(dict.fromkeys(note for part in parts for note in part.notes))
     tests = _tests(parts, notes)
     if not tests:
@@ -138,8 +138,15 @@ def read_step_tests(
     return StepTests(tuple(tests), parts[0].kind, stated, named, tuple(notes), parts[0].format)
 
 
-def _stated(parts: Sequence[_Part]) -> Deformation:
+def _stated(parts: Sequence[_Part], given: Deformation | None) -> Deformation:
+    """Return the kind of deformation that files or user state; tension and shear differ by a factor of three."""
+    for part in parts:
+        if given is not None and part.deformation is not None and (part.deformation == "shear") != (given == "shear"):
+            problem = f"the file states {part.deformation}, but deformation={given!r} was requested."
+            raise DataFileError(part.source, problem, code="deformation-contradicts")
     found = {part.deformation for part in parts if part.deformation is not None}
+    if given is not None:
+        return given
     if len(found) > 1:
         raise DataFileError(
             parts[-1].source, "the files state several kinds of deformation.", code="deformation-contradicts"
