@@ -635,3 +635,9 @@ def test_two_columns_of_strain_amplitude_are_named(tmp_path):
     sweeps = read_dma(write(tmp_path, f"{HEADER},strain (%),deformation (%)", *(f"{row},1,2" for row in ROWS)))
     assert "strain-amplitude-not-read" in codes(sweeps.notes)
     assert all(isotherm.strain_amplitude is None for isotherm in sweeps.isotherms)
+
+
+@pytest.mark.parametrize("heading", ["LN2 chamber temperature (°C)", "LOGGED temperature (°C)", "lgr T (°C)"])
+def test_names_of_the_user_that_begin_like_logarithms_are_none(tmp_path, heading):
+    path = write(tmp_path, HEADER.replace("temperature (degC)", heading), *ROWS)
+    assert_is_the_table(read_dma(path, columns={"temperature": heading}))

@@ -36,8 +36,10 @@ _FUNCTION = re.compile(
 )
 #: "log f (Hz)", "log10(E'/Pa)", "ln(ω) (rad/s)": a logarithm, and what it is of.
 _LOGARITHM = re.compile(r"(?P<kind>log[\s_]*10|log|lg|ln)[\s_]*(?P<of>\S.*)", re.IGNORECASE)
-#: Of a column that the user names, the beginning has to be a word of its own: "logger time" is none.
-_SAID_LOGARITHM = re.compile(r"(?i:log[\s_]*10|log|lg|ln)(?![a-z])")
+#: Of a column that the user names, the beginning has to be a word of its own: "logger time" and "LN2 bath" are none.
+_SAID_LOGARITHM = re.compile(r"(log[\s_]*10|log|lg|ln)(?=[\s_(\[]|[eg]['*])", re.IGNORECASE)
+#: Quantities that are of logarithms already, by the beginning or the end of their names.
+_OF_LOGARITHMS = re.compile(r"log.*|.*(error|scatter)")
 _ARGUMENT = re.compile(r"\((?P<first>[^()]*)\)(?P<rest>.*)|\((?P<whole>.*)\)")
 _CELSIUS = re.compile(r"°?[CF]|deg[CF]|℃", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
@@ -178,7 +180,7 @@ class Vocabulary:
             place, unit = place_of(said, cells)
             if place is not None:
                 column = found[place]
-                if _SAID_LOGARITHM.match(column.heading) and not _SAID_LOGARITHM.match(what):
+                if _SAID_LOGARITHM.match(column.heading) and not _OF_LOGARITHMS.fullmatch(what):
                     column = _logarithm(column.heading) or column
                 found[place] = replace(column, quantity=what, unit=unit or column.unit, given=True)
         return tuple(found)

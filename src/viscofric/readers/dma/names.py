@@ -138,6 +138,7 @@ STEP = frozenset(
     }
 )
 
+_MODULI = ("storage modulus", "loss modulus", "complex modulus")
 #: The words of DMA tables: name of a quantity in errors -> names of its columns.
 DMA = Vocabulary(
     "a DMA table",
@@ -172,7 +173,7 @@ DMA = Vocabulary(
         ("strain amplitude", "%"),
     ),
     logarithms=True,
-    means=frozenset({"temperature", "frequency", "storage modulus", "loss modulus", "complex modulus", "tan delta"}),
+    means=frozenset({"temperature", "frequency", "angular frequency", *_MODULI, "tan delta", "phase angle"}),
     several="titled",
 )
 

@@ -51,6 +51,7 @@ class _Part:
     deformation: Deformation | None
     notes: tuple[str, ...]
     lacks_unit: bool
+    said_by: str = ""  # such as "the heading G(t) (MPa)"
 
 
 def read_step_tests(
@@ -142,7 +143,7 @@ def _stated(parts: Sequence[_Part], given: Deformation | None) -> Deformation:
     """Return the kind of deformation that files or user state; tension and shear differ by a factor of three."""
     for part in parts:
         if given is not None and part.deformation is not None and (part.deformation == "shear") != (given == "shear"):
-            problem = f"the file states {part.deformation}, but deformation={given!r} was requested."
+            problem = f"{part.said_by} states {part.deformation}, but deformation={given!r} was requested."
             raise DataFileError(part.source, problem, code="deformation-contradicts")
     found = {part.deformation for part in parts if part.deformation is not None}
     if given is not None:
@@ -223,9 +224,9 @@ def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: 
     response, heading, lacks_unit = response_of(table, source, known, notes)
     plain = heading.replace("(t)", "").strip()
     symbol = plain.rpartition(" ")[2]  # of "relaxation modulus G(t)"
-    deformation, _ = said_by_columns([plain, symbol], [table.filled], tools_in(table.above))
+    deformation, said_by = said_by_columns([plain, symbol], [table.filled], tools_in(table.above))
     kelvin = temperature_of(table, source, name, len(time), notes)
-    return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit)
+    return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit, said_by)
 
 
 def _tests(parts: Sequence[_Part], notes: list[str]) -> list[StepTest]:

@@ -84,6 +84,9 @@ def _row(*values: float) -> str:
     return ", ".join(number_text(value, _LONGEST_NUMBER) for value in values)
 
 
+_NUMBER = re.compile(r"[+-]?\.?\d")  # at the beginning of a row of numbers
+
+
 @dataclass
 class _Block:
     """One keyword with its parameters and the numbers of its data lines."""
@@ -145,6 +148,8 @@ def _blocks(text: str) -> list[_Block]:
         line = line.strip()
         if not line or line.startswith("**"):
             continue
+        if continued and (line.startswith("*") or _NUMBER.match(line)):
+            continued = False  # after all
         if line.startswith("*") or continued:
             options = line
             if not continued:

@@ -13,7 +13,7 @@ import operator
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypeAlias
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
@@ -31,6 +31,10 @@ _LABELS = {"PRON": "PRONY", "SHIF": "SHIFT"}
 #: Unit of stress of the systems of /UNITS in which time is in s.
 _UNIT_SYSTEMS = {"SI": "Pa", "MKS": "Pa", "MPA": "MPa"}
 _PAIRS = 3  # of modulus and time on one TBDATA, which takes six constants
+#: "MATID=1"
+_PARAMETER = re.compile(r"(?P<name>[A-Z_]\w*\s*)=\s*(?P<value>\d+)")
+#: Fields of a command, and its line.
+_Command: TypeAlias = tuple[list[str], int]
 _ARITHMETIC: dict[type, Callable[[float, float], float]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -118,7 +122,11 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     notes: list[str] = [] if content else reading.unit_note()
     materials = list(dict.fromkeys(table.material for table in tables if table.name == "PRONY"))
     first = materials[0] if materials else ""
+    others = [table for table in tables if table.material != first and table.name == "SHIFT"]
     tables = [table for table in tables if table.material == first]
+    if len(materials) == 1 and others:
+        said = f"TB,SHIFT of material {others[0].material} was not read; the viscoelastic material is {first}."
+        notes.append(Note("shift-not-read", said))
     if len(materials) > 1:
         notes.append(
             Note(
@@ -131,8 +139,10 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     if ignored:
         notes.append(Note("not-read", f"Commands that were not read: {', '.join(sorted(ignored))}."))
     properties = found_properties.get(first, {})
-    modulus = properties.get("EX")
-    ratio = properties.get("PRXY", properties.get("NUXY"))
+    modulus, major, minor = (
+        _property(*properties[one]) if one in properties else None for one in ("EX", "PRXY", "NUXY")
+    )
+    ratio = minor if major is None else major
     if modulus is None or ratio is None:
         raise InputError(
             f"contains no MP,EX or no MP,PRXY (nor NUXY) of material {first}, so that its instantaneous moduli are not "
@@ -161,9 +171,10 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     return Solid(spectrum, ratio if alike else poisson, shift, "", (*notes, *found))
 
 
-def _commands(text: str) -> tuple[dict[str, dict[str, float]], list[_Table], set[str], str | None]:
+def _commands(text: str) -> tuple[dict[str, dict[str, _Command]], list[_Table], set[str], str | None]:
     """Return properties (MP) by material, tables (TB with TBDATA), ignored commands, and the unit of /UNITS, if any."""
-    properties: dict[str, dict[str, float]] = {}
+    properties: dict[str, dict[str, _Command]] = {}
+    numbers: dict[str, str] = {}  # of materials, by the parameters that stand for them
     tables: list[_Table] = []
     ignored: set[str] = set()
     unit: str | None = None
@@ -172,17 +183,23 @@ def _commands(text: str) -> tuple[dict[str, dict[str, float]], list[_Table], set
             head, *fields = (part.strip() for part in command.split(","))
             head = head.upper()
             if head == "MP" and len(fields) >= 3 and fields[0].upper() in _PROPERTIES:
-                properties.setdefault(_material(fields), {})[fields[0].upper()] = _property(fields, row)
+                properties.setdefault(_material(fields, numbers), {})[fields[0].upper()] = (fields, row)
             elif head == "TB" and fields:
                 option = fields[4].upper() if len(fields) > 4 else ""
                 tables.append(
-                    _Table(_LABELS.get(fields[0].upper()[:4], fields[0].upper()), _material(fields), option, row)
+                    _Table(
+                        _LABELS.get(fields[0].upper()[:4], fields[0].upper()), _material(fields, numbers), option, row
+                    )
                 )
             elif head == "TBTEMP" and tables:
                 tables[-1].tables += bool(tables[-1].values)
                 tables[-1].last = 0
             elif head == "TBDATA" and tables and fields:
                 tables[-1].fill(fields, row)
+            elif head == "*SET" and len(fields) == 2 and fields[1].isdecimal():
+                numbers[fields[0].upper()] = fields[1]
+            elif (set_to := _PARAMETER.fullmatch(head)) and not fields:
+                numbers[set_to["name"].rstrip()] = set_to["value"]
             elif head == "/UNITS" and fields and fields[0].upper() in _UNIT_SYSTEMS:
                 unit = _UNIT_SYSTEMS[fields[0].upper()]
             elif head == "/UNITS" or (head and not head.startswith("/")):
@@ -190,9 +207,10 @@ def _commands(text: str) -> tuple[dict[str, dict[str, float]], list[_Table], set
     return properties, tables, ignored, unit
 
 
-def _material(fields: list[str]) -> str:
+def _material(fields: list[str], numbers: dict[str, str]) -> str:
     """Return the number, or the parameter, of the material that a command is about."""
-    return (fields[1].upper() if len(fields) > 1 else "") or "1"
+    given = (fields[1].upper() if len(fields) > 1 else "") or "1"
+    return numbers.get(given, given)
 
 
 def _property(fields: list[str], row: int) -> float:

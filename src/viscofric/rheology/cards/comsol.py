@@ -219,9 +219,8 @@ def _value(values: dict[str, str], name: str, unit: str) -> float:
     if " " in given:
         return to_si(given, unit, name)
     if unit not in ("dimensionless", "delta_degC"):  # a difference is the same in K
-        example = {"K": "degC", "s": "s", "J/mol": "kJ/mol"}.get(unit, "MPa")
         raise InputError(
-            f"{name} = {given}: has no unit; write {name} {given}[{example}], for example.", code="no-unit"
+            f"{name} = {given}: has no unit; write it behind the number, as in {given}[{unit}].", code="no-unit"
         )
     try:
         return to_si(float(given), unit, name)

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     Tools = Sequence[tuple[str, str]]
 
 _OF_OSCILLATION = re.compile(r"complex|oscillat|amplitude|dynamic|\bdyn\b", re.IGNORECASE)
-_DOUBLE = re.compile(r"\bdouble\b|\bDSA\b|\bp-?p\b|\bpeak[ -]to[ -]peak\b", re.IGNORECASE)
+_DOUBLE = re.compile(r"\bdouble\s+(strain|amplitude)|\bDSA\b|\bp-?p\b|\bpeak[ -]to[ -]peak\b", re.IGNORECASE)
 #: A strain amplitude above 200 % is that of no analyser; a number above it is in per cent.
 _LARGEST_FRACTION = 2.0
 #: Segment and number of a point, as HAAKE RheoWin prints them.
