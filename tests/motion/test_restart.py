@@ -57,6 +57,25 @@ def test_an_interrupted_run_of_springs_goes_on_from_a_file(tmp_path: Path, steps
     assert again.pressure_at(0.04).values == pytest.approx(whole.pressure_at(0.04).values)
 
 
+def test_a_jump_is_taken_once_where_a_run_is_interrupted_within_its_rounding():
+    """Ten days after the start, times closer to the jump than 1e-10 s are those of the jump."""
+    rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ns")
+    history = vf.motion.History([0.0, 1e6, 1e6, 1e6 + 1e-6], load=[1.0, 1.0, 2.0, 2.0])
+    late: list[float] = []
+
+    def stop(reached: float, end: float) -> None:
+        late.extend([reached] if reached >= 1e6 else [])
+        if len(late) == 2:
+            raise KeyboardInterrupt
+
+    begun = vf.motion.solve_transient(rubber, BALL, history, progress=stop)
+    assert begun.interrupted
+    assert late[-1] == 1e6
+    same(
+        vf.motion.solve_transient(rubber, BALL, history, resume=begun), vf.motion.solve_transient(rubber, BALL, history)
+    )
+
+
 def test_an_interruption_at_a_kink_loses_nothing():
     """The last step before the jump is the one that is interrupted."""
     reached: list[float] = []
