@@ -273,6 +273,11 @@ def test_tables_of_rebounds_and_oscillations(tmp_path) -> None:
     (one,) = vf.friction.read_oscillation(path, indentation=1e-4, amplitude=1e-6, error=0.01, temperature=300.0)
     assert (one.angular_frequency[0], one.storage_stiffness[0]) == pytest.approx((2.0 * np.pi, 1e4))
     assert one.to_dataset().attrs["loss_stiffness_error"] == 0.01
+    still = tmp_path / "still.csv"
+    still.write_text("frequency (Hz),storage stiffness (N/mm),loss stiffness (N/mm)\n0,10,1\n")
+    with pytest.raises(vf.DataFileError) as caught:
+        vf.friction.read_oscillation(still, indentation=1e-4, amplitude=1e-6, error=0.01, temperature=300.0)
+    assert caught.value.path == str(still)
     with pytest.raises(vf.DataFileError) as caught:
         vf.friction.read_rebound(path, mass="33 g", error=0.01, temperature=300.0)
     assert caught.value.code == "missing-columns"

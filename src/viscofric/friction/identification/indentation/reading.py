@@ -300,12 +300,12 @@ def _read(
     _insist_on_one_temperature(path, given, kelvin)
     try:
         if kelvin is None:
-            return [make(float(given or 0.0), values)]
+            return [make(float(given or 0.0), dict(values))]
         labels = numbered(kelvin, np.full(len(kelvin), SAME_TEMPERATURE))
         rows = [labels == label for label in range(int(labels.max()) + 1)]
         return [make(float(kelvin[row].mean()), {name: one[row] for name, one in values.items()}) for row in rows]
     except InputError as wrong:
-        if wrong.field not in values:
+        if wrong.field not in {*values, "angular_frequency"}:  # which is made of the frequency
             raise
         raise DataFileError(path, wrong.note) from None
 
