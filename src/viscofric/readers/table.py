@@ -161,8 +161,10 @@ class Table:
         """Notes on columns of logarithms whose base is assumed, and on those of means."""
         decadic = [repr(column.heading) for column in self.columns if column.assumed_decadic]
         means = [repr(column.heading) for column in self.columns if column.is_mean]
-        notes = [Note("decadic-logarithms", f"{' and '.join(decadic)}: read as decadic logarithms.")] if decadic else []
-        return [*notes, Note("means-read", f"{' and '.join(means)}: means, read as the values.")] if means else notes
+        notes = [Note("decadic-logarithms", f"Read as decadic logarithms: {' and '.join(decadic)}.")] if decadic else []
+        return (
+            [*notes, Note("means-read", f"Means were read as the values: {' and '.join(means)}.")] if means else notes
+        )
 
     def unused(self, used: Collection[int | None]) -> list[Column]:
         """Return the columns with a name at all other places."""

@@ -138,7 +138,8 @@ STEP = frozenset(
     }
 )
 
-_MODULI = ("storage modulus", "loss modulus", "complex modulus")
+#: Any two of these, or one with tan δ or the phase angle, make a point.
+MODULI = ("storage modulus", "loss modulus", "complex modulus")
 #: The words of DMA tables: name of a quantity in errors -> names of its columns.
 DMA = Vocabulary(
     "a DMA table",
@@ -173,7 +174,7 @@ DMA = Vocabulary(
         ("strain amplitude", "%"),
     ),
     logarithms=True,
-    means=frozenset({"temperature", "frequency", "angular frequency", *_MODULI, "tan delta", "phase angle"}),
+    means=frozenset({"temperature", "frequency", "angular frequency", *MODULI, "tan delta", "phase angle"}),
     several="titled",
 )
 

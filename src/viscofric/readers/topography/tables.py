@@ -56,7 +56,8 @@ def is_table(source: Source) -> bool:
     plain = (line.strip() for line in source.text.splitlines()[:200])
     first = next((line for line in plain if line and not line.startswith("#")), "")
     cells = _cells(first)
-    return (bool(first) and all(map(_is_number, cells))) or holds_table(source, HEIGHTS) or _has_corner(source.text)
+    is_matrix = bool(first) and all(map(_is_number, cells[1:] or cells))
+    return (is_matrix and (_is_number(cells[0]) or _has_corner(source.text))) or holds_table(source, HEIGHTS)
 
 
 def read_array(source: Source, options: ScanOptions) -> Scan:

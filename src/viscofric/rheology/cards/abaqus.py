@@ -14,7 +14,16 @@ from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.cards.card import Reading, Solid, Writing, number_text, relative_series, tensile, unread_shift
+from viscofric.rheology.cards.card import (
+    Reading,
+    Solid,
+    Writing,
+    first_of_several,
+    number_text,
+    relative_series,
+    tensile,
+    unread_shift,
+)
 from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
@@ -182,13 +191,7 @@ def _material(blocks: list[_Block], notes: list[str]) -> tuple[list[_Block], str
     chosen = viscoelastic[0]
     name = chosen[0].options.get("NAME", "") if chosen[0].keyword == "MATERIAL" else ""
     if len(viscoelastic) > 1:
-        notes.append(
-            Note(
-                "first-of-several",
-                f"The file holds {len(viscoelastic)} viscoelastic materials; the first, {name!r}, was read.",
-                values={"materials": len(viscoelastic), "read": name},
-            )
-        )
+        notes.append(first_of_several(len(viscoelastic), name, repr(name)))
     ignored = sorted({block.keyword for block in chosen} - _UNDERSTOOD - _IMMATERIAL)
     if ignored:
         notes.append(

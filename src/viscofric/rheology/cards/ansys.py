@@ -17,7 +17,15 @@ from typing import Any, TypeAlias
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.cards.card import Reading, Solid, Writing, relative_series, tensile, unread_shift
+from viscofric.rheology.cards.card import (
+    Reading,
+    Solid,
+    Writing,
+    first_of_several,
+    relative_series,
+    tensile,
+    unread_shift,
+)
 from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
@@ -128,13 +136,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
         said = f"TB,SHIFT of material {others[0].material} was not read; the viscoelastic material is {first}."
         notes.append(Note("shift-not-read", said))
     if len(materials) > 1:
-        notes.append(
-            Note(
-                "first-of-several",
-                f"The file holds {len(materials)} viscoelastic materials; the first, {first}, was read.",
-                values={"materials": len(materials), "read": first},
-            )
-        )
+        notes.append(first_of_several(len(materials), first, first))
     ignored |= {f"TB,{table.name}" for table in tables if table.name not in ("PRONY", "SHIFT")}
     if ignored:
         notes.append(Note("not-read", f"Commands that were not read: {', '.join(sorted(ignored))}."))

@@ -174,6 +174,15 @@ def card_law(law: Any) -> WLF | Arrhenius | None:
     return law if isinstance(law, (WLF, Arrhenius)) else None
 
 
+def first_of_several(count: int, read: str, shown: str) -> Note:
+    """Return the note on a file with several viscoelastic materials, of which `read`, shown as such, was read."""
+    return Note(
+        "first-of-several",
+        f"The file holds {count} viscoelastic materials; the first, {shown}, was read.",
+        values={"materials": count, "read": read},
+    )
+
+
 def unread_shift(command: str, option: str, constants: Sequence[float] = ()) -> Note:
     """Return the note on a shift that is a subroutine of the user, or of a kind that is not read."""
     user = option == "USER"

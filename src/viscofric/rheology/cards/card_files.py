@@ -323,8 +323,8 @@ def _insist_on_units(solid: Solid) -> None:
     assumed = any("modulus_unit" in note_of(note).values.get("assumed", ()) for note in solid.notes)
     glass = solid.spectrum.E_inf
     if assumed and glass < SOFTEST:
-        problem = f"E = {glass:.3g} (instantaneous) would be softer than {SOFTEST:g} Pa, and the card does not state "
-        problem += "its units; give them, even if they are Pa, "
+        problem = f"E = {glass:.3g} (instantaneous) is very soft if in Pa, and the card does not state its units; give "
+        problem += "them, even if they are Pa, "
         remedy = give_units(["modulus_unit"]) + "."
         raise InputError(Note("unit-unknown", problem, remedy=remedy, values={"glass": float(glass)}))
 

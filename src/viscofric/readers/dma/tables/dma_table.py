@@ -14,6 +14,7 @@ from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import doubts, insist_on_agreement
 from viscofric.readers.dma.names import (
+    MODULI,
     deformation_of,
     quantity,
     said_by_columns,
@@ -44,7 +45,6 @@ _LARGEST_FRACTION = 2.0
 #: Segment and number of a point, as HAAKE RheoWin prints them.
 _SEGMENT = re.compile(r"\d{1,6}\|\d{1,6}")
 _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the moduli", "'MPa'")
-_MODULI = ("storage modulus", "loss modulus", "complex modulus")
 
 
 def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
@@ -52,7 +52,7 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
 
     Reduced frequencies have priority over measured ones in a master curve; `is_reduced` distinguishes the two.
     """
-    wanted = ("temperature", *_MODULI, "tan delta")
+    wanted = ("temperature", *MODULI, "tan delta")
     found = {what: table.place(what) for what in wanted}
     found["frequency"] = _frequency_place(table, master_curve=master_curve)
     if found["temperature"] is None:
@@ -65,8 +65,8 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
         angle = table.place("phase angle")
         places |= {} if angle is None else {"phase angle": angle}
     missing = [] if "frequency" in places else ["frequency"]
-    if not places.keys() & {"tan delta", "phase angle"} or not places.keys() & {*_MODULI}:
-        missing += [modulus for modulus in _MODULI[:2] if modulus not in places]
+    if not places.keys() & {"tan delta", "phase angle"} or not places.keys() & {*MODULI}:
+        missing += [modulus for modulus in MODULI[:2] if modulus not in places]
     if missing and "temperature" not in places and not master_curve:
         missing.insert(0, "temperature")
     if missing:
@@ -137,7 +137,7 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
     With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ, or the angle δ, give the others exactly;
     redundant columns must agree, else `DataFileError` is raised.
     """
-    values = {what: _modulus(table, places[what], source, notes) for what in _MODULI if what in places}
+    values = {what: _modulus(table, places[what], source, notes) for what in MODULI if what in places}
     if "storage modulus" in values and "loss modulus" in values:
         storage, loss = values["storage modulus"], values["loss modulus"]
         insist_on_agreement(table.path, storage, loss, _printed_tangent(table, places), values.get("complex modulus"))
@@ -179,7 +179,7 @@ def _printed_tangent(table: Table, places: dict[str, int]) -> Array | None:
 
 def lacks_unit(table: Table, places: dict[str, int], source: Source) -> bool:
     """Return whether a modulus has no unit but the one that the user gave."""
-    return bool(source.modulus_unit) and any(not table.columns[places[m]].unit for m in _MODULI if m in places)
+    return bool(source.modulus_unit) and any(not table.columns[places[m]].unit for m in MODULI if m in places)
 
 
 def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Array:
@@ -205,7 +205,7 @@ def deformation(tables: Sequence[Table], tools: Tools | None = None) -> Said:
 
     `tools` are label and value of the sample holder, if it is not named above the tables.
     """
-    moduli = [column for what in _MODULI for table in tables for column in table.columns if column.quantity == what]
+    moduli = [column for what in MODULI for table in tables for column in table.columns if column.quantity == what]
     if {"tension", "shear"} <= {deformation_of(column.name) for column in moduli}:
         problem = "one modulus is tensile (E) by its heading, the other shear (G); correct the wrong heading."
         raise DataFileError(tables[0].path, problem, code="deformation-contradicts")
