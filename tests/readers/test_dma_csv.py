@@ -558,8 +558,27 @@ def test_sweeps_beside_each_other_have_their_temperature_above(tmp_path, above, 
 
 
 @pytest.mark.parametrize(
+    "heading",
+    ["{} {} °C (MPa)", "{} [MPa], {} °C", "{}({}°C) [MPa]", "{}_{}C_MPa", "{} @ {} degC (MPa)", "{} T={}°C (MPa)"],
+)
+@pytest.mark.parametrize("order", [(0, 1, 2, 3), (0, 2, 1, 3), (2, 3, 0, 1)])
+def test_headings_give_the_temperatures_of_sweeps_beside_each_other(tmp_path, heading, order):
+    names = [heading.format(modulus, celsius) for celsius in (20, 30) for modulus in ("E'", "E''")]
+    rows = [["5", "0.5", "4", "0.4"], ["6", "0.7", "5", "0.6"]]
+    lines = [";".join([f, *(row[place] for place in order)]) for f, row in zip(("1", "10"), rows, strict=True)]
+    header = ";".join(["f (Hz)", *(names[place] for place in order)])
+    sweeps = read_dma(write(tmp_path, header, *lines))
+    assert_is_the_table(sweeps)
+    assert "temperature-from-title" in codes(sweeps.notes)
+    one = read_dma(write(tmp_path, ";".join(["f (Hz)", *names[:2]]), "1;5;0.5", "10;6;0.7"))
+    assert one.temperatures - 273.15 == pytest.approx([20.0])
+
+
+@pytest.mark.parametrize(
     ("above", "header"),
     [
+        (";", "f (Hz);E' 20 °C (MPa);E'' 20 °C (MPa);E' 30 °C (MPa)"),  # one without its E''
+        (";", "f (Hz);E' 20 °C (MPa);E'' 20 °C (MPa);E' 30 °C (kPa);E'' 30 °C (kPa)"),
         (";20 °C;;30 °C;;40 °C", "f (Hz);E' (MPa);E'' (MPa);E' (MPa);E'' (MPa);E' (MPa)"),  # one without its E''
         (";20 °C;;;30 °C;", "f (Hz);E' (MPa);E'' (MPa);tan δ;E' (MPa);E'' (MPa)"),  # of the first alone
         (";20 °C;;30 °C;", "f (Hz);E' (MPa);E'' (MPa);G' (MPa);G'' (MPa)"),
@@ -573,6 +592,11 @@ def test_what_differs_beside_each_other_is_not_taken_apart(tmp_path, above, head
     with pytest.raises(DataFileError) as caught:
         read_dma(write(tmp_path, above, header, *(";".join(row.split(";")[:cells]) for row in rows)))
     assert caught.value.code in {"ambiguous-columns", "deformation-contradicts"}
+
+
+def test_a_temperature_in_a_heading_does_not_count_beside_a_column_of_temperatures(tmp_path):
+    rows = ["20;1;5;0.5;9", "20;10;6;0.7;9", "30;1;4;0.4;9", "30;10;5;0.6;9"]
+    assert_is_the_table(read_dma(write(tmp_path, "T (°C);f (Hz);E' (MPa);E'' (MPa);E' 25 °C (MPa)", *rows)))
 
 
 @pytest.mark.parametrize("unit", ["%", "-", "gon"])

@@ -93,12 +93,20 @@ def test_a_master_curve_that_a_fit_has_written_is_read_again(tmp_path):
     [
         ["T = 25 °C;;", "f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "T = 50 °C;;", "f (Hz);E' (MPa);E'' (MPa)", "1;4;0.4"],
         [";25 °C;;50 °C;", "f (Hz);E' (MPa);E'' (MPa);E' (MPa);E'' (MPa)", "1;5;0.5;4;0.4", "10;6;0.6;5;0.5"],
+        ["f (Hz);E' 25 °C (MPa);E'' 25 °C (MPa);E' 50 °C (MPa);E'' 50 °C (MPa)", "1;5;0.5;4;0.4", "10;6;0.6;5;0.5"],
+        ["f (Hz);E' 50 °C (MPa);E'' 50 °C (MPa)", "1;5;0.5", "10;6;0.6"],
     ],
-    ids=["below", "beside"],
+    ids=["below", "beside", "in headings", "of another temperature"],
 )
 def test_sweeps_of_several_temperatures_are_no_master_curve(tmp_path, lines):
     with refused("dma-sweeps"):
         read_master_curve(write(tmp_path, *lines), "25 degC")
+
+
+def test_headings_of_a_master_curve_may_state_its_reference(tmp_path):
+    rows = ["1;5;0.5", "10;6;0.6"]
+    curve = read_master_curve(write(tmp_path, "f (Hz);E' at 25 °C (MPa);E'' at 25 °C (MPa)", *rows), "25 degC")
+    assert curve.storage_modulus == pytest.approx([5e6, 6e6])
 
 
 def test_master_curves_of_two_materials_below_each_other_are_refused(tmp_path):

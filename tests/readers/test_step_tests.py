@@ -102,6 +102,14 @@ def test_units_and_temperatures_of_tables_below_each_other(tmp_path):
     assert codes(tests) == ["temperature-from-title"]
 
 
+def test_headings_give_the_temperatures_of_relaxations_beside_each_other(tmp_path):
+    headings = ("t (s)", "E(t) 25 °C (MPa)", "E(t) -10 °C (MPa)")
+    tests = vf.read_step_tests(written(tmp_path / "all.csv", headings, [TIME, 1 / TIME, 3 / TIME]))
+    np.testing.assert_allclose(tests.temperatures, [263.15, 298.15])
+    np.testing.assert_allclose(tests.tests[0].response, 3e6 / TIME, rtol=1e-5)
+    assert codes(tests) == ["temperature-from-title"]
+
+
 def test_units_may_be_given(tmp_path):
     path = written(tmp_path / "a.csv", ("Time", "Creep Compliance"), [TIME, 1e-7 * TIME**0.2])
     given = {"temperature": "25 degC", "deformation": "shear"}

@@ -49,6 +49,13 @@ _PLACE = re.compile(r"#\s*(?P<number>\d{1,4})")
 _LONGEST_HEADING = 200
 #: A column of means, such as "E' mean", is one of the quantity where there is no other.
 _MEAN = re.compile(r"\b(mean|average|avg)\b\.?", re.IGNORECASE)
+# "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.
+TEMPERATURE_IN_NAME = re.compile(
+    r"(?:(?P<mark>^|[\s_=(,;@[])(?P<sign>[+−-]?)|(?P<dash>-))(?P<number>\d+(?:[.,]\d+)?)\s?_?"
+    r"(?P<unit>°C|degC|deg_C|C|K)(?![^\W_])"
+)
+#: What a temperature that is cut from a heading leaves behind.
+_LEFT_BEHIND = re.compile(r"[(\[]\s*[)\]]|(\b(at|bei|à|T\s*=)|[@,;=_])\s*(?=$|[(\[/])|_(?=_)", re.IGNORECASE)
 #: Names are the same with and without these: "a_T", "a(T)", "aT".
 _MARKS = re.compile(r"[\s_().·\[\]-]")
 
@@ -64,6 +71,7 @@ class Column:
     given: bool = False  # named by the user, not recognised
     base: float = 0.0  # of the logarithm that the numbers are, 0 where they are none
     is_mean: bool = False  # "E' mean (MPa)", where no column is of the quantity itself
+    title: str = ""  # the temperature in the heading: "25 °C" of "E' 25 °C (MPa)"
 
     @property
     def unnumbered(self) -> str:
@@ -176,6 +184,8 @@ class Vocabulary:
             what = "" if column.quantity else self.quantity(_MEAN.sub("", column.name).strip())
             if what in self.means and what not in held:
                 found[n] = replace(column, quantity=what, is_mean=True)
+        if self.several == "titled" and not self.user_columns and "temperature" not in held:
+            found = [column if column.quantity else self._titled(column) for column in found]
         for what, said in self.user_columns.items():
             place, unit = place_of(said, cells)
             if place is not None:
@@ -184,6 +194,17 @@ class Vocabulary:
                     column = _logarithm(column.heading) or column
                 found[place] = replace(column, quantity=what, unit=unit or column.unit, given=True)
         return tuple(found)
+
+    def _titled(self, column: Column) -> Column:
+        """Return the column with the temperature that its heading states as its title, or as it is."""
+        found = [one for one in TEMPERATURE_IN_NAME.finditer(column.heading) if not one["dash"]]
+        if len(found) != 1:
+            return column
+        rest = column.heading[: found[0].start("sign")] + column.heading[found[0].end() :]
+        of = self.column(_LEFT_BEHIND.sub("", rest))
+        if of.quantity in ("", "temperature", "set temperature", "isotherm"):
+            return column
+        return replace(of, heading=column.heading, title=found[0][0].strip("_=(,;@[ "))
 
 
 def _logarithm(text: str) -> Column | None:

@@ -135,7 +135,7 @@ class Table:
         """
         example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s", "rad": "deg"}.get(unit, unit)
         if not column.unit:
-            right = f"{column.name} ({example})"
+            right = f"{' '.join(filter(None, (column.name, column.title)))} ({example})"
             problem = f"column {column.heading!r} has no unit; write it as {right!r}"
             raise self.refused("no-unit", problem, (hint or Remedy("")) + ".")
         try:

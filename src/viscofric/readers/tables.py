@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
     #: A line with its number in the file.
     NumberedLine = tuple[int, str]
+    #: Places of the columns that all tables beside each other share, those of each, and the title of each.
+    Sets = tuple[list[int], Sequence[Sequence[int]], list[tuple[str, ...]]]
 
 
 #: Characters of a text that may hold its header.
@@ -181,31 +183,18 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
 def _below_each_other(table: Table) -> Table:
     """Return tables beside each other, such as E' and E'' of several temperatures, below each other.
 
-    Columns before them belong to all.  They have the same columns, and a temperature of its own stands above each; else
-    the table is returned as it is, and so it is where the user names columns, of which equal headings say too little.
+    Columns before them belong to all.  They have the same columns, and each has a temperature of its own, in its
+    headings or above them; else the table is returned as it is, and so it is where the user names columns, of which
+    equal headings say too little.
     """
-    places: dict[str, list[int]] = {}
-    for place, column in enumerate(table.columns):
-        if column.quantity:
-            places.setdefault(column.quantity, []).append(place)
-    shared = [some[0] for some in places.values() if len(some) == 1]
-    repeated = [some for some in places.values() if len(some) > 1]
-    if len({len(some) for some in repeated}) != 1 or not table.above or any(one.given for one in table.columns):
+    found = _by_headings(table) if any(column.title for column in table.columns) else _by_line_above(table)
+    if found is None:
         return table
-    sets = list(zip(*repeated, strict=True))
-    starts = [min(one) for one in sets]
-    apart = all(max(one) < start for one, start in zip(sets, starts[1:], strict=False))
-    if not apart or any(place >= starts[0] for place in shared):
-        return table
-    above = [*table.above[-1], *[""] * len(table.columns)]
-    label = next((cell for cell in above[: starts[0]] if cell.strip()), "")
-    titles = [_title(label, above[start:end]) for start, end in zip(starts, [*starts[1:], len(above)], strict=True)]
+    shared, sets, titles = found
     kelvins = {temperature_of_title(title) for title in titles}
-    if None in kelvins or len(kelvins) < len(titles):
-        return table
     columns = [[table.columns[place] for place in (*shared, *one)] for one in sets]
     kinds = [[(c.quantity, c.unit, c.base, deformation_of(c.name)) for c in one] for one in columns]
-    if any(one != kinds[0] for one in kinds):
+    if None in kelvins or len(kelvins) < len(titles) or any(one != kinds[0] for one in kinds):
         return table
     kept = [(number, row, one) for number, one in enumerate(sets, start=1) for row in range(len(table.rows))]
     kept = [(number, row, one) for number, row, one in kept if any(table.rows[row][place].strip() for place in one)]
@@ -217,6 +206,38 @@ def _below_each_other(table: Table) -> Table:
         block=np.array([number for number, _, _ in kept], dtype=np.int64),
         titles=tuple(titles),
     )
+
+
+def _by_headings(table: Table) -> Sets | None:
+    """Return the columns of each temperature that headings state: ``E' 25 °C``, ``E'' 25 °C``, ``E' 40 °C`` ..."""
+    titles = dict.fromkeys(column.title for column in table.columns if column.title)
+    sets = []
+    for title in titles:
+        places = [place for place, column in enumerate(table.columns) if column.title == title]
+        sets.append(sorted(places, key=lambda place: table.columns[place].quantity))
+    shared = [place for place, column in enumerate(table.columns) if column.quantity and not column.title]
+    return shared, sets, [(title,) for title in titles]
+
+
+def _by_line_above(table: Table) -> Sets | None:
+    """Return the sets of columns that begin under the temperatures in the line above the headings; None without."""
+    places: dict[str, list[int]] = {}
+    for place, column in enumerate(table.columns):
+        if column.quantity:
+            places.setdefault(column.quantity, []).append(place)
+    shared = [some[0] for some in places.values() if len(some) == 1]
+    repeated = [some for some in places.values() if len(some) > 1]
+    if len({len(some) for some in repeated}) != 1 or not table.above or any(one.given for one in table.columns):
+        return None
+    sets = list(zip(*repeated, strict=True))
+    starts = [min(one) for one in sets]
+    apart = all(max(one) < start for one, start in zip(sets, starts[1:], strict=False))
+    if not apart or any(place >= starts[0] for place in shared):
+        return None
+    above = [*table.above[-1], *[""] * len(table.columns)]
+    label = next((cell for cell in above[: starts[0]] if cell.strip()), "")
+    ends = [*starts[1:], len(above)]
+    return shared, sets, [_title(label, above[start:end]) for start, end in zip(starts, ends, strict=True)]
 
 
 def _title(label: str, cells: Sequence[str]) -> tuple[str, ...]:

@@ -125,7 +125,8 @@ def _table(source: Source) -> tuple[Table, float]:
 
 
 def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
-    if table.block is not None and any(temperature_of_title(title) is not None for title in table.titles):
+    titled = [kelvin for title in table.titles if (kelvin := temperature_of_title(title)) is not None]
+    if table.block is not None and any(abs(kelvin - reference) > _SAME_REFERENCE for kelvin in titled):
         problem = "holds tables with temperatures of their own, no master curve"
         raise DataFileError(table.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
     if table.block is not None and any(cell.strip() for title in table.titles[1:] for cell in title):

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.notes import Note, setting
 from viscofric.readers.header_rows import is_number
-from viscofric.readers.headings import Vocabulary, heading, with_primes
+from viscofric.readers.headings import TEMPERATURE_IN_NAME, Vocabulary, heading, with_primes
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -178,13 +178,6 @@ DMA = Vocabulary(
     several="titled",
 )
 
-# "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.
-_TEMPERATURE_IN_NAME = re.compile(
-    r"(?:(?P<mark>^|[\s_=(,;])(?P<sign>[+−-]?)|(?P<dash>-))(?P<number>\d+(?:[.,]\d+)?)\s?_?"
-    r"(?P<unit>°C|degC|deg_C|C|K)(?![^\W_])"
-)
-
-
 _AS_PRINTED = {"C": "°C", "DEGC": "°C", "K": "K"}
 
 
@@ -198,7 +191,7 @@ def temperature_in_name(name: str) -> float | None:
 
     A minus sign must follow a space or an underscore: in ``"foam-25C"`` it may be a dash.
     """
-    found = list(_TEMPERATURE_IN_NAME.finditer(name))
+    found = list(TEMPERATURE_IN_NAME.finditer(name))
     if len(found) != 1 or found[0]["dash"]:
         return None
     one = found[0]
@@ -208,7 +201,10 @@ def temperature_in_name(name: str) -> float | None:
 
 
 #: Where there is no column of temperature.
-FROM_TITLES = Note("temperature-from-title", "Temperatures were taken from the line above each table.")
+FROM_TITLES = Note(
+    "temperature-from-title",
+    "No column holds a temperature; temperatures were taken from the headings, or from the line above each table.",
+)
 
 
 def temperatures_of_titles(table: Table) -> Array | None:
