@@ -342,6 +342,45 @@ def test_columns_of_other_tribometers_are_known(tmp_path: Path, header: str, log
     assert ("decadic-logarithms" in codes(curves.notes)) == log
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "speed (mm/s);µ 25 °C;µ 40 °C\n1;0,1;0,2\n10;0,15;0,25\n",
+        ";25 °C;40 °C\nspeed (mm/s);µ;µ\n1;0,1;0,2\n10;0,15;0,25\n",
+        "25 °C\nspeed (mm/s);µ\n1;0,1\n10;0,15\n40 °C\nspeed (mm/s);µ\n1;0,2\n10;0,25\n",
+    ],
+    ids=["headings", "above", "below"],
+)
+def test_curves_of_several_temperatures_beside_or_below_each_other(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "curves.csv"
+    path.write_text(text, encoding="utf-8")
+    with refused("missing-columns") as caught:
+        vf.read_friction_curves(path)
+    assert caught.value.note.values["missing"] == ["load"]
+    curves = vf.read_friction_curves(path, columns={"load": "= 20,5 N"})
+    assert curves.speed == pytest.approx([1e-3, 1e-2] * 2)
+    assert curves.temperature == pytest.approx([298.15] * 2 + [313.15] * 2)
+    assert curves.viscoelastic == pytest.approx([0.1, 0.15, 0.2, 0.25])
+    assert curves.load == pytest.approx(20.5)
+    assert "temperature-from-title" in codes(curves.notes)
+
+
+@pytest.mark.parametrize(("said", "code"), [("= 20", "no-unit"), ("= ten N", "wrong-columns"), ("= 2 s", "wrong-unit")])
+def test_a_value_of_all_rows_is_a_number_with_its_unit(tmp_path: Path, said: str, code: str) -> None:
+    path = tmp_path / "curves.csv"
+    path.write_text("speed (mm/s),T (°C),mu\n1,25,0.1\n", encoding="utf-8")
+    with refused(code):
+        vf.read_friction_curves(path, columns={"load": said})
+
+
+def test_a_value_of_all_rows_replaces_the_column_of_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "curves.csv"
+    path.write_text(FOREIGN, encoding="utf-8")
+    curves = vf.read_friction_curves(path, columns={"load": "= 0.03 kN"})
+    assert curves.load == pytest.approx(30.0)
+    assert "unused-columns" in codes(curves.notes)
+
+
 def test_curves_of_two_compounds_below_each_other_are_refused(tmp_path: Path) -> None:
     header, rows = FOREIGN.split("\n", 1)
     path = tmp_path / "curves.csv"

@@ -328,6 +328,17 @@ def test_any_layout_gives_the_same_numbers_where_the_user_names_its_columns(tmp_
     assert np.concatenate([one.loss_modulus for one in sweeps.isotherms]) == pytest.approx(1e6 * loss, rel=1e-8)
 
 
+def test_the_user_gives_a_value_of_all_rows(tmp_path):
+    path = write(tmp_path, "f (Hz);E' (MPa);E'' (MPa)", "1;5;0,5", "10;6;0,7")
+    sweeps = read_dma(path, columns={"temperature": "=25,5 degC"})
+    assert sweeps.temperatures == pytest.approx([298.65], rel=1e-12)
+    header = "disc speed (mm/s),ball speed (mm/s),traction force (N)"
+    path = write(tmp_path, header, "100,50,2", "60,90,-2", name="runs.csv")
+    runs = read_mtm(path, columns={"load": "= 20 N", "temperature": "= 40 degC"})
+    assert runs.load == pytest.approx([20.0, 20.0])
+    assert runs.temperature == pytest.approx([313.15, 313.15])
+
+
 def test_a_header_in_a_remark(tmp_path):
     path = write(tmp_path, "# by numpy.savetxt", "# T_C f_Hz E'_MPa E''_MPa", *[row.replace(",", " ") for row in ROWS])
     assert_is_the_table(read_dma(path))

@@ -17,6 +17,7 @@ from viscofric.files import file_path, read_text, write_atomically
 from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
+from viscofric.readers.dma.names import FROM_TITLES, temperatures_of_titles
 from viscofric.readers.given_files import bytes_of
 from viscofric.readers.headings import Column, quantity_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
@@ -105,10 +106,13 @@ def read_friction_curves(
         ``speed``, ``temperature``, ``load`` and ``viscoelastic friction``, and optionally ``viscoelastic friction
         standard error``, ``… scatter``, ``… degrees of freedom``, ``replicates``, ``Coulomb friction``, its standard
         error, scatter and degrees of freedom, and ``slip``.  Units stand in the headings, such as ``speed (mm/s)``;
-        coefficients have none, or are in ``%``.  The load of a line contact is in N/m.
+        coefficients have none, or are in ``%``.  The load of a line contact is in N/m.  Without a column of
+        temperature, temperatures may stand in the headings of curves beside each other, such as ``viscoelastic
+        friction 25 °C``, or above tables.
     columns : mapping, optional
         Headings that are not understood, by quantity: ``{"viscoelastic_friction": "mu_v", "speed": "v1 (mm/s)"}``.  A
-        unit in brackets counts instead of that of the file; ``"#3 (N)"`` is the third column.
+        unit in brackets counts instead of that of the file; ``"#3 (N)"`` is the third column, ``"= 20 N"`` a value of
+        all rows.
     sheet : str, optional
         The only sheet of a workbook to read.
 
@@ -139,12 +143,13 @@ def read_friction_curves(
     if _is_of_runs(table):
         problem = "this is a table of traction runs, whose friction is not separated yet"
         raise DataFileError(str(path), problem, code="traction-runs", remedy=AS_RUNS)
+    table, notes = _with_temperatures(table)
     places = _places(table)
     unit = _load_unit(table, places["load"])
     _insist_on_absolute_errors(table, places)
     found = {name: _read_column(table, name, place, unit) for name, place in places.items()}
     remarks = _remarks(str(path))
-    notes = [*remarks["note"], *table.heading_notes]
+    notes = [*remarks["note"], *table.heading_notes, *notes]
     if _is_any_friction(column := table.columns[places["viscoelastic"]]):
         said = f"Column {column.heading!r} was read as viscoelastic friction; friction measured in sliding includes "
         notes.append(Note("total-friction", said + "Coulomb friction, which must be subtracted first."))
@@ -202,6 +207,18 @@ def _cell(value: float) -> str:
 
 def _exact_in_celsius(kelvin: Array) -> bool:
     return bool(np.all((kelvin - CELSIUS_ZERO) + CELSIUS_ZERO == kelvin))
+
+
+def _with_temperatures(table: Table) -> tuple[Table, list[str]]:
+    """Return the table with a column of the temperatures that its headings or titles state, and a note on it."""
+    kelvin = None if table.has("temperature") else temperatures_of_titles(table)
+    if kelvin is not None:
+        column = Column("temperatures of headings or titles", "temperature", "K", "temperature")
+        return table.with_column(column, [repr(value) for value in kelvin.tolist()]), [FROM_TITLES]
+    if any(cell.strip() for title in table.titles[1:] for cell in title):
+        problem = "holds several tables below each other, which may differ in more than temperature; give each a file "
+        raise DataFileError(table.path, problem + "of its own.", code="several-tables")
+    return table, []
 
 
 def _places(table: Table) -> dict[str, int]:

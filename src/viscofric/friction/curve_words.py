@@ -65,7 +65,7 @@ CURVES = Vocabulary(
     ),
     logarithms=True,
     means=frozenset({"viscoelastic friction"}),
-    several="rows",
+    several="titled",
 )
 
 #: Column -> unit, long name; the load's are those of `FrictionCurves.to_dataset`.

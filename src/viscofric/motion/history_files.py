@@ -52,7 +52,7 @@ def read_history(
         Direction of a position or speed given along one line.
     columns : mapping, optional
         Headings that are not recognised, by quantity: ``{"load": "Fz (N)", "position_x": "stage"}``.  A unit in
-        brackets counts instead of that of the file; ``"#3 (N)"`` is the third column.
+        brackets counts instead of that of the file; ``"#3 (N)"`` is the third column, ``"= 20 N"`` a value of all rows.
     sheet : str, optional
         The only sheet of a workbook to read.
 

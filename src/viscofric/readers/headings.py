@@ -45,6 +45,8 @@ _CELSIUS = re.compile(r"°?[CF]|deg[CF]|℃", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
 #: "#3": the third column of a table, whatever its heading.
 _PLACE = re.compile(r"#\s*(?P<number>\d{1,4})")
+#: "= 20 N": what the user gives in place of a heading where all rows have the same value.
+CONSTANT = re.compile(r"=\s*(?P<number>[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?)\s*(?P<unit>.*)")
 #: A longer heading is not parsed.
 _LONGEST_HEADING = 200
 #: A column of means, such as "E' mean", is one of the quantity where there is no other.
@@ -97,6 +99,7 @@ class Vocabulary:
     key: str = "material.columns"  # path of the run file's key with the user's own headings
     offered: tuple[tuple[str, str], ...] = ()  # quantities that a form offers, each with an example of its unit
     user_columns: Mapping[str, str] = field(default_factory=dict)  # quantity -> heading, see `checked`
+    constants: Mapping[str, str] = field(default_factory=dict)  # quantity -> "= 20 N", the value in all rows
     logarithms: bool = False  # whether columns may hold logarithms of the quantities
     means: frozenset[str] = frozenset()  # quantities of which columns of means are read where there are no others
     # Whether several tables below each other are one, all rows alike, or of the temperatures in the lines above each.
@@ -130,7 +133,7 @@ class Vocabulary:
 
     def missing(self, found: Iterable[str]) -> list[str]:
         """Return what a header of these quantities lacks, one word for each of `needed`."""
-        named = set(found)
+        named = {*found, *self.constants}
         return [one[0] for one in self.needed if not named & set(one)]
 
     def checked(self, columns: Mapping[Any, Any] | None) -> dict[str, str]:
@@ -153,11 +156,16 @@ class Vocabulary:
                 problem = f"columns: {what} = {brief(said)}: must be a heading as text."
                 raise InputError(problem, code="wrong-columns", field=self.key)
             named[what] = " ".join(said.split())
+            if said.lstrip().startswith("=") and not CONSTANT.fullmatch(named[what]):
+                problem = f"columns: {what} = {brief(said)}: after '=' must be a number with its unit, as in '= 20 N'."
+                raise InputError(problem, code="wrong-columns", field=self.key)
         return named
 
     def with_columns(self, columns: Mapping[str, str]) -> Vocabulary:
-        """Return the vocabulary with the user's own headings, as `checked` returns them."""
-        return replace(self, user_columns=dict(columns))
+        """Return the vocabulary with the user's own headings and values of all rows, as `checked` returns them."""
+        constants = {what: said for what, said in columns.items() if said.startswith("=")}
+        headings = {what: said for what, said in columns.items() if what not in constants}
+        return replace(self, user_columns=headings, constants=constants)
 
     def header_values(self, columns: Sequence[Column], missing: Iterable[str]) -> dict[str, Any]:
         """Return the values of an error about a header, from which a form can ask for the columns.
@@ -178,8 +186,9 @@ class Vocabulary:
         found = []
         for cell in cells:
             column = self.column(cell)
-            found.append(replace(column, quantity="" if column.quantity in self.user_columns else column.quantity))
-        held = {column.quantity for column in found} | set(self.user_columns)
+            given = column.quantity in self.user_columns or column.quantity in self.constants
+            found.append(replace(column, quantity="" if given else column.quantity))
+        held = {column.quantity for column in found} | {*self.user_columns, *self.constants}
         for n, column in enumerate(found):
             what = "" if column.quantity else self.quantity(_MEAN.sub("", column.name).strip())
             if what in self.means and what not in held:

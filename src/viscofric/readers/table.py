@@ -12,7 +12,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.headings import NO_WORDS, Column, Vocabulary, option_of
+from viscofric.readers.headings import CONSTANT, NO_WORDS, Column, Vocabulary, option_of
 from viscofric.readers.source import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
@@ -67,6 +67,21 @@ class Table:
     titles: tuple[tuple[str, ...], ...] = ()  # cells of the line above the header of each of these tables
     empty_rows: int = 0  # left out, with none of the quantities that make a header
     vocabulary: Vocabulary = NO_WORDS
+
+    def with_column(self, column: Column, cells: Sequence[str]) -> Table:
+        """Return the table with one more column, of numbers as text with a decimal point or comma."""
+        marks = (".", ",") if self.decimal_comma else (",", ".")
+        rows = tuple((*row, cell.replace(*marks)) for row, cell in zip(self.rows, cells, strict=True))
+        return replace(self, columns=(*self.columns, column), rows=rows)
+
+    def with_constants(self) -> Table:
+        """Return the table with a column of each value that the user gives for all rows."""
+        table = self
+        for what, said in self.vocabulary.constants.items():
+            if match := CONSTANT.fullmatch(said):
+                column = Column(said, what, match["unit"], what, given=True)
+                table = table.with_column(column, [match["number"]] * len(self.rows))
+        return table
 
     def headings(self) -> str:
         """Return the headings as one readable list, for error messages."""
@@ -136,6 +151,7 @@ class Table:
         example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s", "rad": "deg"}.get(unit, unit)
         if not column.unit:
             right = f"{' '.join(filter(None, (column.name, column.title)))} ({example})"
+            right = f"{column.heading} {example}" if CONSTANT.fullmatch(column.heading) else right
             problem = f"column {column.heading!r} has no unit; write it as {right!r}"
             raise self.refused("no-unit", problem, (hint or Remedy("")) + ".")
         try:

@@ -41,6 +41,8 @@ _BLANKS = "blanks"
 _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 
 
+#: Quantities that often have one value in all rows, which tables then lack.
+_FOR_ALL_ROWS = {"load": "20 N", "temperature": "25 degC"}
 #: A quoted cell that does not end with its line, and the most lines of one row.
 _OPEN, _MOST_WRAPPED = re.compile(r'(?:^|[\t;,])"[^"]*$'), 20
 #: A number at the beginning of a cell, but not that of "1/s".
@@ -145,10 +147,12 @@ def name_columns(key: str, missing: Sequence[str]) -> Remedy:
     """Return the end of a sentence: the user may name the columns, for each reader."""
     name = (missing[0] if missing else "frequency").replace(" ", "_")
     table, _, own = key.partition(".")
+    value = _FOR_ALL_ROWS.get(name)
+    same, typed = (f", or '{said}= {value}' for all rows" if value else "" for said in ("", f"{name}="))
     return Remedy(
-        f"; name them, e.g. columns={{'{name}': 'heading'}}.",
-        f"; name them, e.g. {option_of(key)} {name}=HEADING.",
-        f'; name them, e.g. {own} = {{ {name} = "heading" }} under [{table}].',
+        f"; name them, e.g. columns={{'{name}': 'heading'}}{same}.",
+        f"; name them, e.g. {option_of(key)} {name}=HEADING{typed}.",
+        f'; name them, e.g. {own} = {{ {name} = "heading" }} under [{table}]{same}.',
         "; choose the columns in the form.",
         key,
     )
@@ -177,7 +181,9 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     if block is not None and (words.several == "refused" or (words.several == "rows" and between)):
         problem = f"holds {len(first_lines)} tables below each other, the second with its header above line "
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
-    return _below_each_other(table) if block is None and words.several == "titled" else table
+    if block is None and words.several == "titled":
+        table = _below_each_other(table)
+    return table.with_constants()
 
 
 def _below_each_other(table: Table) -> Table:
@@ -215,7 +221,7 @@ def _by_headings(table: Table) -> Sets | None:
     for title in titles:
         places = [place for place, column in enumerate(table.columns) if column.title == title]
         sets.append(sorted(places, key=lambda place: table.columns[place].quantity))
-    shared = [place for place, column in enumerate(table.columns) if column.quantity and not column.title]
+    shared = [place for place, column in enumerate(table.columns) if not column.title]
     return shared, sets, [(title,) for title in titles]
 
 

@@ -124,7 +124,8 @@ def read_dma(
     columns : mapping, optional
         Headings of columns whose names are not understood, by quantity: ``{"frequency": "f in Hz"}``.  A heading is
         written as in the file, without regard to case, or as the number of a column (``"#2"``); a unit that the file
-        does not state follows in brackets (``"#2 (Hz)"``) and counts instead of that of the file.  Quantities are
+        does not state follows in brackets (``"#2 (Hz)"``) and counts instead of that of the file; ``"= 25 degC"`` is
+        a value of all rows.  Quantities are
         temperature, frequency, storage_modulus, loss_modulus, complex_modulus, tan_delta, strain_amplitude and step;
         columns not named here are recognised as without it.
     sheet : str, optional
