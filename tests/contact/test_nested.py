@@ -13,7 +13,7 @@ import viscofric as vf
 from gallery import standard_linear_solid
 from marks import apart, slow
 from refusals import refused
-from viscofric.contact.free.estimates import FRICTION_FLOOR, Estimate, settled
+from viscofric.contact.free.estimates import FRICTION_FLOOR, Estimate, measured_fading, settled
 from viscofric.contact.free.geometry import LINE, POINT
 from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.free.nested import find_window, refine
@@ -57,6 +57,19 @@ def test_one_small_change_is_not_trusted() -> None:
     """Earlier changes count, faded by no more than the order 3/2 that square-root edges leave."""
     assert settled(np.array([1.0, 1.1, 1.1])).error >= (1.0 - 1e-12) * 0.1 / 2.0**1.5
     assert settled(np.array([1.0, 1.1, 1.1, 1.1])).error >= (1.0 - 1e-12) * 0.1 / 2.0**3
+
+
+def test_changes_that_fall_fast_on_many_grids_count_less() -> None:
+    slow, fast = (1.0 + ratio ** -np.arange(7.0) for ratio in (2.0, 4.0))
+    assert measured_fading(slow) == measured_fading(fast[:5]) == measured_fading(1.0 + 0.0 * slow)
+    assert measured_fading(fast) < 0.75 * measured_fading(slow)
+    chance = fast.copy()
+    chance[-1] = chance[-2] + 1e-9  # the last change is small by chance
+    value, error = settled(chance, measured_fading(chance))
+    assert abs(value - 1.0) <= error < settled(chance).error
+    # a number that jumps about the limit on fine grids
+    jumping = 1.0 + np.array([0.1, 0.02, 4e-3, 1e-3, -1e-3, 1e-3, -1e-3])
+    assert settled(jumping, measured_fading(jumping)).error >= 1e-3
 
 
 def test_relative_error_of_vanishing_friction_is_finite() -> None:

@@ -21,6 +21,10 @@ FRICTION_FLOOR = 1e-6
 # cell on average, 0.35, since the pressure rises like a square root at the edges; those of other numbers with its first
 # power.  The rest is for chance.
 _FADING, _SLOW_FADING = 0.45, 0.6
+# The factor for the friction is measured where at least so many grids were solved: the slope of the last changes,
+# shrunk towards the first factor as if that were known from changes whose squared places sum to _PRIOR, and not below a
+# third: so much of a change is left of a sequence that falls with the second power of the cell.
+_MEASURED_CHANGES, _PRIOR, _LEAST_FADING = 5, 2.0, 1.0 / 3.0
 
 # Least errors, as parts of the difference between friction from the balanced energy and friction from the pressure: of
 # the former, and of the latter.
@@ -75,8 +79,8 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     pressure = np.array([stage.pressure_friction for stage in stages])
     difference = abs(float(pressure[-1] - energy[-1]))
     shares = _SHIFTED_SHARES if last.operator.shift > 0.0 else _SHARES
-    balanced = settled(energy).at_least(max(_uncertainty(stages), shares[0] * difference))
-    direct = settled(pressure).at_least(shares[1] * difference)
+    balanced = settled(energy, measured_fading(energy)).at_least(max(_uncertainty(stages), shares[0] * difference))
+    direct = settled(pressure, measured_fading(pressure)).at_least(shares[1] * difference)
     best = min(balanced, direct, key=lambda candidate: candidate.error)
     unexplained = difference - balanced.error - _PRESSURE_FACTOR * direct.error  # counts against either
     error = max(best.error, _UNEXPLAINED_SHARE * unexplained)
@@ -117,6 +121,17 @@ def settled(values: Array, fading: float = _FADING) -> Estimate:
     """
     changes = np.abs(np.diff(values))[-3:]
     return Estimate(float(values[-1]), float(np.max(changes * fading ** np.arange(len(changes) - 1.0, -1.0, -1.0))))
+
+
+def measured_fading(values: Array) -> float:
+    """Return the factor by which the changes of a number on nested grids fall, as far as enough are known."""
+    changes = np.abs(np.diff(values))[-_MEASURED_CHANGES:]
+    if len(changes) < _MEASURED_CHANGES or not changes.all():
+        return _FADING
+    places = np.arange(_MEASURED_CHANGES) - 0.5 * (_MEASURED_CHANGES - 1)
+    weight = float(places @ places)
+    slope = (_PRIOR * math.log(_FADING) + float(places @ np.log(changes))) / (_PRIOR + weight)
+    return min(_FADING, max(_LEAST_FADING, math.exp(slope)))
 
 
 def error_of(stages: list[Stage], name: str) -> float:
