@@ -538,6 +538,24 @@ def test_a_line_above_each_table_gives_its_temperature(tmp_path, titles, extra):
 
 
 @pytest.mark.parametrize(
+    ("titles", "joined"),
+    [
+        (("Sample A", "Sample B"), True),
+        (("A, 20 °C", "B, 30 °C"), True),
+        (("T = 20 °C", "T = 30 °C"), False),
+        (("Operator: X", ""), False),  # a header on each page
+        (("Rubber 7", "Rubber 7"), False),
+    ],
+)
+def test_tables_with_other_words_above_them_may_be_of_other_specimens(tmp_path, titles, joined):
+    parts = [[title, "T (°C);f (Hz);E' (MPa);E'' (MPa)"] for title in titles]
+    rows = [["20;1;5;0.5", "20;10;6;0.7"], ["30;1;4;0.4", "30;10;5;0.6"]]
+    sweeps = read_dma(write(tmp_path, *parts[0], *rows[0], *parts[1], *rows[1]))
+    assert_is_the_table(sweeps)
+    assert ("tables-joined" in codes(sweeps.notes)) == joined
+
+
+@pytest.mark.parametrize(
     ("above", "header"),
     [
         (";20 °C;;30 °C;", "f (Hz);E' (MPa);E'' (MPa);E' (MPa);E'' (MPa)"),

@@ -17,7 +17,7 @@ from viscofric.files import file_path, read_text, write_atomically
 from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
-from viscofric.readers.dma.names import FROM_TITLES, temperatures_of_titles
+from viscofric.readers.dma.names import FROM_TITLES, joined_tables, temperatures_of_titles
 from viscofric.readers.given_files import bytes_of
 from viscofric.readers.headings import Column, quantity_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
@@ -214,7 +214,10 @@ def _with_temperatures(table: Table) -> tuple[Table, list[str]]:
     kelvin = None if table.has("temperature") else temperatures_of_titles(table)
     if kelvin is not None:
         column = Column("temperatures of headings or titles", "temperature", "K", "temperature")
-        return table.with_column(column, [repr(value) for value in kelvin.tolist()]), [FROM_TITLES]
+        return table.with_column(column, [repr(value) for value in kelvin.tolist()]), [
+            FROM_TITLES,
+            *joined_tables(table),
+        ]
     if any(cell.strip() for title in table.titles[1:] for cell in title):
         problem = "holds several tables below each other, which may differ in more than temperature; give each a file "
         raise DataFileError(table.path, problem + "of its own.", code="several-tables")

@@ -213,14 +213,34 @@ def temperatures_of_titles(table: Table) -> Array | None:
     return None if table.block is None or None in found else np.array(found)[table.block - 1]
 
 
+def joined_tables(table: Table) -> list[Note]:
+    """Return a note on tables, below or beside each other, with other words above them than their temperatures."""
+    found = [_without_temperature(title) for title in table.titles]
+    titles = dict.fromkeys(title for title in found if title)
+    if table.block is None or len(titles) < 2 or not any(found[1:]):
+        return []
+    shown = ", ".join(repr(title[:80]) for title in list(titles)[:3]) + (" ..." if len(titles) > 3 else "")
+    said = f"Tables below or beside each other were read as those of one specimen; above them are {shown}."
+    return [Note("tables-joined", said, values={"titles": [*titles]})]
+
+
+def _without_temperature(cells: Sequence[str]) -> str:
+    filled = _as_one_cell([cell.strip() for cell in cells if cell.strip()])
+    return " ".join(TEMPERATURE_IN_NAME.sub(" ", " ".join(filled)).split()).strip(":;,=@ ")
+
+
 def temperature_of_title(cells: Sequence[str]) -> float | None:
     """Return the temperature in a line above a table, such as ``T = 25 °C`` or ``Temperature (°C)`` and ``25``, K."""
-    filled = [cell.strip() for cell in cells if cell.strip()]
+    return temperature_in_name(" ".join(_as_one_cell([cell.strip() for cell in cells if cell.strip()])))
+
+
+def _as_one_cell(filled: list[str]) -> list[str]:
+    """Return ``25 °C`` for the cells ``Temperature (°C)`` and ``25``, other cells as they are."""
     if len(filled) == 2 and is_number(filled[1]):
         name = heading(filled[0].rstrip(":= "))
         if DMA.quantity(name.name) == "temperature" and name.unit:
-            filled = [f"{filled[1]} {_AS_PRINTED.get(name.unit.strip('°').upper(), name.unit)}"]
-    return temperature_in_name(" ".join(filled))
+            return [f"{filled[1]} {_AS_PRINTED.get(name.unit.strip('°').upper(), name.unit)}"]
+    return filled
 
 
 #: The problem if nothing decides between tension and shear.

@@ -16,6 +16,7 @@ from viscofric.readers.dma.names import (
     STEP,
     STRAIN_AMPLITUDE,
     TEMPERATURE,
+    joined_tables,
     temperature_in_name,
     temperatures_of_titles,
 )
@@ -185,7 +186,7 @@ def temperature_of(table: Table, source: Source, name: str, count: int, notes: l
         return np.full(count, source.temperature)
     titled = temperatures_of_titles(table)
     if titled is not None:
-        notes.append(FROM_TITLES)
+        notes += [FROM_TITLES, *joined_tables(table)]
         return titled
     found = temperature_in_name(name) or temperature_in_name(source.stem)
     if found is None:

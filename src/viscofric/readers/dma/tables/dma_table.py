@@ -16,6 +16,7 @@ from viscofric.readers.dma.checks import doubts, insist_on_agreement
 from viscofric.readers.dma.names import (
     MODULI,
     deformation_of,
+    joined_tables,
     quantity,
     said_by_columns,
     temperature_in_name,
@@ -240,7 +241,7 @@ def read_points(
     if is_reduced(table, places):
         problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
         raise DataFileError(table.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
-    notes: list[str] = [*table.heading_notes]
+    notes: list[str] = [*table.heading_notes, *joined_tables(table)]
     if table.empty_rows:
         rows = "1 row holds" if table.empty_rows == 1 else f"{table.empty_rows} rows hold"
         notes.append(Note("empty-rows", f"{rows} neither frequency nor modulus; skipped."))
