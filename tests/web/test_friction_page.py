@@ -83,6 +83,22 @@ def test_columns_that_are_not_understood_are_asked(tab: Tab, tmp_path: Path) -> 
     step.get_by_label("Column of the disc speed").wait_for()
 
 
+def test_a_value_of_all_rows_is_asked(tab: Tab, tmp_path: Path) -> None:
+    wide = tmp_path / "wide.csv"
+    rows = [f"{v},{0.02 * v**0.2},{0.01 * v**0.2}" for v in (1, 3, 10, 30, 100)]
+    wide.write_text("\n".join(["speed (mm/s),viscoelastic friction 25 °C,viscoelastic friction 40 °C", *rows, ""]))
+    drop(tab, wide)
+    step = tab.page.locator(_STEP)
+    step.get_by_label("Column of the load").select_option(label="– one value for all rows –")
+    step.get_by_label("Unit of the load").fill("25 N")
+    step.get_by_role("button", name="Read with these columns").click()
+    tab.until("page.jobs.result('measured')?.runs === false", _SECONDS)
+    assert tab.value("page.state.state.get('measurement')") == {"curves": "wide.csv", "columns": {"load": "= 25 N"}}
+    step.get_by_role("button", name="Clear the column names").click()
+    step.get_by_label("Column of the load").wait_for()
+    assert tab.value("page.state.state.get('measurement.curves')") == "wide.csv"
+
+
 def test_the_example_from_its_file_to_the_rubber_behind_it(tab: Tab) -> None:
     assert "Drop the files" in tab.text("#figure-measured-friction .plot-empty")
     tab.page.get_by_role("button", name="Use the synthetic example").click()

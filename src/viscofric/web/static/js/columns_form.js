@@ -3,6 +3,8 @@
 import { html, view } from "./reactive.js";
 import { Button } from "./views.js";
 
+// The choice of a quantity without a column: a value with its unit, of all rows.
+const SAME = "same";
 const words = (quantity) => quantity.replaceAll(" ", "_");
 
 /** A heading as [material] columns wants it: by its number where it stands twice, with the unit that the user adds. */
@@ -17,6 +19,10 @@ function columnsOf(form, { headings, known, offered }) {
   const columns = {};
   for (const [at, [quantity]] of offered.entries()) {
     const [column, unit] = ["column", "unit"].map((part) => form.elements[`${part}-${at}`].value.trim());
+    if (column === SAME) {
+      if (unit) columns[words(quantity)] = `= ${unit}`;
+      continue;
+    }
     if (column === "" || (Number(column) === headings.indexOf(known[quantity]) && !unit)) continue;
     columns[words(quantity)] = said(headings, Number(column), unit);
   }
@@ -29,9 +35,9 @@ function Row({ at, quantity, unit, headings, before }) {
     <span class="field-label">${quantity[0].toUpperCase() + quantity.slice(1)}</span>
     <span class="row">
       <select name="column-${at}" aria-label="Column of the ${quantity}">
-        ${[["", "– none –"], ...named].map(([value, text]) => html`<option value=${value} selected=${value === before}>${text}</option>`)}
+        ${[["", "– none –"], [SAME, "– one value for all rows –"], ...named].map(([value, text]) => html`<option value=${value} selected=${value === before}>${text}</option>`)}
       </select>
-      <input type="text" name="unit-${at}" placeholder=${unit && `e.g. ${unit}`} aria-label="Unit of the ${quantity}" />
+      <input type="text" name="unit-${at}" placeholder=${unit && `e.g. ${unit}`} aria-label="Unit of the ${quantity}, or its value for all rows" />
     </span>
   </div>`;
 }
@@ -53,7 +59,10 @@ export const Columns = view(({ values, chosen = {}, choose }) => {
     ${
       offers &&
       html`<form class="panel" onSubmit=${read}>
-        <p class="help">Which column holds what? Units that the file states need not be repeated.</p>
+        <p class="help">
+          Which column holds what? Units that the file states need not be repeated; one value for all rows is written with
+          its unit, such as 20 N.
+        </p>
         <div class="form columns-form">${values.offered.map(row)}</div>
         <div class="row"><button class="button main">Read with these columns</button></div>
       </form>`

@@ -67,7 +67,10 @@ const take = (bring) =>
 function takeColumns(named) {
   const { curves, ...before } = state.get("measurement") ?? {};
   const files = dropped?.length === 1 ? dropped[0] : dropped;
-  state.set("measurement", { ...before, mtm: files ?? before.mtm, columns: named });
+  // a table of friction curves asks for other columns than one of readings
+  const ofCurves = measured.error?.values?.offered?.some(([quantity]) => quantity === "viscoelastic friction");
+  const table = ofCurves || (!files && curves) ? { curves: files ?? curves } : { ...before, mtm: files ?? before.mtm };
+  state.set("measurement", { ...table, columns: named });
 }
 
 const example = () => take(() => useExample().then(() => ["mtm.csv"]));
