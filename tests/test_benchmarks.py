@@ -143,6 +143,17 @@ def test_ball_benchmark_counts_products_and_transforms(tmp_path: Path, capsys: p
     assert row["relative_error"] < 2e-3
 
 
+def test_ball_benchmark_measures_the_price_of_digits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import ball
+
+    ball.main(["--accuracy", "2e-2", "--speeds", "2", "--json", str(tmp_path / "digits.json")])
+    assert "accuracy 0.02" in capsys.readouterr().out
+    (row,) = read(tmp_path / "digits.json")["rows"]
+    assert row["solved"] == 2
+    assert 0.0 < row["median"] <= row["most"]
+    assert row["stated"] <= 2e-2
+
+
 @pytest.mark.slow
 @pytest.mark.usefixtures("contact_path")
 def test_benchmark_of_stated_errors_compares_each_of_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
