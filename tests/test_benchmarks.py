@@ -143,6 +143,7 @@ def test_ball_benchmark_counts_products_and_transforms(tmp_path: Path, capsys: p
     assert row["relative_error"] < 2e-3
 
 
+@pytest.mark.usefixtures("contact_path")
 def test_ball_benchmark_measures_the_price_of_digits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     import ball
 
