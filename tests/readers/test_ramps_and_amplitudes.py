@@ -50,6 +50,19 @@ def test_ramps_at_several_frequencies_are_read_in_any_order(tmp_path):
         assert [len(ramp) for ramp in found.ramps] == [41, 41]
 
 
+@pytest.mark.parametrize("heading", ["{} {} Hz (MPa)", "{} ({} Hz) [MPa]", "{}_{}Hz_MPa", "{} f={} Hz / MPa"])
+def test_headings_give_the_frequencies_of_ramps_beside_each_other(tmp_path, heading):
+    names = [heading.format(modulus, hertz) for hertz in (1, "0.5") for modulus in ("E'", "E''")]
+    lines = [f"{T},{3 - T / 100},0.3,{2 - T / 100},0.2" for T in range(-40, 61, 5)]
+    found = vf.read_ramps(written(tmp_path, lines, ",".join(["T (°C)", *names]) + "\n"))
+    assert found.angular_frequencies == pytest.approx([np.pi, 2.0 * np.pi])
+    assert found.ramps[0].storage_modulus[0] == pytest.approx(2.4e6)
+    assert found.ramps[1].loss_modulus == pytest.approx(0.3e6)
+    assert "frequency-from-title" in codes(found.notes)
+    above = ",1 Hz,,0.5 Hz,\nT (°C),E' (MPa),E'' (MPa),E' (MPa),E'' (MPa)\n"
+    assert vf.read_ramps(written(tmp_path, lines, above)).angular_frequencies == pytest.approx([np.pi, 2.0 * np.pi])
+
+
 def test_heating_and_cooling_are_told_apart(tmp_path):
     up = np.arange(-20.0, 61.0, 1.0)
     path = written(tmp_path, rows([*up, *up[::-1] - 0.3]))

@@ -56,8 +56,14 @@ TEMPERATURE_IN_NAME = re.compile(
     r"(?:(?P<mark>^|[\s_=(,;@[])(?P<sign>[+−-]?)|(?P<dash>-))(?P<number>\d+(?:[.,]\d+)?)\s?_?"
     r"(?P<unit>°C|degC|deg_C|C|K)(?![^\W_])"
 )
-#: What a temperature that is cut from a heading leaves behind.
-_LEFT_BEHIND = re.compile(r"[(\[]\s*[)\]]|(\b(at|bei|à|T\s*=)|[@,;=_])\s*(?=$|[(\[/])|_(?=_)", re.IGNORECASE)
+#: Likewise "E' 10 Hz", "E'_0.1Hz".
+FREQUENCY_IN_NAME = re.compile(
+    r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<number>\d+(?:[.,]\d+)?)\s?_?(?P<unit>[mk]?Hz|rad/s)(?![^\W_])"
+)
+#: Heading of the column of frequencies that stood in the headings of others.
+FREQUENCIES_OF_HEADINGS = "frequencies of headings"
+#: What a temperature or frequency that is cut from a heading leaves behind.
+_LEFT_BEHIND = re.compile(r"[(\[]\s*[)\]]|(\b(at|bei|à|[Tf]\s*=)|[@,;=_])\s*(?=$|[(\[/])|_(?=_)", re.IGNORECASE)
 #: Names are the same with and without these: "a_T", "a(T)", "aT".
 _MARKS = re.compile(r"[\s_().·\[\]-]")
 
@@ -73,7 +79,7 @@ class Column:
     given: bool = False  # named by the user, not recognised
     base: float = 0.0  # of the logarithm that the numbers are, 0 where they are none
     is_mean: bool = False  # "E' mean (MPa)", where no column is of the quantity itself
-    title: str = ""  # the temperature in the heading: "25 °C" of "E' 25 °C (MPa)"
+    title: str = ""  # the temperature or frequency in the heading: "25 °C" of "E' 25 °C (MPa)"
 
     @property
     def unnumbered(self) -> str:
@@ -193,8 +199,13 @@ class Vocabulary:
             what = "" if column.quantity else self.quantity(_MEAN.sub("", column.name).strip())
             if what in self.means and what not in held:
                 found[n] = replace(column, quantity=what, is_mean=True)
-        if self.several == "titled" and not self.user_columns and "temperature" not in held:
-            found = [column if column.quantity else self._titled(column) for column in found]
+        if self.several == "titled" and not self.user_columns:
+            lacks = [
+                pattern
+                for pattern, has in ((TEMPERATURE_IN_NAME, "temperature"), (FREQUENCY_IN_NAME, "frequency"))
+                if has in self.quantities and not any(has in what for what in held)
+            ]
+            found = [self._titled(column, lacks) for column in found]
         for what, said in self.user_columns.items():
             place, unit = place_of(said, cells)
             if place is not None:
@@ -204,14 +215,14 @@ class Vocabulary:
                 found[place] = replace(column, quantity=what, unit=unit or column.unit, given=True)
         return tuple(found)
 
-    def _titled(self, column: Column) -> Column:
-        """Return the column with the temperature that its heading states as its title, or as it is."""
-        found = [one for one in TEMPERATURE_IN_NAME.finditer(column.heading) if not one["dash"]]
-        if len(found) != 1:
+    def _titled(self, column: Column, patterns: Sequence[re.Pattern[str]]) -> Column:
+        """Return the column with the temperature or frequency that its heading states as its title, or as it is."""
+        found = [one for pattern in patterns for one in pattern.finditer(column.heading) if one[0][:1] != "-"]
+        if len(found) != 1 or (column.quantity and column.unit != found[0][0].strip("( [")):
             return column
         rest = column.heading[: found[0].start("sign")] + column.heading[found[0].end() :]
         of = self.column(_LEFT_BEHIND.sub("", rest))
-        if of.quantity in ("", "temperature", "set temperature", "isotherm"):
+        if not of.quantity or any(what in of.quantity for what in ("temperature", "isotherm", "frequency")):
             return column
         return replace(of, heading=column.heading, title=found[0][0].strip("_=(,;@[ "))
 

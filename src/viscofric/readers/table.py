@@ -12,7 +12,7 @@ import numpy as np
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.headings import CONSTANT, NO_WORDS, Column, Vocabulary, option_of
+from viscofric.readers.headings import CONSTANT, FREQUENCIES_OF_HEADINGS, NO_WORDS, Column, Vocabulary, option_of
 from viscofric.readers.source import decimal_comma, unit_conversion
 
 if TYPE_CHECKING:
@@ -174,13 +174,16 @@ class Table:
 
     @property
     def heading_notes(self) -> list[Note]:
-        """Notes on columns of logarithms whose base is assumed, and on those of means."""
+        """Notes on logarithms whose base is assumed, on means, and on frequencies that stood in headings."""
         decadic = [repr(column.heading) for column in self.columns if column.assumed_decadic]
         means = [repr(column.heading) for column in self.columns if column.is_mean]
-        notes = [Note("decadic-logarithms", f"Read as decadic logarithms: {' and '.join(decadic)}.")] if decadic else []
-        return (
-            [*notes, Note("means-read", f"Means were read as the values: {' and '.join(means)}.")] if means else notes
+        titled = any(column.heading == FREQUENCIES_OF_HEADINGS for column in self.columns)
+        said = (
+            ("decadic-logarithms", decadic, f"Read as decadic logarithms: {' and '.join(decadic)}."),
+            ("means-read", means, f"Means were read as the values: {' and '.join(means)}."),
+            ("frequency-from-title", titled, "No column holds a frequency; frequencies were taken from the headings."),
         )
+        return [Note(code, text) for code, holds, text in said if holds]
 
     def unused(self, used: Collection[int | None]) -> list[Column]:
         """Return the columns with a name at all other places."""

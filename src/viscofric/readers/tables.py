@@ -11,9 +11,9 @@ import numpy as np
 
 from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy
-from viscofric.readers.dma.names import deformation_of, temperature_of_title
+from viscofric.readers.dma.names import deformation_of, frequency_of_title, temperature_of_title
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
-from viscofric.readers.headings import heading, option_of, place_of
+from viscofric.readers.headings import FREQUENCIES_OF_HEADINGS, Column, heading, option_of, place_of
 from viscofric.readers.source import decimal_comma, same_unit
 from viscofric.readers.table import MISSING, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
@@ -21,7 +21,7 @@ from viscofric.readers.workbook import is_workbook, sheets
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from viscofric.readers.headings import Column, Vocabulary
+    from viscofric.readers.headings import Vocabulary
     from viscofric.readers.source import Source
     from viscofric.readers.table import NumberedRow, Table
 
@@ -197,21 +197,25 @@ def _below_each_other(table: Table) -> Table:
     if found is None:
         return table
     shared, sets, titles = found
-    kelvins = {temperature_of_title(title) for title in titles}
+    hertz = [frequency_of_title(title) for title in titles]
+    values = [*filter(None, hertz)] if any(hertz) else [temperature_of_title(title) for title in titles]
     columns = [[table.columns[place] for place in (*shared, *one)] for one in sets]
     kinds = [[(c.quantity, c.unit, c.base, deformation_of(c.name)) for c in one] for one in columns]
-    if None in kelvins or len(kelvins) < len(titles) or any(one != kinds[0] for one in kinds):
+    if None in values or len(set(values)) < len(titles) or any(one != kinds[0] for one in kinds):
         return table
     kept = [(number, row, one) for number, one in enumerate(sets, start=1) for row in range(len(table.rows))]
     kept = [(number, row, one) for number, row, one in kept if any(table.rows[row][place].strip() for place in one)]
-    return replace(
+    below = replace(
         table,
         columns=tuple(columns[0]),
         rows=tuple(tuple(table.rows[row][place] for place in (*shared, *one)) for _, row, one in kept),
         lines=table.lines[[row for _, row, _ in kept]],
-        block=np.array([number for number, _, _ in kept], dtype=np.int64),
-        titles=tuple(titles),
     )
+    numbers = np.array([number for number, _, _ in kept], dtype=np.int64)
+    if any(hertz):
+        column = Column(FREQUENCIES_OF_HEADINGS, "frequency", "Hz", "frequency")
+        return below.with_column(column, [repr(values[number - 1]) for number in numbers])
+    return replace(below, block=numbers, titles=tuple(titles))
 
 
 def _by_headings(table: Table) -> Sets | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import TYPE_CHECKING
 
@@ -9,7 +10,8 @@ import numpy as np
 
 from viscofric.notes import Note, setting
 from viscofric.readers.header_rows import is_number
-from viscofric.readers.headings import TEMPERATURE_IN_NAME, Vocabulary, heading, with_primes
+from viscofric.readers.headings import FREQUENCY_IN_NAME, TEMPERATURE_IN_NAME, Vocabulary, heading, with_primes
+from viscofric.readers.source import to_rad_per_second
 from viscofric.units import CELSIUS_ZERO
 
 if TYPE_CHECKING:
@@ -232,6 +234,13 @@ def _without_temperature(cells: Sequence[str]) -> str:
 def temperature_of_title(cells: Sequence[str]) -> float | None:
     """Return the temperature in a line above a table, such as ``T = 25 °C`` or ``Temperature (°C)`` and ``25``, K."""
     return temperature_in_name(" ".join(_as_one_cell([cell.strip() for cell in cells if cell.strip()])))
+
+
+def frequency_of_title(cells: Sequence[str]) -> float | None:
+    """Return the frequency that is the only cell above a table or in its headings, such as ``10 Hz``, Hz."""
+    found = FREQUENCY_IN_NAME.fullmatch(" ".join(cell.strip() for cell in cells if cell.strip()))
+    factor = to_rad_per_second(found["unit"], angular=False) if found else None
+    return factor * float(found["number"].replace(",", ".")) / (2.0 * math.pi) if found and factor else None
 
 
 def _as_one_cell(filled: list[str]) -> list[str]:
