@@ -612,6 +612,17 @@ def test_what_differs_beside_each_other_is_not_taken_apart(tmp_path, above, head
     assert caught.value.code in {"ambiguous-columns", "deformation-contradicts"}
 
 
+@pytest.mark.parametrize("words", ["at 3 K/min", "2K-PUR", "(1 and 25 °C)"])
+def test_headings_with_other_numbers_are_not_understood(tmp_path, words):
+    with refused("missing-columns"):
+        read_dma(write(tmp_path, f"f (Hz);E' {words} (MPa);E'' {words} (MPa)", "1;5;0.5", "10;6;0.7"))
+
+
+def test_a_file_of_two_components_is_not_as_cold_as_two_kelvin(tmp_path):
+    with refused("no-temperature"):
+        read_dma(write(tmp_path, "f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "10;6;0.7", name="PUR_2K.csv"))
+
+
 def test_a_temperature_in_a_heading_does_not_count_beside_a_column_of_temperatures(tmp_path):
     rows = ["20;1;5;0.5;9", "20;10;6;0.7;9", "30;1;4;0.4;9", "30;10;5;0.6;9"]
     assert_is_the_table(read_dma(write(tmp_path, "T (°C);f (Hz);E' (MPa);E'' (MPa);E' 25 °C (MPa)", *rows)))

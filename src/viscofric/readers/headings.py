@@ -54,11 +54,11 @@ _MEAN = re.compile(r"\b(mean|average|avg)\b\.?", re.IGNORECASE)
 # "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.
 TEMPERATURE_IN_NAME = re.compile(
     r"(?:(?P<mark>^|[\s_=(,;@[])(?P<sign>[+−-]?)|(?P<dash>-))(?P<number>\d+(?:[.,]\d+)?)\s?_?"
-    r"(?P<unit>°C|degC|deg_C|C|K)(?![^\W_])"
+    r"(?P<unit>°C|degC|deg_C|C|K)(?![^\W_]|/)"  # but not 3 K/min
 )
 #: Likewise "E' 10 Hz", "E'_0.1Hz".
 FREQUENCY_IN_NAME = re.compile(
-    r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<number>\d+(?:[.,]\d+)?)\s?_?(?P<unit>[mk]?Hz|rad/s)(?![^\W_])"
+    r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<number>\d+(?:[.,]\d+)?)\s?_?(?P<unit>[mk]?Hz|rad/s)(?![^\W_]|/)"
 )
 #: Heading of the column of frequencies that stood in the headings of others.
 FREQUENCIES_OF_HEADINGS = "frequencies of headings"

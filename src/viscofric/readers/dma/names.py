@@ -180,6 +180,8 @@ DMA = Vocabulary(
     several="titled",
 )
 
+#: No rubber is measured as cold as this, K: "2K" is two components.
+_COLDEST = 50.0
 _AS_PRINTED = {"C": "°C", "DEGC": "°C", "K": "K"}
 
 
@@ -199,7 +201,7 @@ def temperature_in_name(name: str) -> float | None:
     one = found[0]
     number = float(one["number"].replace(",", ".")) * (-1.0 if one["sign"] in ("-", "−") else 1.0)
     kelvin = number if one["unit"] == "K" else number + CELSIUS_ZERO
-    return kelvin if kelvin > 0.0 else None
+    return kelvin if kelvin > _COLDEST else None
 
 
 #: Where there is no column of temperature.
