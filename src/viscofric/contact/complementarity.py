@@ -186,6 +186,8 @@ def solve_complementarity(
         displacement = operator(pressure)
         if near_end:
             reduction = next(each for part, each in _REDUCTIONS if wrong > part * cells or part == 0.0)
+        elif wrong == 0:
+            reduction = _LEAST_REDUCTION
         elif wrong_before is not None and wrong > 0.5 * wrong_before:
             reduction = max(0.1 * reduction, _LEAST_REDUCTION)
         wrong_before = wrong
