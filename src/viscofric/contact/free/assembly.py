@@ -9,6 +9,7 @@ from viscofric.contact.free.estimates import FRICTION_FLOOR, FootprintErrors, er
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level
 
 if TYPE_CHECKING:
+    from viscofric.contact.free.estimates import Estimate
     from viscofric.contact.free.scale import Scale
     from viscofric.contact.free.stage import Stage
 
@@ -24,7 +25,7 @@ def assemble(
     pressure = scale.pressure * fine.result.pressure
     x, y = scale.length * window.x, scale.length * window.y
     displacement = scale.depth * fine.displacement
-    slope = math.copysign(scale.slope, velocity)
+    slope, friction = math.copysign(scale.slope, velocity), friction_estimate(stages)
     if velocity < 0.0:
         x, y = -x[::-1], -y[::-1]
         pressure, displacement = pressure[::-1, ::-1], displacement[::-1, ::-1]
@@ -32,7 +33,7 @@ def assemble(
         speed=velocity,
         load=scale.force * fine.load,
         temperature=temperature,
-        friction_coefficient=slope * friction_estimate(stages).value,
+        friction_coefficient=slope * friction.value,
         pressure_friction_coefficient=slope * fine.pressure_friction,
         energy_friction_coefficient=slope * fine.energy_friction,
         indentation=scale.depth * fine.indentation,
@@ -45,14 +46,14 @@ def assemble(
         y=y,
         pressure=pressure,
         displacement=displacement,
-        diagnostics=_diagnostics(stages, scale, slope),
+        diagnostics=_diagnostics(stages, scale, slope, friction),
         geometry=scale.geometry.name,
         direction=direction,
         lateral_friction_coefficient=slope * fine.lateral_friction,
     )
 
 
-def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics:
+def _diagnostics(stages: list[Stage], scale: Scale, slope: float, friction: Estimate) -> Diagnostics:
     fine = stages[-1]
     results = [stage.result for stage in stages]
     products = sum(one.products for one in results)
@@ -69,7 +70,7 @@ def _diagnostics(stages: list[Stage], scale: Scale, slope: float) -> Diagnostics
         complementarity=fine.result.complementarity,
         load=fine.result.load,
         energy=(pressure - energy) / max(abs(pressure), abs(energy), FRICTION_FLOOR),
-        friction_error=scale.slope * friction_estimate(stages).error,
+        friction_error=scale.slope * friction.error,
         indentation_error=scale.depth * (indentation if loaded else 0.0),
         load_error=scale.force * (0.0 if loaded else error_of(stages, "load")),
         edge_error=scale.length * errors.edge,

@@ -42,8 +42,8 @@ if TYPE_CHECKING:
     from viscofric.contact.operators.convolution import SteadyMaterial
 
 
-# Steps and range of the wavenumber's logarithm beyond the cut.
-_STEPS = 600
+# Gauss's rule for the wavenumber's logarithm beyond the cut, right to 1e-9, and the range that it covers.
+_PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(80)
 _LONGEST = math.log(1e13)
 
 
@@ -79,13 +79,13 @@ def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
 
 def _left_out(material: SteadyMaterial, spacing: float, cut: float) -> tuple[Array, ComplexArray, Array, Array]:
     """Return, of the waves beyond the cut: wavenumber, S, what of the loss is found from bends, over q, and weight."""
-    wavenumber = cut / spacing * np.exp(np.linspace(0.0, _LONGEST, _STEPS))
+    wavenumber = cut / spacing * np.exp(0.5 * _LONGEST * (1.0 + _PLACES))
     lengths, compliances = material.memory_lengths, material.compliances
     phase = np.outer(lengths, wavenumber)
     wave = 1.0 / (1.0 + phase**2)
     loss = (bent_share(lengths / spacing) * compliances * lengths) @ wave
     symbol = material.glassy + material.counterface + compliances @ wave + 1j * (compliances @ (phase * wave))
-    weight = (wavenumber * np.abs(symbol)) ** -2.0  # w q Δ(ln q) / |S|², without the constant
+    weight = _WEIGHTS * (wavenumber * np.abs(symbol)) ** -2.0  # w q Δ(ln q) / |S|², without the constant
     return wavenumber, symbol, loss, weight
 
 
@@ -111,4 +111,4 @@ def lag_changes(material: SteadyMaterial, spacing: float, cut: float) -> tuple[f
     change = lengths * (size * (2.0 * size - 1.0) @ by_loss) - 2.0 * (1.0 - share) * lost
     by_length = compliances * share * change / lengths
     by_length += by_symbol((1j * wavenumber * wave**2) * compliances[:, None])
-    return float(by_symbol(np.ones(_STEPS, complex))), by_compliance, by_length
+    return float(by_symbol(np.ones_like(symbol))), by_compliance, by_length

@@ -75,7 +75,7 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
         if not halvings:
             goal.allow(window, stages)
         try:
-            stage = _solve_in_window(window, coarse)
+            stage = _solve_in_window(window, coarse, last=len(stages) + 1 >= FEWEST_GRIDS)
         except ConvergenceError as failure:
             if halvings or not goal.errors:
                 raise
@@ -217,24 +217,28 @@ def _around(stage: Stage) -> Grid:
     return grid.around(*contact.widened(MARGIN * contact.longest), cells * slender)
 
 
-def _solve_in_window(window: Grid, before: Stage) -> Stage:
-    return _solve_on(window, before.problem, before.window.resample(before.result.pressure, window))
+def _solve_in_window(window: Grid, before: Stage, *, last: bool = False) -> Stage:
+    return _solve_on(window, before.problem, before.window.resample(before.result.pressure, window), last=last)
 
 
-def _solve_on(window: Grid, problem: Problem, guess: Array) -> Stage:
-    """Solve on one grid: by the active set, and where that makes no progress, by proximal points."""
+def _solve_on(window: Grid, problem: Problem, guess: Array, *, last: bool = False) -> Stage:
+    """Solve on one grid: by the active set, and where that makes no progress, by proximal points.
+
+    `last` says whether it may be the last one.
+    """
+    tolerance = problem.tolerance if last else max(problem.tolerance, problem.coarse_tolerance)
     shift = collocation_shift(problem.solid, window.spacing)
     operator = problem.geometry.operator(window, problem.solid, shift, problem.backend)
     height = problem.height_on(window, shift)
     start = np.where(np.isfinite(height), guess, 0.0)  # no pressure beyond the indenter's walls
-    result = problem.control.solve(operator, height, start, problem.tolerance, _PATIENCE)
+    result = problem.control.solve(operator, height, start, tolerance, _PATIENCE)
     if not result.converged:
-        result = proximal_points(problem.control, operator, height, result, problem.tolerance)
+        result = proximal_points(problem.control, operator, height, result, tolerance)
     if result.converged:
         return Stage(problem, window, operator, result)
     raise ConvergenceError(
         f"the contact did not converge on a grid of {window.shape[0]} x {window.shape[1]} cells: a gap of "
-        f"{result.complementarity:.1e} of the indentation was left, with tolerance = {problem.tolerance:.0e}.",
+        f"{result.complementarity:.1e} of the indentation was left, with tolerance = {tolerance:.0e}.",
         code="not-converged",
     )
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from viscofric.contact.operators.layer import ScaledLayer
 
 
+_LOG_SIZES = -50.0, 1.0  # between which the first guess of the contact's size lies
 COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
 
 
@@ -79,6 +80,7 @@ class Problem:
     backend: Backend = field(default_factory=Backend)
     layer: ScaledLayer | None = None  # to which the geometry's operator belongs; None for a half-space
     coarsest: int = COARSEST  # cells along the longer edge of the window on the coarsest grid
+    coarse_tolerance: float = 0.0  # of the contact conditions on grids that are refined in any case, if it is larger
 
     @cached_property
     def first_size(self) -> float:
@@ -87,15 +89,18 @@ class Problem:
         Under a given load, the radius a of Hertz's contact with the compliance of waves e^(ix/a); a given indentation
         almost determines the size.
         """
-        size = 1.0
-        if self.control.load is not None:
-            for _ in range(60):
-                wave = np.array([1.0 / size])
-                yielding = 1.0 if self.layer is None else self.layer.yielding(wave)
-                compliance = float(np.abs(self.solid.symbol(wave, yielding))[0])
-                # Half the step, since for a thin incompressible layer whole steps oscillate.
-                size = math.sqrt(size * compliance ** (1.0 / (self.geometry.dimension + 1.0)))
-        return size
+        if self.control.load is None:
+            return 1.0
+        from scipy.optimize import brentq
+
+        power = 1.0 / (self.geometry.dimension + 1.0)
+
+        def beyond(log_size: float) -> float:
+            wave = np.array([math.exp(-log_size)])
+            yielding = 1.0 if self.layer is None else self.layer.yielding(wave)
+            return log_size - power * math.log(abs(self.solid.symbol(wave, yielding)[0]))
+
+        return math.exp(brentq(beyond, *_LOG_SIZES, xtol=1e-11))
 
     def height_on(self, window: Grid, shift: float) -> Array:
         """Height of the indenter at the collocation points, `shift` cells behind the cell centres."""
