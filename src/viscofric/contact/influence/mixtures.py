@@ -25,9 +25,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.fft
 
+from viscofric.contact.influence.memory_rules import ORDER
 from viscofric.contact.influence.parts import (
     FIRST,
-    NODES,
     ROWS_AT_ONCE,
     Around,
     Modes,
@@ -74,11 +74,12 @@ def memory_influence(
     nx, ny = shape
     around = Around(potential, nx, shift, even)
     result = np.zeros((len(mixtures), 2 * nx - 1, ny))
-    modes, mixtures = Modes(1.0 / np.asarray(memory_lengths, dtype=float)), np.asarray(mixtures, dtype=float)
-    weights = _lattice_weights(modes, mixtures, 2 * nx + 10)
+    modes = Modes(1.0 / np.asarray(memory_lengths, dtype=float), 2 * nx + ORDER - 2)
+    mixtures = np.asarray(mixtures, dtype=float)
+    weights = _lattice_weights(modes, mixtures)
     if instant is not None:
         weights[:, -FIRST] += instant
-    length = scipy.fft.next_fast_len(4 * nx + 8, real=True)
+    length = scipy.fft.next_fast_len(4 * nx + ORDER - 4, real=True)
     spectra = np.conj(scipy.fft.rfft(weights, length, axis=1))
     rows = aspect * np.arange(float(ny))
     for start in range(0, ny, ROWS_AT_ONCE):
@@ -92,27 +93,28 @@ def memory_influence(
     return result
 
 
-def _lattice_weights(modes: Modes, mixtures: Array, count: int) -> Array:
-    """V(n) of each mixture from the first node on, for a memory without an end: (k, count)."""
+def _lattice_weights(modes: Modes, mixtures: Array) -> Array:
+    """V(n) of each mixture from the first node on, for a memory without an end: (k, cells)."""
     # c_m w_(m, node), summed over modes cell by cell, then over the cells that use a lattice point.
-    cells = (mixtures[:, None] * modes.interpolated.T) @ modes.fading(np.arange(float(count)))
-    weights = np.zeros((len(mixtures), count))
-    for place in range(NODES):
-        weights[:, place:] += cells[:, place, : count - place].real
+    cells = (mixtures[:, None] * modes.interpolated.T) @ modes.fading
+    weights = np.zeros((len(mixtures), modes.cells))
+    for place in range(ORDER):
+        weights[:, place:] += cells[:, place, : modes.cells - place]
     return weights
 
 
 def _add_tail(result: Array, around: Around, modes: Modes, mixtures: Array, rows: Array) -> None:
     tail, interpolation = beyond(around, modes, rows)
-    fading = modes.fading(np.arange(2.0 * around.nx - 1.0, 0.0, -1.0))
+    fading = modes.fading[:, 2 * around.nx - 1 : 0 : -1]
     for mixture, found in zip(mixtures, result, strict=True):
         found += ((mixture[:, None] * fading).T @ tail) @ interpolation
 
 
 def _correct_near(result: Array, around: Around, modes: Modes, mixtures: Array, rows: Array, edge: float) -> None:
     begin, end = (distance + around.nx - 1 for distance in near_cells(around.nx))
-    before = modes.fading(np.arange(float(begin), 0.0, -1.0))
-    for piece, memory in near_memory(around, modes, rows, edge):
-        for mixture, found in zip(mixtures, result, strict=True):
-            found[begin : end + 1, piece] += mixture @ memory
-            found[:begin, piece] += (mixture[:, None] * before).T @ memory[0]
+    memory = near_memory(around, modes, rows, edge)
+    near = memory.shape[1]
+    result[:, begin : end + 1, :near] += np.moveaxis(memory @ mixtures.T, 2, 0)
+    before = modes.fading[:, begin:0:-1]
+    for mixture, found in zip(mixtures, result, strict=True):
+        found[:begin, :near] += (mixture[:, None] * before).T @ memory[0].T

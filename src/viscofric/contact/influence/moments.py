@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.influence.memory_rules import faded
+from viscofric.contact.influence.memory_rules import ORDER, faded
 from viscofric.contact.influence.parts import ROWS_AT_ONCE, Around, Modes, beyond, near_cells, near_memory
 
 if TYPE_CHECKING:
@@ -56,16 +56,17 @@ def memory_moments(
     if len(memory_lengths) == 0:
         return np.zeros((sets, 0)), np.zeros((sets, 0))
     around = Around(potential, length // 2 + 1, shift)
-    modes = Modes((1.0 + 1j * _STEP) / np.asarray(memory_lengths, dtype=float))
+    modes = Modes((1.0 + 1j * _STEP) / np.asarray(memory_lengths, dtype=float), around.nx + ORDER)
     rows = potential.aspect * np.arange(float(ny))
     found = _far(weights, around, modes, rows)
     first, last = (distance + around.nx - 1 for distance in near_cells(around.nx))
-    before = modes.fading(np.arange(float(first), 0.0, -1.0))
-    for piece, memory in near_memory(around, modes, rows, 0.5 * potential.aspect):
-        found += np.tensordot(weights[:, first : last + 1, piece], memory, ((1, 2), (0, 2)))
-        # Farther behind it fades.
-        for one, weight in zip(found, weights[:, :first, piece], strict=True):
-            one += ((before @ weight) * memory[0]).sum(axis=1)
+    before = modes.fading[:, first:0:-1]
+    memory = near_memory(around, modes, rows, 0.5 * potential.aspect)
+    near = weights[:, :, : memory.shape[1]]
+    found += np.tensordot(near[:, first : last + 1], memory, 2)
+    # Farther behind it fades.
+    for one, weight in zip(found, near[:, :first], strict=True):
+        one += ((before @ weight) * memory[0].T).sum(axis=1)
     # ln λ is minus the logarithm of the rate.
     return found.real.copy(), -found.imag / _STEP
 
@@ -89,9 +90,9 @@ def _far(weights: Array, around: Around, modes: Modes, rows: Array) -> Inexact:
 
 
 def _on_lattice(weights: Array, around: Around, rows: Array) -> Array:
-    """Z(n) from the first node on: (k, 2 nx + 10)."""
-    count = 2 * around.nx + 10
-    size = scipy.fft.next_fast_len(4 * around.nx + 8, real=True)
+    """Z(n) from the first node on: (k, 2 nx + nodes − 2)."""
+    count = 2 * around.nx + ORDER - 2
+    size = scipy.fft.next_fast_len(4 * around.nx + ORDER - 4, real=True)
     waves = np.zeros((len(weights), size // 2 + 1), complex)
     for start in range(0, len(rows), ROWS_AT_ONCE):
         piece = slice(start, start + ROWS_AT_ONCE)
