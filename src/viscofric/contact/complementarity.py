@@ -139,10 +139,10 @@ def solve_complementarity(
     start, inner_start = operator.products, inner.products
     backend = operator.backend
     xp, height = backend.xp, backend.asarray(height)
-    pressure = xp.clip(backend.asarray(guess), min=0.0)
-    if load is not None and float(xp.max(pressure)) == 0.0:
+    pressure = backend.positive_part(xp.asarray(backend.asarray(guess), copy=True))
+    if load is not None and float(backend.largest(pressure)) == 0.0:
         pressure[height == xp.min(height)] = 1.0  # where contact begins
-    pressure = _loaded_to(xp, pressure, load)
+    pressure = _loaded_to(backend, pressure, load)
     displacement = operator(pressure)
     best: ComplementaritySolution | None = None
     set_changes = linear_iterations = since_best = 0
@@ -179,9 +179,8 @@ def solve_complementarity(
         linear_iterations += steps
         values = contact.gathered(pressure) + correction
         wrong, cells = int(xp.count_nonzero(overlapping)) + int(xp.count_nonzero(values < 0.0)), len(contact)
-        values = _loaded_to(xp, backend.positive_part(values), load)
-        # Not into the old pressure, which may be the best so far.
-        pressure = contact.inserted(xp.zeros_like(pressure), values)
+        values = _loaded_to(backend, backend.positive_part(values), load)
+        pressure = contact.scattered(values)  # not into the old one, which may be the best so far
         del state_now, gap, overlapping, contact, correction, values  # large, and no longer needed
         displacement = operator(pressure)
         if near_end:
@@ -193,9 +192,9 @@ def solve_complementarity(
         wrong_before = wrong
 
 
-def _loaded_to(xp: Any, pressure: AnyArray, load: float | None) -> AnyArray:
+def _loaded_to(backend: Backend, pressure: AnyArray, load: float | None) -> AnyArray:
     if load is not None:
-        pressure *= load / float(xp.sum(pressure))
+        pressure *= load / float(backend.total(pressure))
     return pressure
 
 
@@ -216,15 +215,15 @@ def _look(
     loaded = pressure > 0.0
     under = gap[loaded]
     if indentation is None:
-        indentation = float(xp.mean(under))
+        indentation = float(backend.total(under)) / max(under.shape[0], 1)
     gap -= indentation
     under -= indentation
     level = doubt * math.sqrt(float(under @ under) / max(under.shape[0], 1))
     overlapping = ~loaded & (gap < -level)
-    least, total = backend.floats(xp.min(gap), xp.sum(pressure))
+    least, total = backend.floats(xp.min(gap), backend.total(pressure))
     worst = -least
     if under.shape[0]:
-        worst = max(worst, float(xp.max(xp.abs(under))))
+        worst = max(worst, float(backend.largest(xp.abs(under))))
     state = {
         "indentation": indentation,
         "complementarity": worst / (abs(indentation) if depth is None else depth),
@@ -256,15 +255,15 @@ def solve_on_contact(
     def projected(field: AnyArray) -> AnyArray:
         found = contact.gathered(field)
         if fixed_load:
-            found -= xp.mean(found)
+            found -= backend.total(found) / len(contact)
         return found
 
-    unit = float(xp.max(xp.abs(gap)))
+    unit = float(backend.largest(xp.abs(gap)))
     if unit == 0.0:
         return gap, 0, 0.0
     residual = xp.astype(gap / -unit, operator.dtype, copy=False)
     if fixed_load:
-        residual -= xp.mean(residual)
+        residual -= backend.total(residual) / len(contact)
     first, largest = _sizes(backend, residual)
     left = first
     target, floor = reduction * first, floor / unit
@@ -306,5 +305,5 @@ def solve_on_contact(
 
 def _sizes(backend: Backend, values: AnyArray) -> tuple[float, float]:
     """Euclidean norm and largest modulus, brought from the device at once."""
-    square, largest = backend.floats(values @ values, backend.xp.max(backend.xp.abs(values)))
+    square, largest = backend.floats(values @ values, backend.largest(backend.xp.abs(values)))
     return math.sqrt(square), largest

@@ -180,6 +180,14 @@ class Backend(Shown):
             return [float(value) for value in values]
         return self.xp.stack(values).tolist()  # type: ignore[no-any-return]
 
+    def total(self, values: AnyArray) -> Any:
+        """Sum of all values; of NumPy's by their method, several times quicker on few values than the function."""
+        return values.sum() if self.is_numpy else self.xp.sum(values)
+
+    def largest(self, values: AnyArray) -> Any:
+        """Largest value, likewise."""
+        return values.max() if self.is_numpy else self.xp.max(values)
+
     def positive_part(self, values: AnyArray) -> AnyArray:
         """max(x, 0) in place where the library can."""
         if self.is_numpy:

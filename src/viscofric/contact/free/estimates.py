@@ -119,8 +119,8 @@ def settled(values: Array, fading: float = _FADING) -> Estimate:
     its square, since single changes may be small by chance; `fading` is the factor by which changes decrease from grid
     to grid at the least.  All further changes of a sequence that halves are as large as its last one.
     """
-    changes = np.abs(np.diff(values))[-3:]
-    return Estimate(float(values[-1]), float(np.max(changes * fading ** np.arange(len(changes) - 1.0, -1.0, -1.0))))
+    changes = np.abs(values[1:] - values[:-1])[:-4:-1]
+    return Estimate(float(values[-1]), float((changes * fading ** np.arange(len(changes))).max()))
 
 
 def measured_fading(values: Array) -> float:

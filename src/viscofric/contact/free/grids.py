@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -92,7 +93,7 @@ class Grid(ABC):
     def _rows(self, y: Array) -> Indices:
         """Rows of cells in which coordinates across the motion lie; any number out of range if in none."""
 
-    @property
+    @cached_property
     def x(self) -> Array:
         """Cell centres along the motion, relative to the indenter's axis."""
         return np.asarray(self.spacing * (np.arange(-self.behind, self.ahead) + 0.5), dtype=np.float64)
@@ -146,7 +147,7 @@ class Window(Grid):
         """Area of a cell."""
         return self.spacing * self.width
 
-    @property
+    @cached_property
     def y(self) -> Array:
         """Cell centres across the motion."""
         return np.asarray(self.width * (np.arange(-self.beside, self.beside) + 0.5), dtype=np.float64)

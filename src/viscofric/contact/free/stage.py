@@ -202,7 +202,8 @@ def contact_area(window: Grid, pressure: Array) -> float:
 
 def _rim(pressure: Array) -> float:
     """Return the area of the contact beyond its loaded cells' edges along the first axis, in cells."""
-    padded = np.pad(pressure, [(2, 2), (0, 0)])
+    empty = np.zeros((1, pressure.shape[1]))
+    padded = np.concatenate([empty, pressure, empty])
     total = 0.0
     for one in (padded, padded[::-1]):
         outer, inner, beyond = one[1:-1], one[2:], one[:-2]
