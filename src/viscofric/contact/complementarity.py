@@ -11,10 +11,10 @@ indentation is eliminated by projecting the mean out of residuals and search dir
 changes within a linear solve.  Where K is nearly skew the set can cycle; see `viscofric.contact.free.proximal`.
 
 The caller chooses the tolerance of the linear problems.  "without headway": a tenth of their initial residual at
-first, ten times less whenever the number of wrongly classified cells does not halve, since loose solutions alone
-can make the set cycle, and 1e-7 once there are none; suitable for one contact, however skew its operator.  "near the end": a loose one while many
-cells are wrongly classified, a tight one once few are; suitable for rough surfaces, where tight solutions on a wrong
-set make all spots overshoot.
+first, ten times less whenever the number of wrongly classified cells does not halve, since loose solutions alone can
+make the set cycle, and 1e-7 once there are none; suitable for one contact, however skew its operator.  "near the end":
+a loose one while many cells are wrongly classified, a tight one once few are; suitable for rough surfaces, where tight
+solutions on a wrong set make all spots overshoot.
 
 .. [1] S. C. Eisenstat, H. C. Elman, M. H. Schultz, SIAM J. Numer. Anal. 20 (1983) 345.
 """
