@@ -99,7 +99,7 @@ def test_under_fast_sources_heat_flows_straight_down() -> None:
     assert strip(peclet).mean_temperature == pytest.approx(2.0 / 3.0 * largest, rel=1e-3)
 
 
-@pytest.mark.parametrize("x", [-3.0, -0.4, 0.7, 1.5])
+@pytest.mark.parametrize("x", [-3.0, -1.0, -0.4, 0.7, 1.0, 1.5])
 def test_a_strip_is_the_integral_of_line_sources(x: float) -> None:
     """exp(−Pe ξ) K0(Pe |ξ|)/π (Carslaw and Jaeger, Sec. 10.7) by adaptive quadrature, whose error is 1e-8."""
     peclet = 0.7

@@ -91,7 +91,7 @@ def strip_points(x: Array, peclet: float, *, hertz: bool) -> Array:
         distance = np.sign(end) * to_end * node.place
         source = np.sqrt(np.maximum(1.0 - np.square(start[:, None] + distance), 0.0))
         ahead = distance + (start - x)[:, None]
-        z = peclet * np.abs(ahead)
+        z = np.maximum(peclet * np.abs(ahead), 1e-300)  # the pole of a part without length, at an edge
         kernel = k0e(z) * np.where(ahead > 0.0, 1.0, np.exp(-2.0 * z))
         total += (to_end * node.weight * source * kernel).sum(1)
     return (4.0 / np.pi) * total / np.pi
