@@ -95,6 +95,24 @@ def test_a_windowed_scan_shows_the_spectrum_of_the_surface_it_was_cut_from():
     assert np.mean(ratios) == pytest.approx(1.0, abs=0.04)
 
 
+def test_tilt_of_a_scan_is_no_roughness():
+    surface = vf.self_affine(0.8, shape=(256, 256), spacing=1.0, shortest=8.0, longest=128.0, rms_slope=0.3, seed=1)
+    scan = surface.crop(x=(0.0, 149.0), y=(20.0, 149.0))
+    x, y = np.meshgrid(scan.x, scan.y, indexing="ij")
+    tilted = vf.Topography(scan.heights + 0.5 * x - 0.2 * y, 1.0)
+    for spectrum in (vf.roughness.power_spectrum, vf.roughness.line_spectrum):
+        found, level = spectrum(tilted), spectrum(scan)
+        np.testing.assert_allclose(found.density, level.density, rtol=1e-9)
+        assert level.rms_slope() < 0.35  # with its tilt 0.6
+
+
+def test_a_surface_without_its_longest_waves_has_none_in_its_spectrum():
+    surface = vf.self_affine(0.8, shape=(512, 512), spacing=1.0, shortest=10.0, longest=250.0, rms_slope=0.3, seed=1)
+    found = vf.roughness.power_spectrum(surface)
+    assert 2.0 * np.pi / found.wave_number[0] < 330.0  # those of 250 reach half a cell of waves beyond
+    assert found.rms_height() == pytest.approx(surface.rms_height, rel=0.08)  # up to the period it was 22 % more
+
+
 def test_lines_of_an_isotropic_surface_have_half_its_mean_square_slope():
     surface = vf.self_affine(0.8, shape=(256, 256), spacing=1.0, shortest=8.0, rolloff=64.0, rms_slope=1.0, seed=3)
     found = [vf.roughness.line_spectrum(surface, axis=axis).rms_slope() for axis in ("x", "y")]

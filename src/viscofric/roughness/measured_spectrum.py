@@ -119,8 +119,8 @@ def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpec
     Parameters
     ----------
     topography : Topography
-        A map without missing points.  One that is not periodic is multiplied by Hann's window (of unit mean square);
-        remove its tilt first.
+        A map without missing points.  One that is not periodic is freed of its tilt, and multiplied by Hann's window
+        (of unit mean square).
     per_decade : int
         Points of the spectrum for each decade of wave number.
 
@@ -169,7 +169,7 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     Parameters
     ----------
     topography : Topography
-        Without missing points.  One that is not periodic is multiplied by Hann's window; remove its tilt first.
+        Without missing points.  Lines that are not periodic are freed of their tilt, and multiplied by Hann's window.
     axis : {"x", "y"}
         Along which the lines run.
     per_decade : int
@@ -220,11 +220,15 @@ def _insist(topography: object) -> None:
 
 
 def _windowed(topography: Topography, axes: tuple[int, ...]) -> Array:
-    """Return heights less their mean, under Hann's window of unit mean square along these axes if not periodic."""
+    """Return heights less their mean; if not periodic, less their tilt and under Hann's window of unit mean square."""
     heights = topography.complete()
     heights = np.asarray(heights - heights.mean(axis=axes, keepdims=True), dtype=np.float64)
     if topography.periodic:
         return heights
+    places = [np.linspace(-1.0, 1.0, heights.shape[axis]).reshape((-1, 1) if axis == 0 else -1) for axis in axes]
+    for place in places:
+        # Each on its own: least squares of a plane on a full grid.
+        heights = heights - place * (heights * place).mean(axis=axes, keepdims=True) / np.square(place).mean()
     for axis in axes:
         points = heights.shape[axis]
         window = np.sqrt(8.0 / 3.0) * (0.5 - 0.5 * np.cos(2.0 * np.pi * (np.arange(points) + 0.5) / points))
@@ -238,7 +242,7 @@ def _rings(
     """Return mean wave numbers and densities of rings of wave numbers, from limits[1] on, and points at both ends.
 
     The waves in the first ring stand for all wave numbers from limits[0] on: the cells of a grid of waves fill the
-    plane.
+    plane.  Cells of longer waves that the surface is without stay empty.
     """
     whole_number(per_decade, "per_decade", 1, MOST_PER_DECADE)
     start, first, last = limits
@@ -247,6 +251,7 @@ def _rings(
     if not loud.any():
         raise InputError("the surface is flat: its power spectrum is zero.", code="flat")
     q, density, counts = q[loud], density[loud], counts[loud]
+    start = max(start, float(q.min()) - 0.5 * first)
     ring = np.floor(per_decade * np.log10(q / first) + 1e-6).astype(int)
     weight = np.bincount(ring, counts)
     there = weight > 0.0
