@@ -41,6 +41,19 @@ def test_planted_constants_lie_within_their_errors():
     assert np.mean(inside) > 0.9
 
 
+def test_errors_of_few_amplitudes_hold():
+    """Six amplitudes are twelve numbers for six constants and two scatters: intervals held 0.65 of γc, 0.72 of m."""
+    strain, random = np.geomspace(1e-4, 0.5, 6), np.random.default_rng(1)
+    moduli = LAW.complex_modulus(strain)
+    within = []
+    for _ in range(60):
+        storage, loss = (part * (1.0 + 0.01 * random.standard_normal(6)) for part in (moduli.real, moduli.imag))
+        law = vf.rheology.fit_kraus(vf.readers.AmplitudeSweep(strain, storage, loss, "10 Hz", "60 degC", "shear")).law
+        errors = np.sqrt(np.diag(law.covariance)[2:4])
+        within.append(np.abs(np.array([law.critical_strain - 0.02, law.exponent - 0.6])) < 1.96 * errors)
+    assert np.all(np.mean(within, axis=0) > 0.84)  # 95 % of 60, less three standard deviations and some of the skewness
+
+
 def test_a_sweep_that_stays_linear_has_no_end_of_its_range():
     flat = vf.readers.AmplitudeSweep(STRAIN, np.full(25, 1e6), np.full(25, 1e5), "1 Hz", "25 degC")
     assert np.isinf(linear_range(flat, 0.05).strain)

@@ -14,6 +14,7 @@ from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.payne.kraus import CONSTANTS, KrausLaw, kraus_moduli
+from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.shift_problem import inflation
 from viscofric.showing import Plotted, Rows, Shown
@@ -210,6 +211,7 @@ def _doubts(sweep: AmplitudeSweep, scatter: Array) -> list[Note]:
 def _fitted(sweep: AmplitudeSweep) -> tuple[Array, Array, Array]:
     """Return the logarithms of the constants, the scatter of both moduli (decades), and the covariance."""
     from scipy.optimize import least_squares
+    from scipy.special import stdtrit
 
     strain = sweep.strain_amplitude
     measured = np.log(np.stack([sweep.storage_modulus, sweep.loss_modulus]))
@@ -232,17 +234,24 @@ def _fitted(sweep: AmplitudeSweep) -> tuple[Array, Array, Array]:
         for m in EXPONENTS
     ]
     best = min((least_squares(away, start, bounds=bounds) for start in starts), key=lambda one: float(one.cost))
-    freedom = len(strain) - 3.0
     for _ in range(PASSES):
         residual = (best.fun.reshape(2, -1)) * scatter[:, None]
-        scatter = np.maximum(np.sqrt(np.sum(residual**2, axis=1) / freedom), 1e-9)
+        scatter = np.maximum(np.sqrt(np.sum(residual**2, axis=1) / _freedom(best.jac)), 1e-9)
         best = least_squares(away, best.x, bounds=bounds)
     residual = best.fun.reshape(2, -1)
     same = np.ones(len(strain) - 1, dtype=bool)
     alike = np.repeat([inflation(one, same) for one in residual], len(strain))
     slope = np.asarray(best.jac)
     inverse = np.linalg.pinv(slope.T @ slope, rcond=1e-12)
-    return best.x, scatter / math.log(10.0), inverse @ (slope.T * alike @ slope) @ inverse
+    # So that normal 95 % intervals are those of Student's t, by the freedom of the modulus that has less.
+    wider = float(stdtrit(_freedom(slope).min(), 0.975)) / LEVEL_95
+    return best.x, scatter / math.log(10.0), wider**2 * (inverse @ (slope.T * alike @ slope) @ inverse)
+
+
+def _freedom(slope: Array) -> Array:
+    """Return the degrees of freedom (2,) of the scatter of both moduli: points less what the constants take of each."""
+    leverage = np.einsum("ij,ji->i", slope, np.linalg.pinv(slope, rcond=1e-12)).reshape(2, -1)
+    return np.asarray(np.maximum(np.sum(1.0 - leverage, axis=1), 1.0))
 
 
 def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
