@@ -127,7 +127,7 @@ def test_the_load_of_the_master_curve_is_chosen() -> None:
     assert shift_friction(curves, shift=LAW, indenter=BALL).load == 10.0  # the median
     heavy, error = master(0.1, load=50.0), master.standard_error(0.1, load=50.0)
     assert heavy == pytest.approx(2.0 ** (1 / 3) * friction(np.array(0.1 / 2.0 ** (1 / 3))), rel=0.005)
-    assert error == 0.0
+    assert error < 0.005 * heavy  # that of smoothing: without errors, points scatter as much about the curve
 
 
 def test_master_curves_of_different_tests_are_compared_at_one_load() -> None:

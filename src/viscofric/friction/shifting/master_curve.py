@@ -13,6 +13,7 @@ from viscofric.errors import InputError
 from viscofric.friction.curve_words import LABELS
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.collapse import Collapse
+from viscofric.friction.shifting.isotherms import nominal_temperatures
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.smoothing import SmoothedPoints
 from viscofric.lazy import renamed
@@ -68,6 +69,8 @@ class FrictionMasterCurve(Plotted):
         Whether the shift factors were found from the curves.
     notes : tuple of str
         Temperatures left out and doubts, one sentence each.
+    level_error : float
+        Relative standard error of friction that all points of a temperature share.
     """
 
     reduced_speed: Array
@@ -84,6 +87,7 @@ class FrictionMasterCurve(Plotted):
     vertical_shift: VerticalShift | None = None
     found: bool = False
     notes: tuple[str, ...] = ()
+    level_error: float = 0.0
 
     def __len__(self) -> int:
         return len(self.reduced_speed)
@@ -155,7 +159,9 @@ class FrictionMasterCurve(Plotted):
 
     @property
     def _smoothed(self) -> SmoothedPoints:
-        return SmoothedPoints(np.log10(self.reduced_speed), self.friction_coefficient, self.friction_error)
+        kelvin = nominal_temperatures(self.temperature)
+        sharing = self.level_error * (np.unique(kelvin)[:, None] == kelvin)
+        return SmoothedPoints(np.log10(self.reduced_speed), self.friction_coefficient, self.friction_error, sharing)
 
     @property
     def overlap_rms(self) -> float | None:
@@ -211,7 +217,11 @@ class FrictionMasterCurve(Plotted):
     def standard_error(
         self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None
     ) -> Any:
-        """Return the standard error of μ(v, T) by the points' errors, without those of the shift factors; as a call."""
+        """Return the standard error of μ(v, T), without those of the shift factors; arguments as of a call.
+
+        It is that of the points' errors, or of their scatter about the curve where that is larger, with the
+        `level_error` of each temperature.
+        """
         return self._read(speed, temperature, load)[1]
 
     def covers(self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None) -> Any:

@@ -66,7 +66,7 @@ def shift_friction(
     level_error : float
         Relative standard error of friction that all points of a temperature share, such as 0.01 for a force cell or
         for samples changed between temperatures, or the difference of runs at all speeds, which `separate` notes with
-        its size; included in the covariance of the shift factors found.
+        its size; included in the covariance of the shift factors found, and in the error of friction read off.
 
     Returns
     -------
@@ -151,6 +151,7 @@ def shift_friction(
         vertical_shift=vertical,
         found=found,
         notes=(*notes, *implausible(points), *_below_zero(curves)),
+        level_error=shared,
     )
 
 

@@ -28,6 +28,7 @@ class SmoothedPoints:
     decades: Array  # log10 of the reduced speed, ascending
     friction: Array
     error: Array
+    sharing: Array  # (k, n), relative errors that points share, of k independent ones
 
     @cached_property
     def stretches(self) -> tuple[tuple[float, float], ...]:
@@ -43,16 +44,35 @@ class SmoothedPoints:
     def read(self, decades: Array) -> tuple[Array, Array]:
         """Return values and standard errors (m,) at places (m,) that lie in a stretch."""
         value, error = np.empty(decades.shape), np.empty(decades.shape)
-        weights = _weights(self.error)
         for low, high in self.stretches:
             inside = (decades >= low - _ROUNDING) & (decades <= high + _ROUNDING)
-            rows = (self.decades >= low) & (self.decades <= high)
-            places = np.clip(decades[inside], low, high)
-            matrix = smoothing_weights(self.decades[rows], weights[rows], places, BANDWIDTH)
+            rows, matrix = self._smoother(low, high, np.clip(decades[inside], low, high))
             value[inside] = matrix @ self.friction[rows]
-            variance = np.where(matrix == 0.0, 0.0, self.error[rows] ** 2)
-            error[inside] = np.sqrt(np.sum(matrix**2 * variance, axis=1))
+            variance = np.where(matrix == 0.0, 0.0, self._variance[rows])
+            shared = (matrix * self.friction[rows]) @ self.sharing[:, rows].T
+            error[inside] = np.sqrt(np.sum(matrix**2 * variance, axis=1) + np.sum(shared**2, axis=1))
         return value, error
+
+    def _smoother(self, low: float, high: float, places: Array) -> tuple[Mask, Array]:
+        """Return which points lie in a stretch, and the weights of their friction at places in it."""
+        rows = (self.decades >= low) & (self.decades <= high)
+        return rows, smoothing_weights(self.decades[rows], _weights(self.error)[rows], places, BANDWIDTH)
+
+    @cached_property
+    def _variance(self) -> Array:
+        """Variances of the points (n,), larger by one factor where they scatter about the curve by more than these."""
+        finite = np.isfinite(self.error)
+        known = bool(np.any(self.error[finite] > 0.0))
+        variance = np.square(self.error if known else np.where(finite, self.friction, np.inf))
+        squares = expected = 0.0
+        for low, high in self.stretches:
+            rows, matrix = self._smoother(low, high, self.decades[(self.decades >= low) & (self.decades <= high)])
+            used, weight = finite[rows], _weights(self.error)[rows]
+            away = np.eye(len(weight)) - matrix
+            squares += float(np.sum((weight * (away @ self.friction[rows]) ** 2)[used]))
+            expected += float(np.sum((weight[:, None] * away**2 * np.where(used, variance[rows], 0.0))[used]))
+        factor = max(squares / expected if expected > 0.0 else 0.0, 1.0 if known else 0.0)
+        return np.where(finite, np.where(finite, variance, 0.0) * factor, np.inf)
 
 
 def _weights(error: Array) -> Array:
