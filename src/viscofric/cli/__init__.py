@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from types import FrameType
 
 INTERRUPTED, TERMINATED = 130, 143
 
@@ -11,7 +13,7 @@ try:
     import signal
     import threading
     from contextlib import contextmanager
-    from typing import TYPE_CHECKING, Any, Never
+    from typing import Any, Never
 
     import click
 
@@ -19,10 +21,6 @@ try:
 except KeyboardInterrupt:  # the user may change their mind while Python still loads
     sys.stderr.write("Interrupted.\n")
     sys.exit(INTERRUPTED)
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import FrameType
 
 
 class Terminated(KeyboardInterrupt):

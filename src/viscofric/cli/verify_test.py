@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import click
 
 from viscofric.cli.errors import reported_errors
 from viscofric.cli.output import print_json
 from viscofric.notes import listed
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: Columns of the report's table that are printed.
 _PRINTED = (

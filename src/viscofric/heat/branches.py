@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Generator
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import ConvergenceError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
-
-    from viscofric.arrays import Array
-
 
 _MOST_SOLVES = 30
 #: Steepest slope dG/dΔT that a step of Newton's counts with: nearer one, a state is about to vanish.

@@ -14,19 +14,14 @@ images: m = 1 + 2 Σ s^n exp(−4n²H²/l²), s = 1 if no heat leaves its base a
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.thermal import ThermalProperties
-
+from viscofric.thermal import ThermalProperties
 
 # Gauss's rule on panels as long as l (e − 1), and as 4 widths of an edge that passes, 1/(2 sweep): exact to 1e-10.
 _NODES, _PER_LOG, _PER_EDGE = 12, 1.7, 2.0

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
-from viscofric.heat.heating import HeatBalance
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.heat.heating import ThermalResistances
+from viscofric.heat.heating import HeatBalance, ThermalResistances
 
 #: Rises at which states are looked for, dense at small ones; halvings of the interval of one.
 _PLACES = np.linspace(0.0, 1.0, 1601) ** 2

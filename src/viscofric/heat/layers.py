@@ -18,15 +18,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import scipy.fft
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, ComplexArray, Indices
-    from viscofric.thermal import ThermalProperties
-
+from viscofric.arrays import Array, ComplexArray, Indices
+from viscofric.thermal import ThermalProperties
 
 #: Frequencies, over their interval, up to which responses are averaged.
 _AVERAGED = 2.5

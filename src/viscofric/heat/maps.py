@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 import scipy.fft
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import flag, insist_on
+from viscofric.arrays import Array, ComplexArray
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.influence import Diffusion
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantity, in_si, positive, to_si, two_lengths
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, ComplexArray
 
 
 def surface_temperature(

@@ -15,15 +15,12 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.heat.quadrature import unit_nodes
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.thermal import ThermalProperties
+from viscofric.thermal import ThermalProperties
 
 #: Nodes with which the means are exact to 1e-13 where Pe < 1e4, and to 1e-9 where Pe < 1e8.
 _NODES = 161

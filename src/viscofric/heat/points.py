@@ -11,15 +11,10 @@ F(u) = ∫_0^u exp(−t) K0(|t|) dt at its ends, u (exp(−u)) (K0 − K1) + 1 w
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.heat.quadrature import unit_nodes
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-
 
 _ANGLES, _ALONG = 121, 81
 _AT_ONCE = 128  # points, whose integrands are held at the same time

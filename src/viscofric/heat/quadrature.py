@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-
+from viscofric.arrays import Array
 
 # At ±3.1 the last node is 1e-15 from its end.
 _REACH = 3.1

@@ -5,23 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.means import disc_mean, strip_mean
 from viscofric.heat.points import disc_points, strip_points
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 from viscofric.thermal import ThermalProperties
-from viscofric.units import Quantity, positive, to_si, to_si_in_shape
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-    from viscofric.units import Quantities
-
+from viscofric.units import Quantities, Quantity, positive, to_si, to_si_in_shape
 
 #: Beyond it the temperature next to the edges changes within less than the quadrature resolves.
 FASTEST = 1e6

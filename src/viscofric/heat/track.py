@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on, numbers
+from viscofric.arrays import Array
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.influence import Diffusion
 from viscofric.heat.quadrature import unit_nodes
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantity, positive
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-
 
 #: Passes that are summed one by one; an integral from there on errs by 1/(24 n²) of a pass.
 _ONE_BY_ONE = 64

@@ -16,20 +16,17 @@ fall with the square of the division and can be extrapolated.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices
 from viscofric.errors import ConvergenceError
 from viscofric.motion.history import dense_parts
 from viscofric.motion.memory import StepParts, step_parts
 from viscofric.motion.springs import quadrature_error
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array, Indices
 
 #: Steps of the first run, by the time of the contact's own oscillation, and their growth.
 _BY_STIFFNESS, _GROWTH = 0.14, 1.4

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Generic, NamedTuple
+from typing import Generic, NamedTuple
 
 from viscofric.motion.mover import Field, Mover, Observation, Scales, State
-
-if TYPE_CHECKING:
-    from viscofric.motion.schedule import Instant
+from viscofric.motion.schedule import Instant
 
 #: Energies are so many times as accurate as the rest, for a balance of a tenth of the accuracy.
 _ENERGIES = 3.0

@@ -10,39 +10,31 @@ is iterated with Anderson acceleration [1]_ to convergence.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viscofric.arguments import insist_on_function, whole_number
-from viscofric.contact.bodies import checked_coulomb
+from viscofric.arrays import Array
+from viscofric.contact.bodies import Layer, checked_coulomb
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.motion.chains import Link, Pair, Reached
+from viscofric.motion.chains import Link, Pair, Reached, Track
 from viscofric.motion.cycle_numbers import Found, Period
 from viscofric.motion.cycle_solution import CycleSolution
+from viscofric.motion.history import History
 from viscofric.motion.march import INSTANT, march
+from viscofric.motion.schedule import Schedule
 from viscofric.motion.shear import shear_notes
 from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
-from viscofric.motion.watch import Watch
+from viscofric.motion.watch import RepeatingMover, Watch, Watched
+from viscofric.rheology.material import Material
 from viscofric.threads import one_blas_thread
-from viscofric.units import number
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array
-    from viscofric.contact.bodies import Layer
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.periodic.surface import PeriodicSurface
-    from viscofric.motion.chains import Track
-    from viscofric.motion.history import History
-    from viscofric.motion.schedule import Schedule
-    from viscofric.motion.watch import RepeatingMover, Watched
-    from viscofric.rheology.material import Material
-    from viscofric.units import Quantities, Quantity
+from viscofric.units import Quantities, Quantity, number
 
 # Allowed distance from the periodic state, relative to the accuracy, in the norm of the stored energy.
 _CLOSE = 0.3

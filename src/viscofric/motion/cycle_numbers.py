@@ -10,14 +10,13 @@ state.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.motion.chains import Link, Track
-    from viscofric.motion.solution import TransientSolution
-    from viscofric.motion.watch import Watched
+from viscofric.motion.chains import Link, Track
+from viscofric.motion.solution import TransientSolution
+from viscofric.motion.watch import Watched
 
 # Error of the steps over the difference of the chains; of the cells over that of the grids, whose cells are shorter by
 # 1.5, with a margin; of merged modes and the contact conditions over the accuracy.

@@ -7,30 +7,25 @@ acts on the future only, so that this converges quickly.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array, Indices
 from viscofric.contact.heated_result import AT_THE_LOSS, THIN
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.heat.heating import Heating
-from viscofric.heat.path import Passage, path_rise
+from viscofric.heat.path import Passage, PathRise, path_rise
 from viscofric.heat.result import TransientHeating
 from viscofric.motion.history import History, dense_times
+from viscofric.motion.problem import Problem
 from viscofric.motion.progress import Progress
 from viscofric.motion.shear import contact_sizes, shear_notes
+from viscofric.motion.solution import TransientSolution
 from viscofric.notes import Note
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from viscofric.arrays import Array, Indices
-    from viscofric.heat.path import PathRise
-    from viscofric.motion.problem import Problem
-    from viscofric.motion.solution import TransientSolution
-
 
 #: Times at which the rise is found, besides those asked for, and most runs.
 _POINTS, _MOST_RUNS = 60, 12

@@ -3,26 +3,21 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.arguments import exactly_one
+from viscofric.arrays import Array
 from viscofric.contact.bodies import unit_direction
 from viscofric.errors import InputError, brief, check_choice
 from viscofric.motion.schedule import Schedule, make_schedule
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.material import Material, insist_on_material
-from viscofric.showing import Shown
-from viscofric.units import to_si_array, to_si_in_shape
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-    from viscofric.units import Quantities
+from viscofric.showing import Rows, Shown
+from viscofric.units import Quantities, to_si_array, to_si_in_shape
 
 #: What may be prescribed normal to the surface, with its unit.
 CONTROLS = {"load": "N", "indentation": "m", "pressure": "Pa", "gap": "m"}

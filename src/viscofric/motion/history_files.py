@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.motion.history import BEFORE, CONTROLS, History
-from viscofric.readers.one_table import HISTORY, history_columns
+from viscofric.readers.one_table import HISTORY, HistoryColumns, history_columns
 from viscofric.readers.tables import name_columns
-from viscofric.units import registry, to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from os import PathLike
-
-    from viscofric.arrays import Array
-    from viscofric.readers.one_table import HistoryColumns
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, registry, to_si
 
 
 def read_history(

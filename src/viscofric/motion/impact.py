@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from viscofric.arguments import whole_number
+from viscofric.arrays import Array
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
@@ -20,11 +21,7 @@ from viscofric.motion.springs import impact_radius, is_body_of_revolution, profi
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, number, positive, to_si, to_si_array
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.units import Quantities
+from viscofric.units import Quantities, Quantity, number, positive, to_si, to_si_array
 
 TIGHTEST, LOOSEST = 1e-6, 1e-2  # accuracies
 #: Springs in the contact for an accuracy of 1e-4, and their maximum number; N springs give a force error of 0.4/N².

@@ -13,11 +13,13 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Generic
+from typing import Generic
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import ConvergenceError
 from viscofric.motion.chains import (
     SAME,
@@ -35,12 +37,7 @@ from viscofric.motion.chains import (
     over_scales,
 )
 from viscofric.motion.mover import QUICK, SHARE, Mover, Scales, State
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.motion.schedule import Instant, Schedule
+from viscofric.motion.schedule import Instant, Schedule
 
 _MOST_MARCHES = 6
 #: Changes of the step from one to the next; order 3 of the local error.

@@ -19,17 +19,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from viscofric.arrays import non_negative_fit
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
-
-    from viscofric.arrays import Array, ComplexArray
-
+from viscofric.arrays import Array, ComplexArray, non_negative_fit
 
 # |z| below which φ1 and φ2 are summed as power series, and the number of terms: 0.3¹²/14! is below rounding.
 _SERIES_BELOW, _TERMS = 0.3, 12

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar
+from typing import NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from viscofric.arrays import Array
-    from viscofric.motion.schedule import Instant
+from viscofric.arrays import Array
+from viscofric.motion.schedule import Instant
 
 State = TypeVar("State")
 

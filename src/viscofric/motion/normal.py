@@ -19,20 +19,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.motion.memory import StepParts, quickest_time, recovery_at_depth, step_parts
 from viscofric.motion.mover import QUICK, SHARE, Field, Observation, Scales
+from viscofric.motion.problem import Problem
+from viscofric.motion.schedule import Instant, Schedule
 from viscofric.motion.springs import both_sides, elastic_radius, graded_row, quadrature_error
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.motion.problem import Problem
-    from viscofric.motion.schedule import Instant, Schedule
 
 #: Springs from the axis to the largest edge for an accuracy of 1e-3, and their maximum number.
 SPRINGS, MOST_SPRINGS = 400, 2000

@@ -10,31 +10,26 @@ Inside, depths are in rms heights and compliances in that of the most compliant 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from viscofric.arrays import Array, ComplexArray, Mask
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.motion.memory import Modes, quickest_time, recovery_at_depth
 from viscofric.motion.mover import QUICK, Field, Observation, Scales
+from viscofric.motion.problem import Problem
+from viscofric.motion.schedule import Instant
 from viscofric.motion.wave_contact import StepContact, Target
 from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, stored_energy
 from viscofric.motion.waves import Waves
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array, ComplexArray, Mask
-    from viscofric.motion.problem import Problem
-    from viscofric.motion.schedule import Instant
-
 
 # Gap that is left by a step, as a part of what the step may add to the error, over the displacement at once
 # (from the least one on, in rms heights); of the first contact, a part of that.

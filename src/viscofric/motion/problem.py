@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from viscofric.contact.bodies import Layer
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.periodic.surface import PeriodicSurface
-    from viscofric.motion.schedule import Schedule
-    from viscofric.rheology.material import Material
+from viscofric.contact.bodies import Layer
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.motion.schedule import Schedule
+from viscofric.rheology.material import Material
 
 
 @dataclass(frozen=True, eq=False)

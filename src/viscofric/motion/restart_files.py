@@ -7,11 +7,14 @@ import hashlib
 import io
 import math
 import zipfile
+from collections.abc import Callable, Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from os import PathLike
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import LARGEST_FILE, LARGEST_UNPACKED, file_path, insist_on_size, read_bytes, write_atomically
 from viscofric.motion.chains import Difference, Errors, Link, Moment, Pair, Reached, Track
@@ -23,12 +26,6 @@ from viscofric.motion.normal import SpringState
 from viscofric.motion.periodic import PeriodicState
 from viscofric.motion.restart import Begun, Restart
 from viscofric.motion.schedule import Instant, Reading
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from os import PathLike
-
-    from viscofric.arrays import Array
 
 _FORMAT, _DIGEST = "viscofric state 2", "sha256"
 #: Beginnings of the names of a march, and of that on the coarser grid of cells.

@@ -19,17 +19,15 @@ import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate, islice, pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.rheology.material import Material
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.material import Material
+from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 #: Relative error of a part of the clock.
 _EXACT = 1e-12

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.coupling import ShearedContact, SurfaceCoupling, coupling_notes, sheared_compliance
 from viscofric.contact.periodic.surface import PeriodicSurface
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.motion.problem import Problem
-    from viscofric.motion.solution import TransientSolution
-    from viscofric.notes import Note
+from viscofric.motion.problem import Problem
+from viscofric.motion.solution import TransientSolution
+from viscofric.notes import Note
 
 
 def contact_sizes(problem: Problem, run: TransientSolution) -> Array:

@@ -17,17 +17,13 @@ that the first one then touches too, with f₁ ≥ f₂.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
 
 _NODES, _PARTS = np.polynomial.legendre.leggauss(40)
 _ANGLES, _ANGLE_WEIGHTS = 0.25 * math.pi * (_NODES + 1.0), 0.25 * math.pi * _PARTS

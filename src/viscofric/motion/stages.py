@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from viscofric.errors import InputError
 from viscofric.motion.history import History
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 
 def staged_history(

@@ -8,15 +8,13 @@ touch and the compliance c of a step, f = (δ − b)/c and F = Σ w f give dF = 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.motion.bounce import Springs
 from viscofric.motion.memory import step_coefficients
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.motion.bounce import Springs
 
 
 @dataclass(frozen=True)

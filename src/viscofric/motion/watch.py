@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
+from viscofric.arrays import Array
 from viscofric.motion.mover import Field, Mover, Observation, Scales, State
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array
-    from viscofric.motion.schedule import Instant, Schedule
+from viscofric.motion.schedule import Instant, Schedule
 
 
 class RepeatingMover(Mover[State], Protocol[State]):

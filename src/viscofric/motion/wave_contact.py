@@ -12,23 +12,19 @@ method of minimal residuals.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from viscofric.arrays import Array
+from viscofric.contact.arrays.backend import Cells
+from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.one_grid import OneGrid, Stage
+from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.errors import ConvergenceError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array
-    from viscofric.contact.arrays.backend import Cells
-    from viscofric.contact.extension import Extension
-    from viscofric.contact.periodic.operator import PeriodicOperator
 
 # Changes that are combined; iterations without a smaller residual, and iterations, after which another method is used.
 _COMBINED, _PATIENCE, _MOST = 2, 6, 60

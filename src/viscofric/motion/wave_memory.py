@@ -22,22 +22,17 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from viscofric.arrays import Array, ComplexArray
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.motion.memory import Modes, StepCoefficients, phi
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.motion.problem import Problem
-
+from viscofric.motion.problem import Problem
 
 # Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval; and
 # that part of it in which a point is passed from which on the passage is the shortest time.

@@ -9,19 +9,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import scipy.fft
+from numpy.typing import NDArray
 
+from viscofric.arrays import Array, ComplexArray
+from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.threads import threads_for
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.contact.bodies import Layer
 
 
 @dataclass(frozen=True, eq=False)

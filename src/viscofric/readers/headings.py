@@ -5,16 +5,12 @@ from __future__ import annotations
 import math
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from viscofric.errors import InputError, brief
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
 
 # "E' (MPa)", "T [degC]", then "E' / MPa", then "T_C", "f in Hz", "Temperature, °C": tried in this order.
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")

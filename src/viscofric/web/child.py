@@ -17,10 +17,12 @@ import sys
 import threading
 import time
 import traceback
+from collections.abc import Iterable
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from types import TracebackType
+from typing import Any, BinaryIO
 
 from viscofric.datasets import plain
 from viscofric.errors import ViscofricError, brief
@@ -28,11 +30,6 @@ from viscofric.serving import at_most, limit_memory
 from viscofric.web.jobs import LATER, WARM
 from viscofric.web.jobs.context import Context, beside_field
 from viscofric.web.study_files import check_confined
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from types import TracebackType
-
 
 #: What is sent at once may have this many bytes: a browser is not to be handed more.
 LARGEST_MESSAGE = 48_000_000

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path, PureWindowsPath
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from viscofric.errors import DataFileError
 from viscofric.files import parse_toml
 from viscofric.web.jobs.context import JobError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 #: Tables of a run file, and their keys that name files.
 FILE_KEYS = {

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
 
 from viscofric.errors import StudyError, brief
 from viscofric.notes import Note
 from viscofric.study.run_file.errors import keys
 from viscofric.study.run_file.study import FIELDS, TABLES, Study, parse_study
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-    from pathlib import Path
-
 
 #: What the exported run file is called.
 RUN_FILE = "study.toml"

@@ -11,14 +11,12 @@ import tempfile
 import threading
 import time
 import unicodedata
+from collections.abc import AsyncIterator
 from contextlib import aclosing
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import IO
 
 from viscofric.errors import InputError, brief
-
-if TYPE_CHECKING:
-    from collections.abc import AsyncIterator
 
 #: What a tab may call itself.
 KEY = r"^[A-Za-z0-9_-]{8,64}$"

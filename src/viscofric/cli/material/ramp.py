@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import shlex
 import sys
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import click
 
@@ -12,9 +13,6 @@ from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import Source
 from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option
 from viscofric.cli.rubber_options import column_options, deformation_option, modulus_unit_option
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @click.command(name="ramp")

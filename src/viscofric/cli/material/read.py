@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import click
 
@@ -10,9 +11,6 @@ from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import FILE, Source, plainly, refuse_to_overwrite
 from viscofric.cli.output import json_option, out_option, print_json
 from viscofric.cli.rubber_options import reading_options
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @click.command(name="read")

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.motion.memory import Modes, StepCoefficients, quickest_time, step_coefficients
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

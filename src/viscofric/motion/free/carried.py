@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.motion.free.box import Box
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
 
 
 class Lattice(NamedTuple):

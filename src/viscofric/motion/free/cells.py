@@ -4,24 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.complementarity import solve_complementarity
-from viscofric.contact.free.grids import Window
+from viscofric.arrays import Array, Mask
+from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
+from viscofric.contact.free.grids import Grid, Window
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
-from viscofric.motion.free.response import Response, step_operator
+from viscofric.motion.free.response import Response, StepOperator, step_operator
+from viscofric.motion.free.setting import Setting
 from viscofric.motion.free.state import Place
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Mask
-    from viscofric.contact.complementarity import ComplementaritySolution
-    from viscofric.contact.free.grids import Grid
-    from viscofric.motion.free.response import StepOperator
-    from viscofric.motion.free.setting import Setting
-    from viscofric.motion.schedule import Instant
+from viscofric.motion.schedule import Instant
 
 # Space by which a window is widened where the contact comes so many cells near its edge, as a part.
 _WIDER, _LEAST_MARGIN = 0.2, 2

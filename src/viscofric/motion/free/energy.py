@@ -9,13 +9,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.motion.memory import StepCoefficients
+from viscofric.arrays import Array
+from viscofric.motion.memory import StepCoefficients
 
 # κ below which the integrals over a step are summed as series, and the number of terms.
 _SERIES_BELOW, _TERMS = 0.5, 20

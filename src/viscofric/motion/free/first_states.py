@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.free.geometry import LINE, POINT
 from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.proximal import proximal_points
 from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
+from viscofric.motion.free.cells import Cells
 from viscofric.motion.free.energy import Products
 from viscofric.motion.free.state import FreeState
 from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import step_coefficients
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.motion.free.cells import Cells
-    from viscofric.motion.schedule import Instant
+from viscofric.motion.schedule import Instant
 
 # Patience of the solver, as of the steady contact's.
 _PATIENCE = 4

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
-from viscofric.contact.free.grids import Extent, Window
+from viscofric.arrays import Array
+from viscofric.contact.free.grids import Extent, Grid, Window
 from viscofric.contact.free.stage import Footprint
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
@@ -22,18 +23,12 @@ from viscofric.motion.free.carried import Lattice
 from viscofric.motion.free.cells import Cells
 from viscofric.motion.free.energy import Products
 from viscofric.motion.free.first_states import rested, slid, untouched
-from viscofric.motion.free.past import NO_PAST, parted
+from viscofric.motion.free.past import NO_PAST, Far, Past, parted
 from viscofric.motion.free.state import FreeState, Place
-from viscofric.motion.memory import Modes, recovery_at_depth
+from viscofric.motion.free.wake import Wake
+from viscofric.motion.memory import Modes, StepCoefficients, recovery_at_depth
 from viscofric.motion.mover import SHARE, Field, Observation, Scales
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.free.grids import Grid
-    from viscofric.motion.free.past import Far, Past
-    from viscofric.motion.free.wake import Wake
-    from viscofric.motion.memory import StepCoefficients
-    from viscofric.motion.schedule import Instant
+from viscofric.motion.schedule import Instant
 
 # Space by which the box of the memory is wider than it must be, as a part of it.
 _SPARE = 0.3

@@ -12,15 +12,12 @@ from __future__ import annotations
 import itertools
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices
 from viscofric.motion.free.box import Box
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, Indices
-    from viscofric.motion.free.response import Response
+from viscofric.motion.free.response import Response
 
 # Nodes of a piece and of a window in each direction; left part of a memory that counts as none.
 _NODES, _FADED = 8, 1e-12

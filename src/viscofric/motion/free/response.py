@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import scipy.fft
 
+from viscofric.arrays import Array, ComplexArray
 from viscofric.contact.free.geometry import LINE
 from viscofric.contact.influence.layer_potentials import LayerCell, LayerStrip
 from viscofric.contact.influence.line import HalfSpaceStrip
-from viscofric.contact.influence.potentials import HalfSpaceCell
+from viscofric.contact.influence.potentials import CellPotential, HalfSpaceCell
 from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, SteadyMaterial
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.contact.influence.potentials import CellPotential
-    from viscofric.contact.operators.layer import ScaledLayer
-    from viscofric.motion.free.box import Box
-
+from viscofric.contact.operators.layer import ScaledLayer
+from viscofric.motion.free.box import Box
 
 _NONE = np.empty(0)
 # Spectra that are kept: those of the last few sizes of the swept cells.

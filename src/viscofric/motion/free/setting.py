@@ -4,31 +4,26 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.bodies import Layer
+from viscofric.contact.free.geometry import Geometry
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.free.scale import Scale, ScaledIndenter
-from viscofric.contact.indenters.indenter import insist_on_round_edges
+from viscofric.contact.indenters.indenter import Indenter, insist_on_round_edges
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.errors import InputError
 from viscofric.motion.free.body import Body
 from viscofric.motion.free.response import Response, response_of
+from viscofric.motion.memory import Modes
 from viscofric.motion.mover import Scales
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.bodies import Layer
-    from viscofric.contact.free.geometry import Geometry
-    from viscofric.contact.free.grids import Grid
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.motion.memory import Modes
-    from viscofric.motion.problem import Problem
-    from viscofric.motion.schedule import Instant, Schedule
+from viscofric.motion.problem import Problem
+from viscofric.motion.schedule import Instant, Schedule
 
 # Distance from the load, in path lengths and units of length, from which displacements in plane strain are measured.
 _LEVEL = 20.0

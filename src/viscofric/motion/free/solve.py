@@ -10,30 +10,26 @@ from __future__ import annotations
 import itertools
 import logging
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from viscofric.arrays import Array
+from viscofric.contact.free.grids import Extent, Grid
 from viscofric.errors import ConvergenceError
-from viscofric.motion.chains import Errors, Moment, Track
+from viscofric.motion.chains import Errors, Moment, Reached, Track
 from viscofric.motion.free.mover import FreeMover
 from viscofric.motion.free.setting import Setting, with_fewer_kinks
 from viscofric.motion.free.stored import Level
 from viscofric.motion.march import march
 from viscofric.motion.memory import Modes
 from viscofric.motion.mover import Scales
+from viscofric.motion.problem import Problem
 from viscofric.motion.progress import Progress
 from viscofric.notes import Note
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.free.grids import Extent, Grid
-    from viscofric.motion.chains import Reached
-    from viscofric.motion.problem import Problem
 
 logger = logging.getLogger(__name__)
 

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from viscofric.motion.free.past import NO_PAST
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.motion.free.box import Box
-    from viscofric.motion.free.energy import Products
-    from viscofric.motion.free.past import Past
-    from viscofric.motion.free.wake import Wake
+from viscofric.arrays import Array
+from viscofric.motion.free.box import Box
+from viscofric.motion.free.energy import Products
+from viscofric.motion.free.past import NO_PAST, Past
+from viscofric.motion.free.wake import Wake
 
 
 class Place(NamedTuple):

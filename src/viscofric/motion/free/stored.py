@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import astuple, dataclass, fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.operators.layer import ScaledLayer
+from viscofric.motion.chains import Track
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.energy import Products
 from viscofric.motion.free.mover import FreeMover
 from viscofric.motion.free.past import Past, Piece
+from viscofric.motion.free.setting import Setting
 from viscofric.motion.free.state import FreeState, Place
 from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import Modes
 from viscofric.motion.mover import Scales
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from viscofric.arrays import Array
-    from viscofric.motion.chains import Track
-    from viscofric.motion.free.setting import Setting
-    from viscofric.motion.problem import Problem
+from viscofric.motion.problem import Problem
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.motion.free.box import Box
-    from viscofric.motion.free.response import Response
+from viscofric.arrays import Array
+from viscofric.motion.free.box import Box
+from viscofric.motion.free.response import Response
 
 # Lengths of its memory after which a wake has faded; nodes of each part; points along the window, for interpolation.
 _FADED, _NODES, _POINTS = 40.0, 8, 6

@@ -3,29 +3,20 @@
 from __future__ import annotations
 
 import re
-from datetime import timedelta
-from typing import TYPE_CHECKING
+from datetime import datetime, timedelta
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.headings import heading
-from viscofric.readers.mtm.pcs_rows import SIGNALS, notes, rows_of
-from viscofric.readers.mtm.pcs_steps import number_of, parse, start_times
-from viscofric.readers.mtm.readings import TractionReadings
-from viscofric.readers.source import unit_conversion
+from viscofric.readers.mtm.pcs_rows import SIGNALS, Rows, notes, rows_of
+from viscofric.readers.mtm.pcs_steps import Export, number_of, parse, start_times
+from viscofric.readers.mtm.readings import Thermometer, TractionReadings
+from viscofric.readers.source import Source, unit_conversion
 from viscofric.traction import TractionStep
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from datetime import datetime
-
-    from viscofric.arrays import Array, Integers
-    from viscofric.readers.mtm.pcs_rows import Rows
-    from viscofric.readers.mtm.pcs_steps import Export
-    from viscofric.readers.mtm.readings import Thermometer
-    from viscofric.readers.source import Source
 
 NAME = "a text export of PCS Instruments' MTM or ETM"
 

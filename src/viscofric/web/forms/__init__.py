@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from viscofric.web.forms import contact, others
-
-if TYPE_CHECKING:
-    from viscofric.web.forms.fields import Field
+from viscofric.web.forms.fields import Field
 
 #: By their names on the page.
 FORMS: dict[str, list[Field]] = {
