@@ -1,4 +1,4 @@
-"""Public names, imported at first use, so that importing one part does not load the rest; and names of before.
+"""Public names, imported at first use, so that importing one part does not load the rest; and renamed ones.
 
 A package's public names are written once, as imports in its stub ``__init__.pyi``, which type checkers read, too.
 """
@@ -36,10 +36,7 @@ def full_names() -> dict[str, str]:
 
 
 def loaded_when_used(package: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """Return a package's ``__getattr__``, ``__dir__`` (PEP 562) and ``__all__``, of the names in its stub.
-
-    Names of its submodules that were at the front door once are accepted there, with a warning that says what to write.
-    """
+    """Return a package's ``__getattr__``, ``__dir__`` (PEP 562) and ``__all__``, of the names in its stub."""
     homes = public_names(package)
     names = [*homes]
 
@@ -51,13 +48,8 @@ def loaded_when_used(package: str) -> tuple[Callable[[str], Any], Callable[[], l
             setattr(sys.modules[package], name, value)
             return value
         full = "" if name.startswith("_") else full_names().get(name, "")
-        # names of the report never were at the front door
-        if not full or package != FRONT_DOOR or full.startswith(f"{FRONT_DOOR}.report."):
-            text = f"module {package!r} has no attribute {name!r}" + (f"; write {full}" if full else "")
-            raise AttributeError(text, name=name, obj=sys.modules[package])
-        # the front door has a `__getattr__` of its own, between this one and who asks
-        warnings.warn(f"{package}.{name} is deprecated; write {full}.", DeprecationWarning, stacklevel=3)
-        return getattr(importlib.import_module(full.rpartition(".")[0]), name)
+        text = f"module {package!r} has no attribute {name!r}" + (f"; write {full}" if full else "")
+        raise AttributeError(text, name=name, obj=sys.modules[package])
 
     return fetch, lambda: sorted(names), names
 

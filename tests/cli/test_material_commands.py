@@ -32,7 +32,7 @@ def fitted(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
 
 
 def test_read_says_what_the_file_holds(tmp_path: Path) -> None:
-    done = call("read", EXAMPLE, "--csv", tmp_path / "again.csv")
+    done = call("read", EXAMPLE, "--out", tmp_path / "again.csv")
     assert done.exit_code == 0, done.output
     before, after = vf.read_dma(EXAMPLE), vf.read_dma(tmp_path / "again.csv")
     assert len(after.isotherms) == len(before.isotherms) == 24
@@ -153,7 +153,7 @@ def test_sparse_spectrum_has_no_more_modes_than_asked(tmp_path: Path) -> None:
 def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
     raw = tmp_path / "raw.csv"
     raw.write_bytes(EXAMPLE.read_bytes())
-    assert refusal("material", "read", raw, "--csv", raw)[:2] == (1, "is-input")
+    assert refusal("material", "read", raw, "--out", raw)[:2] == (1, "is-input")
     assert raw.read_bytes() == EXAMPLE.read_bytes()
 
 

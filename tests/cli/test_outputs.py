@@ -96,7 +96,6 @@ def test_every_command_has_out_and_json_where_they_apply(name: str) -> None:
     found = options(ALL[name])
     assert ({"-o", "--out"} <= found) == (name not in NO_OUT)
     assert ("--json" in found) == (name not in NO_JSON)
-    assert "--output" not in found
 
 
 def test_every_command_with_json_is_called_here_or_elsewhere() -> None:
@@ -133,21 +132,6 @@ def test_a_table_is_printed_by_out_dash(name: str, folder: Path, monkeypatch: py
     assert len(rows[0]) > 1
     refused = refusal(*CALLS[name], "--out", "-", "--json")
     assert refused.status == 2
-
-
-@pytest.mark.parametrize(
-    ("words", "old"), [(["solve", *SOLID, *BALL], "--output"), (["material", "read", "dma.csv"], "--csv")]
-)
-def test_the_old_name_of_out_works_and_says_that_it_is_old(
-    words: list[str], old: str, folder: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    monkeypatch.chdir(folder)
-    done = CliRunner().invoke(main, [*words, old, str(tmp_path / "old.csv")])
-    assert done.exit_code == 0, done.output
-    assert f"Deprecated: {old} is now --out (-o)." in done.stderr
-    assert "Deprecated" not in CliRunner().invoke(main, [*words, "-o", str(tmp_path / "new.csv")]).stderr
-    assert (tmp_path / "old.csv").read_bytes() == (tmp_path / "new.csv").read_bytes()
-    assert refusal(*words, old, tmp_path / "a.csv", "-o", tmp_path / "b.csv").status == 2
 
 
 @pytest.mark.parametrize(

@@ -77,22 +77,15 @@ def _check_results(folder: Path, as_json: bool) -> None:
             "cases": found.cases,
             "finished": found.finished,
             "damaged": {str(path): reason for path, reason in found.damaged.items()},
-            "unverified": [str(path) for path in found.unverified],
         }
         print_json(record)
     else:
         files = found.cases + found.finished
         click.echo(f"contacts   {found.cases} stored")
         click.echo(f"results    {'results.nc' if found.finished else 'not written yet'}")
-        click.echo(f"checksums  {files - len(found.damaged) - len(found.unverified)} of {files} files match")
+        click.echo(f"checksums  {files - len(found.damaged)} of {files} files match")
         for path, reason in found.damaged.items():
             click.echo(f"Damaged: {path}: {reason}", err=True)
-        if found.unverified:
-            click.echo(
-                f"Note: {len(found.unverified)} files have no checksum, because an older viscofric wrote them; they "
-                "are not verified.",
-                err=True,
-            )
     if found.damaged:
         sys.exit(1)
 

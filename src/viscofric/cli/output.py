@@ -35,44 +35,22 @@ RUN_JSON = "Print progress as JSON, one object a line; the last one has the outc
 
 
 def out_option(
-    words: str,
-    kind: click.Path = OUT,
-    *,
-    endings: tuple[str, ...] = (),
-    default: Path | None = None,
-    old: str = "--output",
+    words: str, kind: click.Path = OUT, *, endings: tuple[str, ...] = (), default: Path | None = None
 ) -> Decorator:
-    """Return a decorator that adds `--out`, and its `old` name, which still works but prints a line that says so."""
-    key = f"viscofric{old}"
-
-    def deprecated(ctx: click.Context, param: click.Parameter, value: Path | None) -> None:
-        if value is not None:
-            click.echo(f"Deprecated: {old} is now --out (-o).", err=True)
-            ctx.meta[key] = value
+    """Return a decorator that adds `--out`."""
 
     def chosen(ctx: click.Context, param: click.Parameter, value: Path | None) -> Path | None:
-        found: Path | None = ctx.meta.get(key)
-        if found is not None and ctx.get_parameter_source("out") is not click.core.ParameterSource.DEFAULT:
-            raise click.UsageError(f"--out and {old} are both given; they are the same option.")
-        found = value if found is None else found
-        if found == DASH and ctx.params.get("as_json"):
+        if value == DASH and ctx.params.get("as_json"):
             raise click.UsageError(
                 "--json and --out - both write to standard output; use one of them, or give --out a file."
             )
         if endings:
-            check_ending(found, "--out", endings)
-        return found
+            check_ending(value, "--out", endings)
+        return value
 
-    def add(function: Callable[..., Any]) -> Callable[..., Any]:
-        hidden = click.option(
-            old, "old_out", type=kind, hidden=True, is_eager=True, expose_value=False, callback=deprecated
-        )
-        shown = click.option(
-            "-o", "--out", type=kind, default=default, show_default=default is not None, callback=chosen, help=words
-        )
-        return shown(hidden(function))
-
-    return add
+    return click.option(
+        "-o", "--out", type=kind, default=default, show_default=default is not None, callback=chosen, help=words
+    )
 
 
 def picture_option(words: str) -> Decorator:

@@ -10,7 +10,6 @@ import numpy as np
 from viscofric.data import read_only
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
-from viscofric.lazy import renamed
 from viscofric.showing import Shown
 
 if TYPE_CHECKING:
@@ -44,7 +43,6 @@ COLUMNS = {
 }
 
 
-@renamed(isothermal="isothermal_friction", cold_viscoelastic="cold_friction", hot_viscoelastic="hot_friction")
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeatColumns:
     """Friction without heating, rises of temperature and both thermal states, an array each.

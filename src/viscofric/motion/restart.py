@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 # Relative difference that is rounding: of values, and of modes that may have been fitted on another machine.
 _ROUNDING, _FITTED = 1e-9, 1e-6
-# Numbers of modes.
-_NUMBERS = ("instantaneous", "at_once", "error")
+#: Numbers of modes.
+NUMBERS = ("instantaneous", "at_once", "error")
 
 
 class Begun(NamedTuple):
@@ -54,7 +54,7 @@ class Restart:
         else:
             modes: Modes = mover.merged  # type: ignore[attr-defined]
             basis = {"C": modes.C, "tau": modes.tau}
-            basis |= {one: np.array(getattr(modes, one)) for one in _NUMBERS}
+            basis |= {one: np.array(getattr(modes, one)) for one in NUMBERS}
         return cls(method, history, (Begun(track, basis),), _same(problem, basis))
 
     @classmethod
@@ -158,8 +158,7 @@ class Restart:
         from viscofric.motion.wave_memory import resolved_times
 
         one = self.basis
-        # Runs stored by older versions have no error.
-        held = Modes(C=one["C"], tau=one["tau"], **{name: float(one.get(name, 0.0)) for name in _NUMBERS})
+        held = Modes(C=one["C"], tau=one["tau"], **{name: float(one[name]) for name in NUMBERS})
         return PeriodicMover(problem, replace(held, error=_merged(held, problem, *resolved_times(problem))))
 
 

@@ -24,7 +24,7 @@ from viscofric.motion.history import History
 from viscofric.motion.mover import Field, Observation, Scales
 from viscofric.motion.normal import SpringState
 from viscofric.motion.periodic import PeriodicState
-from viscofric.motion.restart import Begun, Restart
+from viscofric.motion.restart import NUMBERS, Begun, Restart
 from viscofric.motion.schedule import Instant, Reading
 
 _FORMAT, _DIGEST = "viscofric state 2", "sha256"
@@ -131,7 +131,7 @@ def read_restart(path: str | PathLike[str]) -> Restart:
             named = {name: stored[name] for name in stored.files}
         if str(named["format"]) != _FORMAT:
             raise ValueError("of another kind")
-        if _DIGEST in named and str(named[_DIGEST]) != _digest(named):  # older versions wrote none
+        if str(named[_DIGEST]) != _digest(named):
             raise ValueError("other numbers than were stored")
         return _restart(named)
     except _DAMAGED:
@@ -172,7 +172,7 @@ def _below(named: Mapping[str, Any], start: str) -> dict[str, Array]:
 def _link(named: Mapping[str, Any], name: str, method: str) -> Link[Any]:
     parts = _below(named, f"{name}/state/")
     seen = _observation({one: named[f"{name}/seen/{one}"] for one in _SEEN}, _below(named, f"{name}/extents/"))
-    return Link(_STATES[method](parts), seen, float(named[f"{name}/work"]), float(named.get(f"{name}/rubbed", 0.0)))
+    return Link(_STATES[method](parts), seen, float(named[f"{name}/work"]), float(named[f"{name}/rubbed"]))
 
 
 def _state(kind: Any, parts: Mapping[str, Any]) -> Any:
@@ -195,7 +195,11 @@ _STATES: dict[str, Callable[[Mapping[str, Any]], Any]] = {
     "waves": partial(_state, PeriodicState),
     "grid": unpacked,
 }
-_BASES = {"springs": {"s"}, "waves": {"C", "tau"}, "grid": {"scale", "toward", "level", "known", "grid", "numbers"}}
+_BASES = {
+    "springs": {"s"},
+    "waves": {"C", "tau", *NUMBERS},
+    "grid": {"scale", "toward", "level", "known", "grid", "numbers"},
+}
 
 
 def _observation(values: Mapping[str, Any], extents: Mapping[str, Any]) -> Observation:
@@ -205,9 +209,7 @@ def _observation(values: Mapping[str, Any], extents: Mapping[str, Any]) -> Obser
 
 def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
     columns, extents = {one: named[f"moments/{one}"] for one in _SEEN}, _below(named, "moments/extents/")
-    count = len(named["moments/time"])
-    shapes: dict[str, tuple[int, ...]] = {"rubbed": (count,), "slopes": (count,), "left_out": (count, 4)}
-    rubbed, slopes, left_out = (named.get(f"moments/{one}", np.zeros(shape)) for one, shape in shapes.items())
+    rubbed, slopes, left_out = (named[f"moments/{one}"] for one in ("rubbed", "slopes", "left_out"))
     moments: list[Moment[Any]] = []
     for place, time in enumerate(named["moments/time"].tolist()):
         axes, field = _below(named, f"field/{place}/axes/"), None

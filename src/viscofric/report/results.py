@@ -161,11 +161,6 @@ def is_wide(tree: xr.DataTree, cases: xr.Dataset) -> Mask:
     return np.asarray(reach(tree, cases) > SMALL_STRAIN)
 
 
-def knows_range(cases: xr.Dataset) -> bool:
-    """Whether results say which of their cases lie within the measured frequencies; older ones do not."""
-    return "within_measured_frequencies" in cases.variables
-
-
 def is_extrapolated(cases: xr.Dataset) -> Mask:
     """Whether each case rests on frequencies that were not measured; not where it was not solved."""
     friction = "predicted" if "predicted" in cases.variables else "friction_coefficient"

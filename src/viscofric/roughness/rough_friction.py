@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
 from statistics import NormalDist
 from typing import TYPE_CHECKING, Literal
@@ -13,7 +12,6 @@ import numpy as np
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.result import SolvedHeatColumns
-from viscofric.lazy import renamed
 from viscofric.notes import note_attributes
 from viscofric.rheology.interface.friction import total_error, total_friction
 from viscofric.showing import Plotted
@@ -26,7 +24,6 @@ if TYPE_CHECKING:
     from viscofric.showing import Rows
 
 
-@renamed(mean_friction="mean_friction_coefficient")
 @dataclass(frozen=True, eq=False)
 class RoughFriction(Plotted):
     """Friction and contact area on several rough surfaces, over temperatures and speeds.
@@ -103,7 +100,6 @@ class RoughFriction(Plotted):
         """Mean corrected contact area fraction over the surfaces, (m, n) array."""
         return np.asarray(self.corrected_area_fraction.mean(axis=-1))
 
-    @renamed(probability="level")
     def interval(
         self, level: float = 0.95, *, of: Literal["viscoelastic", "total"] = "viscoelastic"
     ) -> tuple[Array, Array]:
@@ -127,11 +123,6 @@ class RoughFriction(Plotted):
         InputError
             If there is one surface only, the level is out of range, or there is no interface.
         """
-        if str(of) == "hysteresis":
-            warnings.warn(
-                'viscofric: of="hysteresis" is deprecated; write of="viscoelastic".', DeprecationWarning, stacklevel=3
-            )
-            of = "viscoelastic"
         check_choice(of, "of", "viscoelastic", "total")
         if of == "viscoelastic":
             return interval_of_mean(self.friction_coefficient, level)

@@ -14,7 +14,6 @@ from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
-from viscofric.lazy import renamed
 from viscofric.showing import Plotted
 from viscofric.units import Quantities, to_si_array
 
@@ -29,7 +28,6 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-9
 
 
-@renamed(total="friction_coefficient")
 @dataclass(frozen=True, eq=False)
 class FrictionByWavelength(Plotted):
     """Friction coefficient of a contact, by wavelengths of the pressure.

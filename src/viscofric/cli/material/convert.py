@@ -31,8 +31,6 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "js
 )
 @click.option(
     "--modulus-unit",
-    "--unit-system",
-    "modulus_unit",
     type=click.Choice(["Pa", "MPa"]),
     default="Pa",
     show_default=True,

@@ -16,7 +16,7 @@ from viscofric.cli.rubber_options import reading_options
 @click.command(name="read")
 @click.argument("files", nargs=-1, required=True, type=Source())
 @reading_options
-@out_option("Also write the points used of frequency sweeps to a table (CSV).", FILE, old="--csv")
+@out_option("Also write the points used of frequency sweeps to a table (CSV).", FILE)
 @json_option("Print what was read as JSON, in SI units.")
 def command(files: tuple[Path, ...], out: Path | None, as_json: bool, **reading: Any) -> None:
     """Print the kind of test, format, isotherms and doubtful data of FILES.

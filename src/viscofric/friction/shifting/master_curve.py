@@ -16,7 +16,6 @@ from viscofric.friction.shifting.collapse import Collapse
 from viscofric.friction.shifting.isotherms import nominal_temperatures
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.smoothing import SmoothedPoints
-from viscofric.lazy import renamed
 from viscofric.nominal import SAME_LOAD
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -25,7 +24,6 @@ from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantities, Quantity, positive, shown_celsius, shown_number, to_si_in_shape
 
 
-@renamed(friction="friction_coefficient", error="friction_error", scatter="friction_scatter")
 @dataclass(frozen=True, eq=False)
 class FrictionMasterCurve(Plotted):
     """Viscoelastic friction against reduced speed, μ(v, T) = μ(α(T) v, reference).

@@ -20,7 +20,6 @@ from viscofric.report.results import (
     is_extrapolated,
     is_from_friction,
     is_rough,
-    knows_range,
     notes,
     number,
     numbers,
@@ -70,8 +69,6 @@ def _decades(rms: float) -> str:
 def _judged(name: str, words: str, value: float, attributes: Mapping[Any, Any], kind: str) -> Check:
     """Return a check with the verdict that the results hold, and the words with the limit for an ``@``."""
     holds, limit = (number(attributes, f"{kind}_{part}") for part in ("holds", "limit"))
-    if not math.isfinite(limit):  # results of an older viscofric
-        return Check(name, "noted", words.replace("@", "rms"), value)
     return Check.of(name, holds == 1.0, words.replace("@", f"rms; good if ≤ {_decades(limit)}"), value, limit)
 
 
@@ -81,7 +78,7 @@ def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
         return
     given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
     if not (math.isfinite(given) and math.isfinite(used)):
-        return  # results of an older viscofric
+        return
     if used >= given:
         words = f"All {given:.0f} isotherms are joined into the master curve."
         yield Check("Isotherms used", "passed", Note("isotherms-used", words, values={"used": used, "given": given}))
@@ -267,7 +264,7 @@ def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
         ("prediction_master", "cases along the friction master curve"),
     ):
         part = group(tree, name) if name == "measurement" else solved_cases(tree, name)
-        if part is None or not knows_range(part):
+        if part is None or "within_measured_frequencies" not in part:
             continue
         beyond, of = int(is_extrapolated(part).sum()), next(iter(part.sizes.values()))
         outside += beyond

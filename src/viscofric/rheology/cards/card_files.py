@@ -14,7 +14,6 @@ import numpy as np
 from viscofric.arguments import insist_on, whole_number
 from viscofric.errors import DataFileError, InputError, check_choice, not_written, short_notes
 from viscofric.files import file_path, read_text
-from viscofric.lazy import renamed
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
 from viscofric.rheology.cards.card import SOFTEST, Card, Reading, Solid, UnitSystem, Writing, card_law, give_units
@@ -56,7 +55,6 @@ _PROGRAMS: dict[str, _Program] = {
 LARGEST_CARD = 20_000_000
 
 
-@renamed(unit_system="modulus_unit")
 def write_card(
     material: Material,
     path: str | PathLike[str],
@@ -171,7 +169,7 @@ def write_card(
     except (OSError, ValueError) as error:
         raise not_written(path, error) from None
     for note in notes:
-        warnings.warn(note, stacklevel=3)  # `renamed` lies between
+        warnings.warn(note, stacklevel=2)
     return file
 
 

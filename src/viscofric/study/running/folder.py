@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import IO
 
 from viscofric.errors import DataFileError, StudyError, not_written
-from viscofric.study.results.file import DIGEST, RESULTS_FILE, open_tree
+from viscofric.study.results.file import RESULTS_FILE, open_tree
 from viscofric.study.running.store import CaseStore
 
 CASES_FOLDER = "cases"
@@ -51,7 +51,6 @@ class CheckedResults:
     cases: int  # stored contacts
     finished: bool  # whether the results file exists, too
     damaged: dict[Path, str]  # files that differ from what was stored, with the reason
-    unverified: tuple[Path, ...]  # files without a checksum, written by older versions of viscofric
 
 
 def check_results(folder: Path) -> CheckedResults:
@@ -62,20 +61,13 @@ def check_results(folder: Path) -> CheckedResults:
         raise DataFileError(
             folder, f"contains no results of a study (no {RESULTS_FILE}, no {CASES_FOLDER}).", code="no-results"
         )
-    damaged, unverified = {}, []
-    for key, found in store.damaged().items():
-        file = store.folder / f"{key}.json"
-        if found.older:
-            unverified.append(file)
-        else:
-            damaged[file] = found.reason
+    damaged = {store.folder / f"{key}.json": found.reason for key, found in store.damaged().items()}
     if finished:
         try:
-            if DIGEST not in open_tree(folder)[0].attrs:
-                unverified.append(target)
+            open_tree(folder)
         except DataFileError as error:
             damaged[target] = error.problem
-    return CheckedResults(cases, finished, damaged, tuple(unverified))
+    return CheckedResults(cases, finished, damaged)
 
 
 def _refuse_links(folder: Path) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import io
 import json
@@ -27,7 +26,6 @@ class Damaged:
     """A stored contact that cannot be used."""
 
     reason: str  # what is wrong, without its name
-    older: bool = False  # whether it only lacks a checksum, as from an older viscofric
 
 
 @dataclass(frozen=True)
@@ -45,7 +43,7 @@ class CaseStore:
         except DataFileError as error:
             return Damaged(error.problem) if path.exists() else None
         if not _is_sealed(stored, key):
-            return _unsealed(stored)
+            return Damaged("does not match its checksum")
         try:
             values = parse_json(stored)
             if "failed" in values:
@@ -123,12 +121,3 @@ def _is_sealed(stored: bytes, key: str) -> bool:
 
 def _checksum(body: bytes, key: str) -> str:
     return hashlib.sha256(key.encode() + b"\0" + body).hexdigest()
-
-
-def _unsealed(stored: bytes) -> Damaged:
-    """Return what is wrong with a file without a correct checksum."""
-    with contextlib.suppress(ValueError):
-        values = parse_json(stored)
-        if isinstance(values, dict) and not {"case", "sha256"} & values.keys():
-            return Damaged("has no checksum; it was stored by an older viscofric", older=True)
-    return Damaged("does not match its checksum")
