@@ -17,7 +17,7 @@ try:
 
     import click
 
-    from viscofric.cli.overview import COMMANDS, LazyGroup, write_overview
+    from viscofric.cli.overview import COMMANDS, TYPED, LazyGroup, write_overview
 except KeyboardInterrupt:  # the user may change their mind while Python still loads
     sys.stderr.write("Interrupted.\n")
     sys.exit(INTERRUPTED)
@@ -36,6 +36,11 @@ class _Program(LazyGroup):
     def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the overview, which fits a screen."""
         write_overview(formatter)
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Keep the words as they were typed, for `typed_command`."""
+        ctx.meta[TYPED] = tuple(args)
+        return super().parse_args(ctx, args)
 
     def main(self, *args: Any, standalone_mode: bool = True, **extra: Any) -> Any:
         """Run the command line; an interruption at any moment is one sentence and its own exit status."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.files import DASH, FILE, OUT, PICTURES, Named, check_ending, to_be_written
+from viscofric.cli.overview import TYPED
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -78,6 +80,11 @@ def pdf_option(function: Callable[..., Any]) -> Callable[..., Any]:
 def json_option(words: str = "Print inputs and results as JSON, in SI units.") -> Decorator:
     """Return a decorator that adds `--json`."""
     return click.option("--json", "as_json", is_flag=True, is_eager=True, help=words)
+
+
+def typed_command() -> str:
+    """Return the command as it was typed, to be run again."""
+    return shlex.join(["viscofric", *click.get_current_context().meta[TYPED]])
 
 
 def print_json(record: dict[str, Any], indent: int | None = 2) -> None:

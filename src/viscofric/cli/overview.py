@@ -52,6 +52,10 @@ _STATUSES = (
 )
 
 
+#: Where the words of a command are kept; see `viscofric.cli.output.typed_command`.
+TYPED = "viscofric.words"
+
+
 def write_overview(formatter: click.HelpFormatter) -> None:
     """Write all commands under their headings, and the meaning of the exit statuses."""
     formatter.write("Usage: viscofric [--version] COMMAND [--help] [OPTIONS] [ARGUMENTS]\n")

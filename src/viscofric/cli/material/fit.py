@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +11,7 @@ import click
 from viscofric.cli.errors import print_doubtful_checks, print_notes, reported_errors
 from viscofric.cli.files import FILE
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
-from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option
+from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option, typed_command
 from viscofric.cli.rubber_options import reading_options, shift_factor_options
 
 if TYPE_CHECKING:
@@ -134,11 +133,7 @@ def command(
             folder,
             title=parameters["name"]
             or f"Rubber of {files[0].name}" + (f" and {len(files) - 1} more" if files[1:] else ""),
-            command=_command(
-                files,
-                {**parameters, "card": cards, "card_law": card_law, "samples": samples}
-                | {"out": out, "synthetic": synthetic},
-            ),
+            command=typed_command(),
             samples=samples,
             synthetic=synthetic,
         )
@@ -216,29 +211,6 @@ def _fixed(text: str) -> tuple[str, float]:
         raise click.BadParameter(
             f"{text!r}: write temperature and decadic logarithm, such as '-20 degC=4.2'.", param_hint="--fix"
         ) from None
-
-
-def _command(files: tuple[Path, ...], parameters: dict[str, Any]) -> str:
-    """Return the command that does the same again, without what is the default anyway."""
-    options = {option.name: option for option in command.params}
-    words = ["viscofric", "material", "fit", *map(str, files)]
-    for name, value in parameters.items():
-        if value in (None, (), {}, False, options[name].default if name in options else None):
-            continue
-        option = f"--{name.replace('_', '-')}"
-        if value is True:
-            words.append(option)
-            continue
-        if isinstance(value, dict):
-            option = option.removesuffix("s")
-            words += [word for what, said in value.items() for word in (option, f"{what}={said}")]
-            continue
-        if name in options and options[name].nargs > 1:
-            words += [option, *map(str, value)]
-            continue
-        for one in value if isinstance(value, tuple) else (value,):
-            words += [option, str(one)]
-    return shlex.join(words)
 
 
 def _print(results: StudyResults) -> None:

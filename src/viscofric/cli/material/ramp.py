@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +9,7 @@ import click
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import Source
-from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option
+from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option, typed_command
 from viscofric.cli.rubber_options import column_options, deformation_option, modulus_unit_option
 
 
@@ -103,7 +101,7 @@ def _material(
         validated(MaterialTable, values | {name: value for name, value in more.items() if value}),
         folder,
         title=chosen["name"] or f"Material from the temperature ramps in {files[0].name}",
-        command=shlex.join(["viscofric", *sys.argv[1:]]),
+        command=typed_command(),
         samples=0,
         synthetic=chosen["synthetic"],
     )
