@@ -443,7 +443,7 @@ FOREIGN_TEXT = (
     "viscofric.units",
     "viscofric.files",
     "viscofric.contact.arrays.backend",
-    "viscofric.literature.basis",
+    "viscofric.literature.citations",
     "viscofric.study.run_file.study",
     "viscofric.study.results.file",
     "viscofric.study.results.export",

@@ -12,7 +12,7 @@ from scipy.special import ellipk, j1, k0
 import viscofric as vf
 from refusals import refused
 from viscofric.heat.means import disc_mean, strip_mean
-from viscofric.heat.points import disc_points, strip_points
+from viscofric.heat.sources import disc_points, strip_points
 
 UNIT = vf.ThermalProperties(1.0, 1.0, 1.0, "unit")
 

@@ -11,8 +11,7 @@ import viscofric as vf
 from marks import apart, slow
 from refusals import refused
 from viscofric.errors import ConvergenceError
-from viscofric.motion.free.box import Box
-from viscofric.motion.free.carried import Lattice
+from viscofric.motion.free.box import Box, Lattice
 from viscofric.notes import Note, note_of
 
 SLS = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")

@@ -106,7 +106,7 @@ def test_map_holds_the_load(desk: Desk) -> None:
     answer = desk.run(contact, BALL, speed=0.1, temperature=333.15, stages="coarse")
     x, y, pressure = (np.array(answer["map"][name]) for name in ("x", "y", "pressure"))
     assert pressure.shape == (len(y), len(x))
-    assert max(pressure.shape) <= contact_pictures().MOST_CELLS
+    assert max(pressure.shape) <= contact.MOST_CELLS
     # Three digits of each pressure.
     assert pressure.sum() * (x[1] - x[0]) * (y[1] - y[0]) == pytest.approx(25.0, rel=1e-3)
     # The outline encloses the contact's area, but for what smoothing takes off at its edge.
@@ -116,19 +116,12 @@ def test_map_holds_the_load(desk: Desk) -> None:
     assert area == pytest.approx(value(answer, "contact_area"), rel=0.03)
 
 
-def contact_pictures() -> Any:
-    from viscofric.web.jobs import contact_pictures
-
-    return contact_pictures
-
-
 def test_thinning_keeps_the_mean_and_cuts_what_is_left_over() -> None:
-    fields = contact_pictures()
     field = np.arange(24.0).reshape(6, 4)
-    x, y, thin = fields.thinned(np.arange(6.0), np.arange(4.0), field, 3)
+    x, y, thin = contact.thinned(np.arange(6.0), np.arange(4.0), field, 3)
     assert (x.tolist(), y.tolist()) == ([0.5, 2.5, 4.5], [0.5, 2.5])
     assert thin.mean() == field.mean()
-    _, _, cut = fields.thinned(np.arange(5.0), np.arange(1.0), np.ones((5, 1)), 2)
+    _, _, cut = contact.thinned(np.arange(5.0), np.arange(1.0), np.ones((5, 1)), 2)
     assert cut.shape == (1, 1)
 
 

@@ -12,13 +12,56 @@ from functools import cache
 from typing import TYPE_CHECKING
 from urllib.parse import parse_qs
 
-from starlette.datastructures import Headers
-from starlette.responses import HTMLResponse, RedirectResponse, Response
-
-from viscofric.web.replies import UNKEPT, refusal, with_headers
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, RedirectResponse, Response
 
 if TYPE_CHECKING:
-    from starlette.types import ASGIApp, Receive, Scope, Send
+    from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+
+_CONTENT = "; ".join(
+    [
+        "default-src 'none'",
+        "script-src 'self'",
+        "style-src 'self'",
+        "style-src-attr 'unsafe-inline'",  # the library of the figures sets attributes; its sheet is ours (index.html)
+        "img-src 'self' data: blob:",
+        "font-src 'self'",
+        "connect-src 'self'",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "frame-ancestors 'none'",
+    ]
+)
+HEADERS = {
+    "content-security-policy": _CONTENT,
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+}
+#: Headers of a reply that comes from no page of the server.
+UNKEPT = {**HEADERS, "cache-control": "no-store"}
+
+
+def with_headers(send: Send, program: str) -> Send:
+    """Add to every reply the headers that keep the page private, and the name of this run of the server."""
+
+    async def sending(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            MutableHeaders(scope=message).update({**HEADERS, "x-program": program})
+        await send(message)
+
+    return sending
+
+
+def refusal(scope: Scope, status: int, words: str) -> Response:
+    """Return the reply of a sentence, as JSON to a script."""
+    headers = {**UNKEPT, "connection": "close"}
+    if scope["path"].startswith("/api/"):
+        return JSONResponse({"message": words}, status, headers)
+    return PlainTextResponse(f"{words}\n", status, headers)
+
 
 _HOST = re.compile(r"(?P<name>\[[^\[\]]+\]|[^:\[\]]+)(?::(?P<port>\d{1,5}))?")
 _EVERYWHERE = {"0.0.0.0", "::", ""}

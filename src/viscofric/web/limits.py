@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from starlette.datastructures import Headers
 
-from viscofric.web.replies import refusal
+from viscofric.web.access import refusal
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -5,6 +5,80 @@ from __future__ import annotations
 import copy
 from typing import Any
 
+_SHIFT = "Factor by which temperature multiplies all relaxation times, relative to the reference temperature."
+_FREQUENCY = "Frequency at which the contact deforms the rubber: speed over half the length of the contact."
+_IMBALANCE = "Work of the forces minus stored and dissipated energy, relative; zero for an exact solution."
+_MISFIT = "Root mean square of log₁₀ of fitted over measured values; 0.01 decades are 2.3 %."
+_AHEAD = "Distance from the indenter's axis, along the motion"
+
+#: Label on the page -> definition.
+GLOSSARY: dict[str, str] = {
+    # data
+    "measured in": "Deformation of the specimen: tension, compression or bending for E′ and E″, shear for G′ and G″.",
+    "isotherms": "Sweeps at one temperature each.",
+    "frequencies": "Temperature ramps at one frequency each.",
+    "tests": "Step tests at one temperature each.",
+    "points": "Readings that are used; repeated ones are averaged.",
+    "flagged": "Readings that were left out, or that are far off their neighbours; the table below names each.",
+    "material": "Name of the material, from its file, the catalogue, or as given.",
+    "reference": "Temperature at which the shift factor is 1.",
+    # shift
+    "overlap": "Root mean square misfit of the shifted isotherms where they overlap, in decades.",
+    "figure of merit": "Distance of neighbouring isotherms in tan δ against |E*|, over expected scatter; good to 1.",
+    "E′ against E″": "Whether E′ and E″ are those of one causal material, by the Kramers–Kronig relations.",
+    "α(T) used": f"Shift factors of the material model: as measured, or a law fitted to them. {_SHIFT}",
+    # spectrum
+    "E₀, relaxed": "Relaxed modulus: Young's modulus at zero frequency.",
+    "E∞, glassy": "Glassy modulus: Young's modulus at infinite frequency.",
+    "modes": "Terms of the retardation spectrum: compliances, each with its retardation time.",
+    "misfit of E′, E″": _MISFIT,
+    "misfit of the step tests": _MISFIT,
+    "Poisson’s ratio": "Ratio of lateral contraction to extension, constant in the model.",
+    # contact
+    "Friction coefficient μ": "Friction force over normal load, here from hysteresis (rolling resistance) alone.",
+    "Indentation": "Approach of the indenter to the undeformed surface far away.",
+    "Contact area": "Area with pressure above zero.",
+    "Contact width": "Length of the contact along the motion.",
+    "Contact area fraction": "Area with pressure above zero over the area of the surface.",
+    "Mean pressure in contact": "Load over the area with pressure above zero.",
+    "Mean gap": "Mean distance of the two surfaces.",
+    "Maximum pressure": "Largest pressure between indenter and rubber.",
+    "Friction force": "Force against the motion, from the pressure on the slopes of the indenter.",
+    "Friction force per length": "Force against the motion per length of the cylinder.",
+    "Dissipated power": "Friction force times speed: the energy that the rubber turns into heat per time.",
+    "Leading edge ahead of axis": f"{_AHEAD}, to the front edge of the contact.",
+    "Trailing edge behind axis": f"{_AHEAD}, to the rear edge of the contact.",
+    "Contact half-width": "Half of the contact's width across the motion.",
+    "Centre of pressure ahead of axis": f"{_AHEAD}, to the resultant of the pressure.",
+    "Mean pressure": "Normal load over contact area.",
+    "Frequency v/(2πa)": _FREQUENCY,
+    "Frequency v/a": _FREQUENCY,
+    "Shift factor α(T)": _SHIFT,
+    "Loss tangent tan δ at v/a": "Ratio E″/E′ at the frequency of the contact.",
+    "Storage modulus E′ at v/a": "Stress in phase with the strain, over the strain, at the frequency of the contact.",
+    "Energy balance error": _IMBALANCE,
+    "Cells along an edge": "Cells of the grid along the longer edge of the computed area.",
+    "Points along an edge": "Points of the surface along its longer edge in this solution.",
+    "Lateral force over load": "Force across the motion over normal load; zero where the surface has no lay.",
+    "Frequency of the longest wave": "Speed over the longest wavelength of the surface: the slowest deformation.",
+    "Frequency of the shortest wave": "Speed over the shortest wavelength of the surface: the fastest deformation.",
+    # motion
+    "Restitution": "Speed of the mass after the contact over its speed before.",
+    "Contact time": "Time from the first touch to the separation.",
+    "Largest force": "Largest normal force during the contact.",
+    "Largest indentation": "Largest approach of the indenter during the contact.",
+    "Load at the end": "Normal load at the last time.",
+    "Indentation at the end": "Approach of the indenter at the last time.",
+    "Largest friction coefficient": "Largest magnitude of friction force over normal load.",
+    "Friction coefficient at the end": "Friction force over normal load at the last time.",
+    # measurement
+    "Prediction minus measurement": "Root mean square of the relative difference of predicted and measured friction.",
+    # export
+    "cases": "Combinations of material, shape, load, speed and temperature that the study computes.",
+    "warnings": "What limits the validity of results; each is listed below.",
+}
+
+
 #: What the page opens with, as a run file would say it; a curve that is there in a second or two.
 FIRST_STUDY: dict[str, Any] = {
     "title": "Friction of a synthetic fluoroelastomer",
@@ -26,7 +100,7 @@ def start(study: dict[str, Any] | None = None) -> dict[str, Any]:
 
     from viscofric.web.forms import FORMS
     from viscofric.web.forms.contact import SHAPES
-    from viscofric.web.glossary import GLOSSARY
+    from viscofric.web.start import GLOSSARY
     from viscofric.web.workspace import LARGEST_UPLOAD, MOST_FILES
 
     return {

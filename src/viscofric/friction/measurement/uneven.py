@@ -9,8 +9,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.friction.measurement.conditions import Condition, where
-from viscofric.friction.measurement.fit import Entry
-from viscofric.friction.measurement.growth import Growth
+from viscofric.friction.measurement.fit import Entry, Growth
 from viscofric.notes import Note
 from viscofric.traction import TractionRuns
 

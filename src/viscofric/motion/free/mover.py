@@ -18,8 +18,7 @@ from viscofric.arrays import Array
 from viscofric.contact.free.grids import Extent, Grid, Window
 from viscofric.contact.free.stage import Footprint
 from viscofric.errors import ConvergenceError
-from viscofric.motion.free.box import Box
-from viscofric.motion.free.carried import Lattice
+from viscofric.motion.free.box import Box, Lattice
 from viscofric.motion.free.cells import Cells
 from viscofric.motion.free.energy import Products
 from viscofric.motion.free.first_states import rested, slid, untouched

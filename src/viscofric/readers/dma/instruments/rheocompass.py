@@ -1,28 +1,33 @@
-"""Anton Paar RheoCompass text exports: the frequency sweeps among their intervals.
+"""Anton Paar RheoCompass text exports: the frequency sweeps among their intervals, in any language.
 
-No genuine file of this format was available.  The layout (see `rheocompass_intervals`) and the English, German,
-French and Portuguese names are those of published programs for such files; the names in other languages are the usual
-words of the field.
+An interval begins with its number and count of points; then come the names of the columns, a row of qualifiers,
+units in brackets, and one row for each point, its first cell empty::
+
+    Interval and data points:   1           31
+    Interval data:              Point No.   Angular Frequency   Storage Modulus   ...   Status
+                                            [rad/s]             [Pa]
+                                1           100                 12345
+
+No genuine file of this format was available.  The layout and the English, German, French and Portuguese names are those
+of published programs for such files; the names in other languages are the usual words of the field.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+import csv
+import re
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.instruments.rheocompass_intervals import (
-    Decimals,
-    Interval,
-    has_intervals,
-    head,
-    intervals,
-)
+from viscofric.readers.dma import names
 from viscofric.readers.dma.names import DMA, tools_in
 from viscofric.readers.dma.tables.dma_table import read_export
+from viscofric.readers.source import Source, decimal_comma
 from viscofric.readers.table import Table, instrument_table
 
 if TYPE_CHECKING:
@@ -31,6 +36,184 @@ if TYPE_CHECKING:
 
     #: Line and cells of points.
     Rows = list[tuple[int, tuple[str, ...]]]
+
+
+_INTERVAL = re.compile(
+    r'^"?[^\t;,:"\r\n]{3,60}:"?(?P<mark>[\t;,])"?\d{1,6}"?(?P=mark)"?\d{1,6}"?[\t;, ]*\r?\n(?:[\t;, ]*\r?\n)?'
+    r'"?[^\t;,:"\r\n]{3,60}:"?(?P=mark)',
+    re.MULTILINE,
+)
+_SWEEP = ("storage modulus", "loss modulus")
+#: Rows of qualifiers and units between the names of the columns and the first point.
+_ROWS_BEFORE_POINTS = 3
+#: Of the number of an interval, and of its points.
+_MOST_DIGITS = 6
+
+_THOUSANDS_COMMA = re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d*)?([eE][+-]?\d+)?")
+_THOUSANDS_POINT = re.compile(r"[+-]?\d{1,3}(\.\d{3})+(,\d*)?([eE][+-]?\d+)?")
+
+
+@dataclass(frozen=True, eq=False)
+class Interval:
+    """One interval, its numbers still as text; the first column is the empty cell at the beginning of each row."""
+
+    line: int  # of the file
+    announced: int  # number of points
+    columns: tuple[str, ...]
+    units: tuple[str, ...]
+    rows: tuple[tuple[int, tuple[str, ...]], ...]  # line and cells of each numbered point
+    invalid: tuple[int, ...]  # lines of points marked by the instrument
+
+    @cached_property
+    def places(self) -> dict[str, int]:
+        """Columns by what they hold, in the words of `names.QUANTITIES`; the first of several."""
+        found: dict[str, int] = {}
+        for place, column in enumerate(self.columns[1:], start=1):
+            if (what := names.quantity(column)) is not None:
+                found.setdefault(what, place)
+        return found
+
+    @property
+    def oscillates(self) -> bool:
+        """Whether there are a frequency and both moduli."""
+        return self.frequency is not None and all(what in self.places for what in _SWEEP)
+
+    @property
+    def frequency(self) -> int | None:
+        """The column of the angular frequency, or where there is none of the frequency."""
+        return self.places.get("angular frequency", self.places.get("frequency"))
+
+    @property
+    def missing(self) -> int:
+        """How many points fewer than announced the file holds."""
+        return max(self.announced - len(self.rows) - len(self.invalid), 0)
+
+
+def has_intervals(text: str) -> bool:
+    """Return whether the text has an interval of numbered points: two labels that end in a colon, one with counts."""
+    return _INTERVAL.search(text) is not None
+
+
+def head(source: Source) -> list[list[str]]:
+    """Return the cells of the lines above the first interval, where the export names the measuring system."""
+    text = source.text or ""
+    first = _INTERVAL.search(text)
+    return [] if first is None else [_cells(line, first["mark"]) for line in text[: first.start()].splitlines()]
+
+
+def intervals(source: Source) -> list[Interval]:
+    """Return the intervals of an export."""
+    text = source.text or ""
+    first = _INTERVAL.search(text)
+    if first is None:
+        raise DataFileError(source.path, "contains no interval of numbered points.", code="no-points")
+    lines = text.splitlines()
+    cells = [_cells(line, first["mark"]) for line in lines]
+    found = []
+    for start in (place for place, row in enumerate(cells) if _begins(row)):
+        named = next((place for place in range(start + 1, min(start + 3, len(cells))) if cells[place][0]), None)
+        if named is None or not cells[named][0].endswith(":") or _begins(cells[named]):
+            raise DataFileError(
+                source.path,
+                "the names of the columns must follow the number of points.",
+                start + 1,
+                code="missing-columns",
+            )
+        found.append(_interval(source.path, cells, start, named))
+    broken = found[-1].missing > 0 or len(cells[-1]) < len(found[-1].columns)
+    if broken and not text.endswith(("\n", "\r")):
+        problem = (
+            f"the last interval announces {found[-1].announced} points, but the file is truncated; export it again."
+        )
+        raise DataFileError(source.path, problem, len(lines), code="cut-short")
+    return found
+
+
+def _begins(row: list[str]) -> bool:
+    counts = [cell.isdecimal() and len(cell) <= _MOST_DIGITS for cell in row[1:3]]
+    return row[0].endswith(":") and counts == [True, True] and not any(row[3:])
+
+
+def _cells(line: str, mark: str) -> list[str]:
+    try:
+        row = next(csv.reader([line], delimiter=mark), [])
+    except csv.Error:
+        row = line.split(mark)
+    return [cell.strip() for cell in row] or [""]
+
+
+def _interval(path: str, cells: list[list[str]], start: int, named: int) -> Interval:
+    columns = tuple(" ".join(cell.split()) for cell in cells[named])
+    units_at = next(
+        (place for place in range(named + 1, min(named + 1 + _ROWS_BEFORE_POINTS, len(cells))) if _units(cells[place])),
+        None,
+    )
+    if units_at is None:
+        raise DataFileError(
+            path, "a row of units in brackets must follow the names of the columns.", named + 1, code="no-unit"
+        )
+    rows, invalid = [], []
+    for place in range(units_at + 1, len(cells)):
+        row = cells[place]
+        if row[0]:
+            break  # the next interval, result or test
+        number = row[1] if len(row) > 1 else ""
+        if number.isdecimal():
+            rows.append((place + 1, tuple(_padded(row, len(columns)))))
+        elif re.match(r"\d+\D", number):
+            invalid.append(place + 1)  # "3 (invalid)", in the user's language
+        # A row without a number is empty, or one of the wave form of the point above.
+    units = tuple(cell.strip("[] ") for cell in _padded(cells[units_at], len(columns)))
+    return Interval(start + 1, int(cells[start][2]), columns, units, tuple(rows), tuple(invalid))
+
+
+def _units(row: list[str]) -> bool:
+    return not row[0] and any(cell.startswith("[") and cell.endswith("]") for cell in row)
+
+
+def _padded(row: list[str], size: int) -> list[str]:
+    return (row + [""] * size)[:size]
+
+
+@dataclass(frozen=True)
+class Decimals:
+    """The separators of thousands (usually none) and decimals in one file."""
+
+    thousands: str = ""
+    point: str = "."
+
+    @classmethod
+    def of(cls, path: str, found: list[Interval]) -> Decimals:
+        """Return those of all numbers of the intervals, or raise `DataFileError` if they contradict each other."""
+        numbers = [
+            (row[place], line)
+            for interval in found
+            for place in set(interval.places.values())
+            for line, row in interval.rows
+        ]
+        commas = [number for number in numbers if "," in number[0]]
+        points = [number for number in numbers if "." in number[0]]
+        if not commas:
+            return cls()
+        if not points:
+            return cls("", "," if decimal_comma(path, commas) else ".")
+        if all(_THOUSANDS_COMMA.fullmatch(number) for number, _ in commas):
+            return cls(",", ".")
+        if all(_THOUSANDS_POINT.fullmatch(number) for number, _ in points):
+            return cls(".", ",")
+        raise DataFileError(
+            path,
+            f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals and "
+            "thousands cannot be distinguished; export all decimals in one way.",
+            points[0][1],
+            code="mixed-decimals",
+        )
+
+    def plain(self, cell: str) -> str:
+        """Return a cell with a decimal point and without separators of thousands."""
+        plain = cell.replace(self.thousands, "") if self.thousands else cell
+        return plain.replace(",", ".") if self.point == "," else plain
+
 
 NAME = "Anton Paar RheoCompass text"
 
