@@ -7,18 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.data import Deformation, Origin, set_columns, tensile_from_shear
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
-from viscofric.showing import Plotted
-from viscofric.units import angular_frequency, positive, shown_celsius
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-    from viscofric.units import Quantities, Quantity
+from viscofric.showing import Plotted, Rows
+from viscofric.units import Quantities, Quantity, angular_frequency, positive, shown_celsius
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +118,7 @@ class AmplitudeSweep(Origin, Plotted):
             notes=(*self.notes, note),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the moduli along ``strain_amplitude``.
 
         Returns

@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 from viscofric.arguments import insist_on, numbers, sentences, text
-from viscofric.datasets import dataset
+from viscofric.arrays import Array, ComplexArray, Integers
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
-from viscofric.showing import Items, Plotted, rows_of
-from viscofric.units import checked_poisson_ratio, in_si, positive
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    import xarray
-
-    from viscofric.arrays import Array, ComplexArray, Integers
-    from viscofric.showing import Rows
-    from viscofric.units import Quantities, Quantity
-
+from viscofric.showing import Items, Plotted, Rows, rows_of
+from viscofric.units import Quantities, Quantity, checked_poisson_ratio, in_si, positive
 
 #: How a dynamic mechanical analyser deformed its sample.
 Deformation: TypeAlias = Literal["tension", "compression", "bending", "shear"]
@@ -236,7 +228,7 @@ class Isotherm(Moduli, Plotted, Items[tuple[float, float, float]]):
             ("strain amplitude", self.strain_amplitude, "%"),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the moduli along ``angular_frequency``.
 
         Returns
@@ -328,7 +320,7 @@ class IsothermalSweeps(Origin, Plotted, Items[Isotherm]):
         )
         return replace(self, isotherms=isotherms, deformation="tension", notes=(*self.notes, note))
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the points along the dimension ``reading``, isotherm by isotherm.
 
         Returns
@@ -420,7 +412,7 @@ class MasterCurve(Moduli, Plotted, Items[tuple[float, float, float]]):
         """E' + iE'', Pa."""
         return np.asarray(self.storage_modulus + 1j * self.loss_modulus)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the points along the dimension ``reading``.
 
         Returns

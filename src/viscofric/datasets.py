@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 #: For annotations; xarray itself takes long to import.
 Dataset: TypeAlias = "xarray.Dataset"
+DataArray: TypeAlias = "xarray.DataArray"
+DataTree: TypeAlias = "xarray.DataTree"
 #: Above this power of ten, powers of ten are not exact floats.
 _EXACT = 22
 

@@ -17,18 +17,16 @@ import subprocess
 import sys
 import threading
 from collections import deque
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Callable, Generator, Iterator, Sequence
+from types import TracebackType
+from typing import Any, Self, TypeAlias
 
 from viscofric.arguments import whole_number
 from viscofric.errors import InputError, ViscofricError
 from viscofric.threads import usable_threads
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Iterator, Sequence
-    from types import TracebackType
-    from typing import Self
+Child: TypeAlias = subprocess.Popen[bytes]
 
-    Child: TypeAlias = subprocess.Popen[bytes]
 
 _SERVE = "from viscofric.serving import serve; serve({parent}, {needed!r}, {memory})"
 _ENDED = "a process ended before its contact was solved, usually for lack of memory; use fewer workers."

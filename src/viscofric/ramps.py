@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.data import Deformation, Moduli, Origin, set_columns, set_members, tensile_from_shear
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
-from viscofric.showing import Items, Plotted
-from viscofric.units import angular_frequency, positive, shown_celsius, to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-    from viscofric.units import Quantity
+from viscofric.showing import Items, Plotted, Rows
+from viscofric.units import Quantity, angular_frequency, positive, shown_celsius, to_si
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +62,7 @@ class TemperatureRamp(Moduli, Plotted):
             ("loss modulus", self.loss_modulus, "Pa"),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the moduli along the dimension ``reading``.
 
         Returns
@@ -191,7 +183,7 @@ class TemperatureRamps(Origin, Plotted, Items[TemperatureRamp]):
         )
         return replace(self, ramps=ramps, deformation="tension", notes=(*self.notes, note))
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the points along the dimension ``reading``, ramp by ramp.
 
         Returns

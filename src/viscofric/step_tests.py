@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import whole_number
+from viscofric.arrays import Array
 from viscofric.data import Deformation, Origin, set_columns, set_members, tensile_from_shear
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
-from viscofric.showing import Items, Plotted, Shown
-from viscofric.units import in_either, positive, shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-    from viscofric.units import Quantities, Quantity
+from viscofric.showing import Items, Plotted, Rows, Shown
+from viscofric.units import Quantities, Quantity, in_either, positive, shown_celsius
 
 #: What was held: the stress (creep) or the strain (relaxation).
 StepKind: TypeAlias = Literal["creep", "relaxation"]
@@ -203,7 +196,7 @@ class StepTests(Origin, Plotted, Items[StepTest]):
         whole_number(per_decade, "per_decade", 1, 10_000)
         return replace(self, tests=tuple(one.thinned(per_decade) for one in self.tests))
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the points along the dimension ``reading``, test by test.
 
         Returns
@@ -302,7 +295,7 @@ class StepMasterCurve(Plotted):
         """The relaxation modulus, or 1/J(t) of creep; Pa."""
         return np.asarray(1.0 / self.response if self.kind == "creep" else self.response)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the points along the dimension ``reading``.
 
         Returns

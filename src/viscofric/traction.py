@@ -3,27 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on, sentences, text
+from viscofric.arrays import Array, Integers, Mask
 from viscofric.data import picked, read_only, whole_numbers
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, Remedy, setting
-from viscofric.showing import Plotted, Shown
+from viscofric.showing import Plotted, Rows, Shown
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, Integers, Mask
-    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True)
@@ -263,7 +257,7 @@ class TractionRuns(Plotted):
         note = Note("readings-selected", f"{chosen.size} of {len(self)} readings are selected.", values=counts)
         return replace(self, **columns, notes=(*self.notes, note))
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the readings along the dimension ``reading``.
 
         Returns

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING
 import click
 
 from viscofric.cli.files import plainly
+from viscofric.datasets import DataTree
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
-
-    import xarray
 
     from viscofric.errors import ViscofricError
     from viscofric.notes import Note, Reader
@@ -150,7 +149,7 @@ def _typed(parameter: click.Parameter) -> str:
     return max(parameter.opts, key=len) if isinstance(parameter, click.Option) else parameter.human_readable_name
 
 
-def print_doubtful_checks(tree: xarray.DataTree, but: Iterable[str] = ()) -> None:
+def print_doubtful_checks(tree: DataTree, but: Iterable[str] = ()) -> None:
     """Print every check of results that did not pass, but for these, as a warning; the report has them all."""
     from viscofric.report.texts.checks import all_checks
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.datasets import Dataset
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
-
-    import xarray
 
     from viscofric.contact.solution import ContactSolution
 
@@ -118,7 +118,7 @@ def write_fields(path: Path, solution: ContactSolution) -> None:
         write_atomically(path, _table(solution))
 
 
-def write_dataset(path: Path, data: xarray.Dataset) -> None:
+def write_dataset(path: Path, data: Dataset) -> None:
     """Write a data set: netCDF, or a table (CSV, a row for each point), by the ending of the name."""
     from viscofric.files import write_atomically
 
@@ -141,7 +141,7 @@ def _table(solution: ContactSolution) -> bytes:
     return "\n".join(["x (m),y (m),pressure (Pa),displacement (m)", *rows, ""]).encode()
 
 
-def _netcdf(path: Path, data: xarray.Dataset) -> bytes:
+def _netcdf(path: Path, data: Dataset) -> bytes:
     from viscofric.errors import not_written
 
     try:

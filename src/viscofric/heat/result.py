@@ -3,21 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.data import read_only
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
-from viscofric.showing import Shown
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-
+from viscofric.showing import Rows, Shown
 
 #: Rises of temperature of a steady contact, with unit and long name.
 RISES = {
@@ -173,7 +166,7 @@ class ContactHeating(Shown):
             ("rise of the other state", self.other_rise, "K"),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return all numbers with units and long names; those of the other state only where there is one."""
         heat = "(W/m of a line contact, W/m² of a rough surface)"
         meanings = OF_CONTACT | {
@@ -263,6 +256,6 @@ class TransientHeating(Shown):
             "isothermal_friction_force": (self.isothermal_friction_force, force, "friction force without heating"),
         }
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return all along ``step``, the number of the time; a solution's data set has them along ``time``."""
         return dataset("step", self.columns("N", "J"))

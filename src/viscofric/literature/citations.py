@@ -8,11 +8,12 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from importlib.metadata import version
 from itertools import chain
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.solution import ContactSolution
+from viscofric.datasets import DataTree
 from viscofric.errors import InputError
 from viscofric.files import parse_toml
 from viscofric.friction.curves import FrictionCurves
@@ -43,10 +44,6 @@ from viscofric.roughness.rough_friction import RoughFriction
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.showing import Rows, Shown
 from viscofric.study.results.results import StudyResults
-
-if TYPE_CHECKING:
-    import xarray
-
 
 Basis: TypeAlias = Iterator[tuple[Reference, str]]
 #: A reason, and the keys of its references.
@@ -207,7 +204,7 @@ def _of_study(results: StudyResults) -> Iterator[Any]:
     yield from _study_friction(results.tree)
 
 
-def _study_rubber(table: dict[str, Any], found: xarray.DataTree) -> Iterator[Any]:
+def _study_rubber(table: dict[str, Any], found: DataTree) -> Iterator[Any]:
     if "catalogue" in table:
         yield from basis(catalogue_material(table["catalogue"]))
         return
@@ -226,7 +223,7 @@ def _study_rubber(table: dict[str, Any], found: xarray.DataTree) -> Iterator[Any
         yield from _COMPARED_LAWS
 
 
-def _study_friction(tree: xarray.DataTree) -> Iterator[Any]:
+def _study_friction(tree: DataTree) -> Iterator[Any]:
     groups = tree.children
     if "prediction" in groups and "friction_lower" in groups["prediction"].data_vars:
         yield from _BANDED_FRICTION

@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.showing import Plotted
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.motion.cycle_numbers import Estimate, Found
-    from viscofric.motion.solution import TransientSolution
-    from viscofric.showing import Rows
-
+from viscofric.datasets import Dataset
+from viscofric.motion.cycle_numbers import Estimate, Found
+from viscofric.motion.solution import TransientSolution
+from viscofric.showing import Plotted, Rows
 
 #: Numbers with errors.
 _NUMBERS = (
@@ -98,7 +92,7 @@ mean_friction_coefficient_error : float or None
         errors = {f"{name}_error": None if one is None else one.error for name, one in numbers.items()}
         return cls(run=run, **values, **errors, periods=periods, change=found.change, warnings=run.warnings)  # type: ignore[arg-type]
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the period along ``time`` (s), with the numbers of the cycle and their errors as attributes."""
         names = (*_NUMBERS, *(f"{name}_error" for name in _NUMBERS), "periods", "change")
         numbers = {name: getattr(self, name) for name in names}

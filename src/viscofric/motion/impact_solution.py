@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from viscofric.datasets import dataset
-from viscofric.showing import Plotted, shown_as_html, shown_as_text
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.motion.solution import TransientSolution
-    from viscofric.showing import Rows
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset, dataset
+from viscofric.motion.solution import TransientSolution
+from viscofric.showing import Plotted, Rows, shown_as_html, shown_as_text
 
 
 class ImpactContact(NamedTuple):
@@ -133,7 +128,7 @@ class ImpactSolution(Plotted):
         """Largest indentation of the first contact, m."""
         return self.contacts[0].largest_indentation
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the data set of `run` with the velocity, and the first contact as attributes."""
         columns = dataset("time", {"velocity": (self.velocity, "m/s", "velocity of the indenter into the material")})
         first = self.contacts[0]._asdict()
@@ -184,7 +179,7 @@ class RestitutionCurve(Plotted):
             ("warnings", self.warnings),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return all columns along ``temperature`` (K, where known) and ``speed`` (m/s)."""
         columns = {
             "restitution": (self.restitution, "1", "coefficient of restitution"),

@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from os import PathLike
+from typing import Any
 
 import numpy as np
 
-from viscofric.datasets import dataset
+from viscofric.arrays import Array
+from viscofric.datasets import DataArray, Dataset, dataset
 from viscofric.errors import InputError
-from viscofric.showing import Plotted, Shown
-from viscofric.units import to_si
-
-if TYPE_CHECKING:
-    from os import PathLike
-
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.heat.result import TransientHeating
-    from viscofric.motion.mover import Field
-    from viscofric.motion.restart import Restart
-    from viscofric.showing import Rows
-    from viscofric.units import Quantity
-
+from viscofric.heat.result import TransientHeating
+from viscofric.motion.mover import Field
+from viscofric.motion.restart import Restart
+from viscofric.showing import Plotted, Rows, Shown
+from viscofric.units import Quantity, to_si
 
 #: Geometry -> units of forces, energies and areas.
 _UNITS = {"point": ("N", "J", "m2"), "line": ("N/m", "J/m", "m"), "periodic": ("Pa", "J/m2", "1")}
@@ -187,7 +179,7 @@ class TransientSolution(Plotted):
         """Whether pressures were kept."""
         return any(one is not None for one in self._fields)
 
-    def pressure_at(self, time: Quantity) -> xarray.DataArray:
+    def pressure_at(self, time: Quantity) -> DataArray:
         """Return the pressure at one of the times.
 
         Parameters
@@ -258,7 +250,7 @@ class TransientSolution(Plotted):
 
         write_restart(path, reached(self._restart))
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return forces, depth, extents, energies and errors along ``time`` (s)."""
         force, energy, area = _UNITS[self.geometry]
         columns: dict[str, Any] = {

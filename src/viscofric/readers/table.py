@@ -5,23 +5,19 @@ from __future__ import annotations
 import csv
 import math
 import re
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.headings import CONSTANT, FREQUENCIES_OF_HEADINGS, NO_WORDS, Column, Vocabulary, option_of
 from viscofric.readers.source import decimal_comma, unit_conversion
 
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Sequence
-
-    from viscofric.arrays import Array, Integers
-
-    #: Cells of one row, with its number in the file.
-    NumberedRow = tuple[int, Sequence[str]]
+#: Cells of one row, with its number in the file.
+NumberedRow = tuple[int, Sequence[str]]
 
 
 #: Printed by instruments and people in place of a number.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,22 +13,15 @@ from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy
 from viscofric.readers.dma.names import deformation_of, frequency_of_title, temperature_of_title
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
-from viscofric.readers.headings import FREQUENCIES_OF_HEADINGS, Column, heading, option_of, place_of
-from viscofric.readers.source import decimal_comma, same_unit
-from viscofric.readers.table import MISSING, make_table, split_cells
+from viscofric.readers.headings import FREQUENCIES_OF_HEADINGS, Column, Vocabulary, heading, option_of, place_of
+from viscofric.readers.source import Source, decimal_comma, same_unit
+from viscofric.readers.table import MISSING, NumberedRow, Table, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from viscofric.readers.headings import Vocabulary
-    from viscofric.readers.source import Source
-    from viscofric.readers.table import NumberedRow, Table
-
-    #: A line with its number in the file.
-    NumberedLine = tuple[int, str]
-    #: Places of the columns that all tables beside each other share, those of each, and the title of each.
-    Sets = tuple[list[int], Sequence[Sequence[int]], list[tuple[str, ...]]]
+#: A line with its number in the file.
+NumberedLine = tuple[int, str]
+#: Places of the columns that all tables beside each other share, those of each, and the title of each.
+Sets = tuple[list[int], Sequence[Sequence[int]], list[tuple[str, ...]]]
 
 
 #: Characters of a text that may hold its header.

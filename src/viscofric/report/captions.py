@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.datasets import Dataset, DataTree
 from viscofric.report.figures.heating import MOST_PANELS as HEATED
 from viscofric.report.figures.histories import MOST_LINES as HISTORIES
 from viscofric.report.figures.maps import MARKED_TEMPERATURES, known_shifts
@@ -34,11 +34,8 @@ from viscofric.report.sweeps import (
 )
 from viscofric.report.texts.numbers import degrees, prefixed, speed
 
-if TYPE_CHECKING:
-    import xarray as xr
 
-
-def captions(tree: xr.DataTree) -> dict[str, str]:
+def captions(tree: DataTree) -> dict[str, str]:
     """Say what each figure shows."""
     said = _captions(tree)
     for place, (rubber, branch) in enumerate(rubbers(tree), 1):
@@ -46,7 +43,7 @@ def captions(tree: xr.DataTree) -> dict[str, str]:
     return said
 
 
-def _captions(tree: xr.DataTree) -> dict[str, str]:
+def _captions(tree: DataTree) -> dict[str, str]:
     reference = reference_temperature(tree)
     at = "the reference temperature" if reference is None else degrees(reference)
     points = group(tree, "measurement") is not None
@@ -103,19 +100,19 @@ def _captions(tree: xr.DataTree) -> dict[str, str]:
     }
 
 
-def _heat_of(tree: xr.DataTree) -> str:
+def _heat_of(tree: DataTree) -> str:
     heating = group(tree, "heating")
     return "" if heating is None else str(heating.attrs["heat_of"])
 
 
-def _few_heated(tree: xr.DataTree) -> str:
+def _few_heated(tree: DataTree) -> str:
     """Say how many of the heated curves are drawn, if not all."""
     heating = group(tree, "heating")
     count = 1 if heating is None else math.prod(n for name, n in heating.sizes.items() if name not in ("speed", SAMPLE))
     return f" {HEATED} of {count} curves are drawn." if count > HEATED else ""
 
 
-def _of_temperature_map(tree: xr.DataTree) -> str:
+def _of_temperature_map(tree: DataTree) -> str:
     data = group(tree, "temperature_map")
     if data is None:
         return ""
@@ -127,7 +124,7 @@ def _of_temperature_map(tree: xr.DataTree) -> str:
     )
 
 
-def _of_sweep(tree: xr.DataTree) -> str:
+def _of_sweep(tree: DataTree) -> str:
     """Say what runs along the axis, what the lines and the panels are, and what was left out."""
     friction = group(tree, "prediction")
     layout = None if friction is None else layout_of(friction)
@@ -156,7 +153,7 @@ def _of_sweep(tree: xr.DataTree) -> str:
     return f"{said}.{missing}"
 
 
-def _of_histories(tree: xr.DataTree) -> str:
+def _of_histories(tree: DataTree) -> str:
     """Say what is drawn over time, and how many cases are left out."""
     data = group(tree, "history")
     if data is None:
@@ -168,7 +165,7 @@ def _of_histories(tree: xr.DataTree) -> str:
     return words + warm + _some(data, "time", data.sizes["instant"])
 
 
-def _of_impacts(tree: xr.DataTree) -> str:
+def _of_impacts(tree: DataTree) -> str:
     """Say what falls, and how many lines are left out."""
     data = group(tree, "impact")
     if data is None:
@@ -178,7 +175,7 @@ def _of_impacts(tree: xr.DataTree) -> str:
     return f"Restitution of impacts of {mass}{_some(data, 'restitution', each)}"
 
 
-def _some(data: xr.Dataset, name: str, each: int) -> str:
+def _some(data: Dataset, name: str, each: int) -> str:
     """Say how many of the cases are drawn, and what their bands are; ends the sentence."""
     samples = data.sizes.get("sample", 1)
     count = data[name].size // each // samples
@@ -186,7 +183,7 @@ def _some(data: xr.Dataset, name: str, each: int) -> str:
     return f"{some}{'; bands: 95 % of the uncertainty samples of the material' if samples > 1 else ''}."
 
 
-def _of_map(tree: xr.DataTree) -> str:
+def _of_map(tree: DataTree) -> str:
     friction = group(tree, "prediction")
     seeds = 0 if friction is None else seeds_averaged(friction)
     mapped = {*_MAPPED, SEED} if seeds else set(_MAPPED)
@@ -209,7 +206,7 @@ def _of_map(tree: xr.DataTree) -> str:
 _MAPPED = ("speed", "temperature")
 
 
-def _of_contacts(tree: xr.DataTree) -> str:
+def _of_contacts(tree: DataTree) -> str:
     shown = shown_contacts(tree)
     if not shown:
         return ""
@@ -234,7 +231,7 @@ def _of_rough_contacts(is_line: bool) -> str:
     return f"Contact pressure {seen}. {blank}{arrow}."
 
 
-def _of_convergence(tree: xr.DataTree) -> str:
+def _of_convergence(tree: DataTree) -> str:
     cases = solved_cases(tree)
     between = 0 if cases is None else int(interpolated(cases).sum())
     said = (
@@ -249,7 +246,7 @@ def _of_convergence(tree: xr.DataTree) -> str:
     )
 
 
-def _origin(tree: xr.DataTree) -> str:
+def _origin(tree: DataTree) -> str:
     """Say where the shift factors come from."""
     factors = group(tree, "shift_factors")
     origin = "found" if factors is None else str(factors.attrs.get("shift_origin", "found"))
@@ -261,13 +258,13 @@ def _origin(tree: xr.DataTree) -> str:
     return f"{found}; some were fixed at given values, without an error" if origin == "held" else found
 
 
-def _banded(tree: xr.DataTree) -> str:
+def _banded(tree: DataTree) -> str:
     spectrum = group(tree, "spectrum_curve")
     banded = spectrum is not None and "storage_modulus_lower" in spectrum
     return ", with the 95 % band of its modulus (grey: extrapolated, beyond what was measured)" if banded else ""
 
 
-def _shaded(tree: xr.DataTree, name: str) -> str:
+def _shaded(tree: DataTree, name: str) -> str:
     """Say what the bands are, where there are any."""
     cases = solved_cases(tree, name)
     if cases is None or "friction_lower" not in cases.variables:
@@ -275,7 +272,7 @@ def _shaded(tree: xr.DataTree, name: str) -> str:
     return ", with the 95 % band from the uncertainty of the material (sweeps, shift factors, spectrum)"
 
 
-def _thin(tree: xr.DataTree, name: str) -> str:
+def _thin(tree: DataTree, name: str) -> str:
     cases = solved_cases(tree, name)
     return (
         ", thin where extrapolated beyond the measured frequencies"

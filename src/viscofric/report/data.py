@@ -3,38 +3,33 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from collections.abc import Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from viscofric.arrays import Array, Mask
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.report.results import is_extrapolated, number, values
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import xarray as xr
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.rheology.superposition.consistency import SuperpositionCheck
-    from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.rheology.superposition.consistency import SuperpositionCheck
+from viscofric.rheology.superposition.result import Superposition
 
 #: Sweeps as read, isotherms as joined, or either as a dataset along `reading`.
-Sweeps: TypeAlias = "IsothermalSweeps | Superposition | Sequence[Isotherm] | xr.Dataset"
+Sweeps: TypeAlias = "IsothermalSweeps | Superposition | Sequence[Isotherm] | Dataset"
 #: A master curve, what it came from, or a dataset along `reading`.
-Master: TypeAlias = "MasterCurve | Superposition | xr.Dataset"
+Master: TypeAlias = "MasterCurve | Superposition | Dataset"
 #: Shift factors, what they came with, or a dataset along `temperature`.
-Shifts: TypeAlias = "ShiftFactors | Superposition | xr.Dataset"
+Shifts: TypeAlias = "ShiftFactors | Superposition | Dataset"
 #: Friction coefficients as curves, or a dataset along `case` (predicted) or `point` (measured).
-Friction: TypeAlias = "FrictionCurves | xr.Dataset"
+Friction: TypeAlias = "FrictionCurves | Dataset"
 #: The same, or all temperatures on one curve.
-ReducedFriction: TypeAlias = "FrictionMasterCurve | xr.Dataset"
+ReducedFriction: TypeAlias = "FrictionMasterCurve | Dataset"
 
 _POINTS_OF_A_LINE = 200
 #: Laws are not drawn this near to a pole, K.
@@ -44,13 +39,13 @@ FARTHER = 20.0
 _SIDES = ("lower", "upper")
 
 
-def as_dataset(source: Any, *arguments: Any) -> xr.Dataset:
+def as_dataset(source: Any, *arguments: Any) -> Dataset:
     """Return a data set as it is, or the one that a result makes of itself (with these arguments)."""
     if isinstance(source, FrictionCurves):
         return source.points_dataset()
     if {"temperature", "speed"} <= set(getattr(source, "dims", ())) and "viscoelastic" in source:
         source = source.stack(point=tuple(source.dims)).reset_index("point")  # friction curves on a grid
-    found: xr.Dataset = source if hasattr(source, "data_vars") else source.to_dataset(*arguments)
+    found: Dataset = source if hasattr(source, "data_vars") else source.to_dataset(*arguments)
     return found
 
 
@@ -143,7 +138,7 @@ def shift_table(source: Shifts) -> ShiftTable:
     )
 
 
-def law_of(source: xr.Dataset | None) -> ShiftLaw | None:
+def law_of(source: Dataset | None) -> ShiftLaw | None:
     """Return the shift law that results hold, or None if they hold none."""
     from viscofric.rheology.cards.native import shift_of
 
@@ -152,13 +147,13 @@ def law_of(source: xr.Dataset | None) -> ShiftLaw | None:
     return law
 
 
-def law_line(law: ShiftLaw, low: float, high: float, points: int = _POINTS_OF_A_LINE) -> xr.Dataset:
+def law_line(law: ShiftLaw, low: float, high: float, points: int = _POINTS_OF_A_LINE) -> Dataset:
     """Return a law between two temperatures (K) as a data set along `temperature`, where it is valid."""
     line = np.linspace(low, high, points)
     return law.to_dataset(line[law.valid_at(line, above_pole=_NEAR_POLE)])
 
 
-def law_residuals(law: ShiftLaw, table: ShiftTable) -> xr.Dataset:
+def law_residuals(law: ShiftLaw, table: ShiftTable) -> Dataset:
     """Return log10 of measured over the law's α along `temperature` (K), where the law is valid."""
     valid = law.valid_at(table.temperature, above_pole=_NEAR_POLE)
     kelvin = table.temperature[valid]

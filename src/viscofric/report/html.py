@@ -12,8 +12,9 @@ import subprocess
 from datetime import datetime, timedelta
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from viscofric.datasets import DataTree
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
 from viscofric.report.captions import captions
@@ -24,15 +25,12 @@ from viscofric.report.texts.checks import all_checks, counted
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
 from viscofric.report.texts.study import grouped_failures, inputs, key_numbers, scope
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 _HERE = Path(__file__).parent
 _MOST_KINDS_OF_FAILURE = 20
 _PIXELS_PER_POINT = 1.45
 
 
-def write_figures_and_report(tree: xr.DataTree, folder: str | Path) -> tuple[list[Path], Path]:
+def write_figures_and_report(tree: DataTree, folder: str | Path) -> tuple[list[Path], Path]:
     """Draw a study's figures once, for files of their own and for the report.
 
     Parameters
@@ -56,7 +54,7 @@ def write_figures_and_report(tree: xr.DataTree, folder: str | Path) -> tuple[lis
     return save_images(images, Path(folder) / "figures"), write_report(tree, folder, images=images)
 
 
-def write_report(tree: xr.DataTree, folder: str | Path, *, images: dict[str, dict[str, bytes]] | None = None) -> Path:
+def write_report(tree: DataTree, folder: str | Path, *, images: dict[str, dict[str, bytes]] | None = None) -> Path:
     """Write the report of a study as one HTML file that loads nothing from elsewhere.
 
     Parameters
@@ -134,7 +132,7 @@ def write_pdf(report: Path) -> Path:
     return target
 
 
-def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, Any]:
+def _content(tree: DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, Any]:
     """Gather what the page shows, as texts."""
     attrs = {name: str(value) for name, value in tree.attrs.items()}
     spectrum, agreement = group(tree, "spectrum"), group(tree, "agreement")
@@ -172,7 +170,7 @@ def _content(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> dict[str
 _ANSWER = ("friction_against_speed", "friction_sweep", "friction_map")
 
 
-def _groups(tree: xr.DataTree) -> list[tuple[str, tuple[str, ...]]]:
+def _groups(tree: DataTree) -> list[tuple[str, tuple[str, ...]]]:
     """Return all other figures in groups, as they follow each other."""
     found = [
         ("Friction", ("friction_master_curve", "coulomb_friction", "friction_shift_factors")),
@@ -187,7 +185,7 @@ def _groups(tree: xr.DataTree) -> list[tuple[str, tuple[str, ...]]]:
     return [*found, ("Calculation", ("convergence",))]
 
 
-def _figures(tree: xr.DataTree, images: dict[str, dict[str, bytes]]) -> list[tuple[str, list[dict[str, Any]]]]:
+def _figures(tree: DataTree, images: dict[str, dict[str, bytes]]) -> list[tuple[str, list[dict[str, Any]]]]:
     """Return the figures that were drawn, those beside the key numbers first, numbered in the order of the page."""
     said, number = captions(tree), itertools.count(1)
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import matplotlib
 import numpy as np
+from matplotlib.axes import Axes
 
 from viscofric.ramps import TemperatureRamps
 from viscofric.report.data import as_dataset, modulus_band
@@ -40,17 +42,12 @@ from viscofric.report.figures.shift_factors import (
 from viscofric.report.figures.style import BLUE, STYLE, VERMILION, looks
 from viscofric.report.figures.superposition import plot_van_gurp_palmen
 from viscofric.report.figures.sweeps import plot_study
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.showing import prefixed, shown_value
 from viscofric.units import CELSIUS_ZERO
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
+Drawing: TypeAlias = Callable[..., Any]
 
-    from matplotlib.axes import Axes
-
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-
-    Drawing: TypeAlias = Callable[..., Any]
 
 #: A law of shift factors is drawn from so far below to so far above its reference, where it is valid, K.
 _BELOW, _ABOVE = 50.0, 100.0

@@ -4,26 +4,21 @@ from __future__ import annotations
 
 import json
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers, Mask
 from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.datasets import Dataset, DataTree
 from viscofric.notes import Note, note_of
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    import xarray as xr
-
-    from viscofric.arrays import Array, Integers, Mask
-
 
 #: Temperatures closer than this are one nominal temperature, K.
 SAME_TEMPERATURE = 0.5
 
 
-def group(tree: xr.DataTree, name: str) -> xr.Dataset | None:
+def group(tree: DataTree, name: str) -> Dataset | None:
     """Return a group of the results, or None if it is absent or holds no values."""
     child = tree.children.get(name)
     if child is None:
@@ -33,7 +28,7 @@ def group(tree: xr.DataTree, name: str) -> xr.Dataset | None:
     return None if empty else dataset
 
 
-def rubbers(tree: xr.DataTree) -> list[tuple[str, xr.DataTree]]:
+def rubbers(tree: DataTree) -> list[tuple[str, DataTree]]:
     """Return the results of each of several rubbers, by name, as a tree like the whole; else empty."""
     parent = tree.children.get(_RUBBERS)
     if parent is None:
@@ -100,23 +95,23 @@ def _from_json(value: Any) -> Any:
         return value
 
 
-def is_synthetic(tree: xr.DataTree) -> bool:
+def is_synthetic(tree: DataTree) -> bool:
     """Whether the results rest on synthetic data; what does not say that it was measured is not believed."""
     return str(tree.attrs.get("data_origin", "synthetic")) != "measured"
 
 
-def is_rough(tree: xr.DataTree) -> bool:
+def is_rough(tree: DataTree) -> bool:
     """Whether the contacts are those of a rough surface, which have no axis, no edges and no indentation."""
     prediction = tree.children.get("prediction")
     return prediction is not None and "contact_area_fraction" in prediction.data_vars
 
 
-def is_from_friction(tree: xr.DataTree) -> bool:
+def is_from_friction(tree: DataTree) -> bool:
     """Whether the rubber was identified from friction, and not from a modulus that was measured."""
     return int(tree.attrs.get("identified_from_friction", 0)) == 1
 
 
-def values(dataset: xr.Dataset, name: str) -> Array:
+def values(dataset: Dataset, name: str) -> Array:
     """Return a variable as floats, nan throughout if it is absent."""
     if name in dataset.variables:
         return np.asarray(dataset[name].values, dtype=float)
@@ -138,7 +133,7 @@ def nearest(nominal: Array, temperature: Array) -> Integers:
     return np.asarray(np.abs(np.asarray(temperature)[:, None] - nominal[None, :]).argmin(axis=1))
 
 
-def reference_temperature(tree: xr.DataTree) -> float | None:
+def reference_temperature(tree: DataTree) -> float | None:
     """Temperature at which the shift factor is one, K, or None if the results do not say."""
     factors = group(tree, "shift_factors")
     found = number(tree.attrs if factors is None else factors.attrs, "reference_temperature")
@@ -148,7 +143,7 @@ def reference_temperature(tree: xr.DataTree) -> float | None:
 WIDE, EXTRAPOLATED = "wide contact", "beyond the sweeps"
 
 
-def reach(tree: xr.DataTree, cases: xr.Dataset) -> Array:
+def reach(tree: DataTree, cases: Dataset) -> Array:
     """Return how far each contact reaches from the ball's axis, over the ball's radius; nan if not known."""
     radius = values(cases, "radius") if "radius" in cases.variables else number(tree.attrs, "indenter_radius")
     sides = np.array([values(cases, name) for name in ("front", "rear", "half_width")])
@@ -156,23 +151,23 @@ def reach(tree: xr.DataTree, cases: xr.Dataset) -> Array:
     return np.asarray(np.where(farthest > 0.0, farthest, np.nan) / radius)
 
 
-def is_wide(tree: xr.DataTree, cases: xr.Dataset) -> Mask:
+def is_wide(tree: DataTree, cases: Dataset) -> Mask:
     """Whether each contact is too wide for small strain; not where its size is not known."""
     return np.asarray(reach(tree, cases) > SMALL_STRAIN)
 
 
-def is_extrapolated(cases: xr.Dataset) -> Mask:
+def is_extrapolated(cases: Dataset) -> Mask:
     """Whether each case rests on frequencies that were not measured; not where it was not solved."""
     friction = "predicted" if "predicted" in cases.variables else "friction_coefficient"
     return np.asarray((values(cases, "within_measured_frequencies") == 0.0) & np.isfinite(values(cases, friction)))
 
 
-def remarks(tree: xr.DataTree, cases: xr.Dataset) -> list[tuple[str, ...]]:
+def remarks(tree: DataTree, cases: Dataset) -> list[tuple[str, ...]]:
     """Return what is doubtful about each case, in a word or two; nothing about sound ones."""
     marks = [(WIDE, is_wide(tree, cases)), (EXTRAPOLATED, is_extrapolated(cases))]
     return [tuple(word for word, mask in marks if mask[row]) for row in range(len(marks[0][1]))]
 
 
-def interpolated(cases: xr.Dataset) -> Mask:
+def interpolated(cases: Dataset) -> Mask:
     """Whether each case was interpolated on a curve of solved ones, instead of solved itself."""
     return np.asarray(values(cases, "interpolated") == 1.0)

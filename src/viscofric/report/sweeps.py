@@ -5,18 +5,14 @@ from __future__ import annotations
 import math
 from collections import defaultdict
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset, DataTree
 from viscofric.report.results import group
 from viscofric.report.texts.numbers import degrees, length, megapascals, short, speed
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from viscofric.arrays import Array
-
 
 #: Dimension of results that are listed case by case.
 CASE = "case"
@@ -84,12 +80,12 @@ class SweepAxis:
         )
 
 
-def sweep_axes(dataset: xr.Dataset) -> list[SweepAxis]:
+def sweep_axes(dataset: Dataset) -> list[SweepAxis]:
     """Return the dimensions of labelled results that have more than one point, samples of the rubber left out."""
     return [axis_of(dataset, str(name)) for name, size in dataset.sizes.items() if size > 1 and name != SAMPLE]
 
 
-def axis_of(dataset: xr.Dataset, dimension: str) -> SweepAxis:
+def axis_of(dataset: Dataset, dimension: str) -> SweepAxis:
     """Return one dimension of labelled results."""
     along = [str(name) for name, part in dataset.coords.items() if part.dims == (dimension,)]
     columns = [name for name in along if not _is_index(dataset, name, dimension, along)] or along
@@ -113,7 +109,7 @@ def axis_of(dataset: xr.Dataset, dimension: str) -> SweepAxis:
     )
 
 
-def _is_index(dataset: xr.Dataset, name: str, dimension: str, along: list[str]) -> bool:
+def _is_index(dataset: Dataset, name: str, dimension: str, along: list[str]) -> bool:
     """Whether a coordinate merely counts the points of a dimension that has others to be named by."""
     return name == dimension and len(along) > 1 and name not in _UNITS and name != "load"
 
@@ -128,14 +124,14 @@ def on_axis(name: str, numbers: object) -> Array:
     return numbers - 273.15 if name == _TEMPERATURE else numbers / _UNITS.get(name, ("", 1.0))[1]
 
 
-def axis_label(dataset: xr.Dataset, name: str) -> str:
+def axis_label(dataset: Dataset, name: str) -> str:
     """Return the label of a figure's axis along a coordinate."""
     unit = _UNITS[name][0] if name in _UNITS else str(dataset[name].attrs.get("units", ""))
     named = f"{_spoken(name)} {_SYMBOLS[name]}" if name in _SYMBOLS else _spoken(name)
     return f"{named} ({unit})" if unit and unit != "1" else named
 
 
-def value_label(dataset: xr.Dataset, name: str, value: object) -> str:
+def value_label(dataset: Dataset, name: str, value: object) -> str:
     """Return one value of a coordinate in words: 30 °C, 20 mm/s, 25 N, NBR 70."""
     if isinstance(value, str):
         return value
@@ -163,7 +159,7 @@ def value_label(dataset: xr.Dataset, name: str, value: object) -> str:
     return f"{short(number)} {unit}"
 
 
-def cases_of(dataset: xr.Dataset) -> xr.Dataset:
+def cases_of(dataset: Dataset) -> Dataset:
     """Return labelled results along `case`, the last dimension (samples too) running fastest."""
     if CASE in dataset.dims:
         return dataset
@@ -173,14 +169,14 @@ def cases_of(dataset: xr.Dataset) -> xr.Dataset:
     return whole.stack({CASE: list(dataset.dims)}, create_index=False).reset_coords().drop_vars(CASE, errors="ignore")
 
 
-def best_estimate(dataset: xr.Dataset) -> xr.Dataset:
+def best_estimate(dataset: Dataset) -> Dataset:
     """Return results of the best estimate of the rubber alone, without those of its samples."""
     if SAMPLE not in dataset.dims:
         return dataset
     return dataset.isel({SAMPLE: int(np.argmin(dataset[SAMPLE].values)) if SAMPLE in dataset.coords else 0})
 
 
-def solved_cases(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | None:
+def solved_cases(tree: DataTree, name: str = "prediction") -> Dataset | None:
     """Return the solved cases of a group, in a row, with the best estimate of the rubber; None without any."""
     found = group(tree, name)
     if found is None or "friction_coefficient" not in found:
@@ -190,7 +186,7 @@ def solved_cases(tree: xr.DataTree, name: str = "prediction") -> xr.Dataset | No
     return cases.isel({CASE: np.flatnonzero(solved)}) if solved.any() else None
 
 
-def over_seeds(cases: xr.Dataset) -> xr.Dataset:
+def over_seeds(cases: Dataset) -> Dataset:
     """Return the means over the seeds of a surface, with the 95 % interval of the mean friction instead of its band.
 
     Estimated errors are the largest of the seeds; what holds of a case must hold on every seed.  Cases without several
@@ -233,7 +229,7 @@ _MERGED: dict[str, Any] = {
 }
 
 
-def seeds_averaged(dataset: xr.Dataset) -> int:
+def seeds_averaged(dataset: Dataset) -> int:
     """Return over how many seeds of a surface figures show the mean: none where nothing else varies."""
     count = dataset.sizes.get(SEED, 1)
     return count if count > 1 and len(sweep_axes(dataset)) > 1 else 0
@@ -248,7 +244,7 @@ class Layout:
     panels: tuple[SweepAxis, ...]
 
 
-def layout_of(dataset: xr.Dataset) -> Layout | None:
+def layout_of(dataset: Dataset) -> Layout | None:
     """Return how a sweep is drawn, or None where nothing varies.
 
     Speed runs along the axis, temperature becomes lines, all else panels; without a speed or a temperature that varies

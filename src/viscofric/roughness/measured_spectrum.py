@@ -211,8 +211,6 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
 
 
 def _insist(topography: object) -> None:
-    from viscofric.roughness.topography import Topography
-
     if not isinstance(topography, Topography):
         raise InputError(
             f"topography = {brief(topography)}: must be a Topography; see read_topography.", code="wrong-type"

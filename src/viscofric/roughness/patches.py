@@ -4,24 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import whole_number
+from viscofric.arrays import Array, Mask
 from viscofric.contact.periodic.solution import PeriodicSolution
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, brief
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 from viscofric.units import in_si
-
-if TYPE_CHECKING:
-    import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.showing import Rows
-
 
 #: Of a distribution, where their number is given; edges may be as many as one likes.
 MOST_CLASSES = 10**6
@@ -83,7 +76,7 @@ class ContactStatistics(Shown):
             ("gap outside", self.gap_outside, "m"),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return all numbers, each without a dimension."""
         meanings = {
             "area_fraction": ("1", "points under pressure over all"),

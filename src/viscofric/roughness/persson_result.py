@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.datasets import dataset
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset, dataset
 from viscofric.heat.result import HeatColumns
 from viscofric.notes import note_attributes
 from viscofric.rheology.interface.friction import total_error, total_friction
-from viscofric.showing import Plotted
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
+from viscofric.showing import Plotted, Rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +92,7 @@ class PerssonTheory(Plotted):
         """Largest error of the friction coefficient by the integrals, (m, n) array, the same everywhere."""
         return np.full(self.friction_coefficient.shape, self.error * float(np.abs(self.friction_coefficient).max()))
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return everything over temperature, speed and wave number, with pressure, error and notes as attributes."""
         meanings = {
             "friction_coefficient": ("1", "friction coefficient"),
@@ -155,6 +149,6 @@ class HeatedPerssonTheory(HeatColumns, PerssonTheory):
             ("rise of temperature", self.temperature_rise, "K"),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return everything as `PerssonTheory` does, with the columns of the heat."""
         return super().to_dataset().assign(self.heat_variables("temperature", "speed"))

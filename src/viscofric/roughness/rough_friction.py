@@ -5,23 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
-from viscofric.datasets import dataset
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.result import SolvedHeatColumns
 from viscofric.notes import note_attributes
 from viscofric.rheology.interface.friction import total_error, total_friction
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.units import share
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +127,7 @@ class RoughFriction(Plotted):
         half = np.hypot(mean - lower, shared * self.interface_error.mean(axis=-1))
         return mean - half, mean + half
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return everything over temperature, speed and surface, with the nominal pressure as an attribute."""
         names = {
             "friction_coefficient": "friction coefficient",
@@ -189,7 +184,7 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
             ("rise of temperature", self.temperature_rise, "K"),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return everything as `RoughFriction` does, with the columns of the heat."""
         return super().to_dataset().assign(self.heat_variables("temperature", "speed", "surface"))
 

@@ -4,25 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.fft
 
 from viscofric.arguments import MOST_PER_DECADE, whole_number
+from viscofric.arrays import Array
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, brief
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantities, to_si_array
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-
 
 #: A wave just at an edge belongs to the longer ones, whatever the rounding.
 _ROUNDING = 1e-9
@@ -60,7 +53,7 @@ class FrictionByWavelength(Plotted):
         """Friction coefficient of all waves down to each edge, (n + 1,) array that begins at zero."""
         return np.concatenate([[0.0], np.cumsum(self.contribution)])
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the contributions along ``band``, each with its longest and shortest wavelength."""
         return dataset(
             "band",

@@ -4,23 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import exactly_one
-from viscofric.datasets import dataset
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity, in_si, positive, to_si
-
-if TYPE_CHECKING:
-    import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-    from viscofric.showing import Rows
-
 
 #: Nodes of the quadrature in each segment.
 NODES = 12
@@ -50,7 +44,7 @@ class Density(Plotted):
         """Return C at any wave numbers (rad/m), in its own unit; zero beyond the points."""
         return density_at(self.wave_number, self.density, wave_number)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the density over wave numbers (rad/m)."""
         return dataset(
             "wave_number",

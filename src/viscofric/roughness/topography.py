@@ -4,28 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import check_cost, flag, sentences, text
-from viscofric.datasets import dataset
+from viscofric.arrays import Array
+from viscofric.contact.indenters.height_map import HeightMap, Profile
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note, Remedy
 from viscofric.roughness import preparation, waves
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity, in_si, number, two_lengths
-
-if TYPE_CHECKING:
-    import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.height_map import HeightMap, Profile
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.periodic.surface import PeriodicSurface
-    from viscofric.showing import Rows
-
 
 #: Of the variance of heights, of a plane through more points than this.
 _MOSTLY_TILT, _FEW = 0.5, 8
@@ -379,8 +373,6 @@ class Topography(Plotted):
         InputError
             If it is not periodic or heights are missing.
         """
-        from viscofric.contact.periodic.surface import PeriodicSurface
-
         if not self.periodic:
             raise InputError(
                 f"{self._noun} is not periodic; use ",
@@ -411,7 +403,7 @@ class Topography(Plotted):
         """
         return preparation.rough_indenter(self.complete(), self.spacing, shape)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the heights over x and y; attributes are ``name``, ``periodic`` (1 or 0) and ``history``."""
         return dataset(
             ("x", "y"),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, assumptions_dataset
 from viscofric.friction.assumptions import check_assumptions
@@ -17,8 +18,6 @@ from viscofric.study.study_rubber import curves_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
-
-    import xarray
 
     from viscofric.friction.cases.indenter_case import IndenterCase
     from viscofric.friction.cases.record import Record
@@ -33,7 +32,7 @@ _WARNED_OF = ("half-space", "uncoupled")
 _HEATED = Remedy("; this is the isothermal friction, the results also have that with heating.")
 
 
-def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, xarray.Dataset]:
+def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, Dataset]:
     """Return the checks as a group of results; none without checks."""
     return {"/assumptions": assumptions_dataset(found, "run_file")} if found else {}
 

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from viscofric.arguments import flag, insist_on, insist_on_function
+from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import StudyError
 from viscofric.files import file_path
 from viscofric.friction.cases.record import Failure
 from viscofric.notes import Note, dumped, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
+from viscofric.study.cases.singles import Singles
 from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.histories import Histories, Impacts, material_notes
@@ -27,15 +31,8 @@ from viscofric.study.running.folder import study_folder
 from viscofric.study.running.running import Event, Progress, choose_executor, run_plan, silent
 from viscofric.study.study_rubber import StudyRubber, all_within, band_columns
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
-    from pathlib import Path
+Groups = dict[str, Dataset]
 
-    import xarray
-
-    from viscofric.study.cases.singles import Singles
-
-    Groups = dict[str, xarray.Dataset]
 
 # Contacts named in a sentence.
 _MOST_LABELS = 5
@@ -197,7 +194,7 @@ def tree_of(
     doubtful: Iterable[str] = (),
     singles: Sequence[Singles] = (),
     interface: StudyInterface | None = None,
-) -> xarray.DataTree:
+) -> DataTree:
     """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved."""
     import xarray
 
@@ -269,7 +266,7 @@ def tree_of(
 _DESCRIBED = ("author", "sample", "comment", "citation", "licence")
 
 
-def _missed_accuracy(cases: xarray.Dataset, study: Study) -> list[str]:
+def _missed_accuracy(cases: Dataset, study: Study) -> list[str]:
     """Return a note about cases that miss the accuracy."""
     beyond = beyond_accuracy(cases, study.solver.accuracy)
     if not beyond.any():

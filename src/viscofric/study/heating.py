@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.contact.heated_result import AT_THE_LOSS, THIN
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.friction.cases.case import Case, Rubbers, moved
 from viscofric.friction.cases.record import Failure, HistoryRecord
@@ -21,8 +22,6 @@ from viscofric.thermal import BODIES, ThermalProperties
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
-    import xarray
-
     from viscofric.arrays import Array
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.study.cases.sweep import Sweep
@@ -86,11 +85,11 @@ class Heatings(Singles):
         data = self.dataset()
         return [*super().warnings, *(() if data is None else self._counted(data))]
 
-    def groups(self) -> dict[str, xarray.Dataset]:
+    def groups(self) -> dict[str, Dataset]:
         """Return all results by their groups."""
         return super().groups() | self._map()
 
-    def dataset(self) -> xarray.Dataset | None:
+    def dataset(self) -> Dataset | None:
         """Return the curves along the axes of the sweep, of Coulomb friction and of slip; None if all failed."""
         import xarray
 
@@ -200,7 +199,7 @@ class Heatings(Singles):
         self._shown = {"speed": speed, "temperature": case.temperature, "load": float(case.load), "face_rise": warmest}
         return [Task(solve_temperature_map, arguments, f"temperature of {moved(case, speed=speed).label}")]
 
-    def _map(self) -> dict[str, xarray.Dataset]:
+    def _map(self) -> dict[str, Dataset]:
         """Return the map as a group of its own."""
         import xarray
 
@@ -217,7 +216,7 @@ class Heatings(Singles):
         coordinates = {"x": ("x", np.unique(x), about["x"]), "y": ("y", np.unique(y), about["y"])}
         return {_MAP: xarray.Dataset(variables, coordinates, self._shown)}
 
-    def _counted(self, data: xarray.Dataset) -> list[Note]:
+    def _counted(self, data: Dataset) -> list[Note]:
         found, of = [], int(np.isfinite(data["friction_coefficient"].values).sum())
         cold, hot = (data[name].values for name in ("cold_rise", "hot_rise"))
         two = np.isfinite(cold) & (hot != cold)

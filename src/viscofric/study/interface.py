@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.friction.cases.record import Record
 from viscofric.friction.cases.surfaces import surface_of
@@ -18,8 +19,6 @@ from viscofric.rheology.interface.friction import interface_friction, interface_
 from viscofric.study.study_rubber import curves_of
 
 if TYPE_CHECKING:
-    import xarray
-
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.study.contacts import Contacts, Solved
     from viscofric.study.measurement import Measurement
@@ -39,7 +38,7 @@ class StudyInterface(NamedTuple):
     """Law of the interface, None without [interface] or if it cannot be fitted; groups of the results, and notes."""
 
     law: InterfaceLaw | None
-    groups: dict[str, xarray.Dataset]
+    groups: dict[str, Dataset]
     notes: list[Note]
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.agreement import compare
 from viscofric.friction.curve_files import read_friction_curves
@@ -18,8 +19,6 @@ from viscofric.readers.mtm.read import read_mtm
 from viscofric.study.results.tree import as_measured, measurement_data
 
 if TYPE_CHECKING:
-    import xarray
-
     from viscofric.arrays import Array
     from viscofric.contact.indenters.shapes import Ball
     from viscofric.friction.cases.record import Record
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
     from viscofric.study.study_rubber import FrictionBands
     from viscofric.traction import TractionRuns
 
-    Groups = dict[str, xarray.Dataset]
+    Groups = dict[str, Dataset]
 
 
 def read_measurement(table: MeasurementTable) -> FrictionCurves:

@@ -46,8 +46,6 @@ class Rubber:
     @property
     def law(self) -> ParametricLaw | None:
         """The law in use, else the one that describes the measured shift factors best, if any."""
-        from viscofric.rheology.shifts.laws import ParametricLaw
-
         if isinstance(self.material.shift, ParametricLaw):
             return self.material.shift
         return None if self.laws is None else self.laws.best

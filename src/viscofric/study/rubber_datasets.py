@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import Dataset
 from viscofric.rheology.shifts.parametric_law import law_misfit
 from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -14,8 +15,6 @@ from viscofric.rheology.superposition.joint import of_all_kinds
 from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperposition
 
 if TYPE_CHECKING:
-    import xarray
-
     from viscofric.rheology.spectra.modulus_table import ModulusTable
     from viscofric.rheology.superposition.result import Superposition
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -23,9 +22,9 @@ if TYPE_CHECKING:
     from viscofric.study.rubber import Rubber
 
 
-def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dict[str, xarray.Dataset]:
+def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dict[str, Dataset]:
     """Return the data sets of a material; `samples` give the bands of its moduli."""
-    groups: dict[str, xarray.Dataset] = {}
+    groups: dict[str, Dataset] = {}
     fit, spectrum = rubber.fit, rubber.material.spectrum
     if fit is not None and rubber.sweeps is not None:
         isotherms = rubber.sweeps.in_tension(rubber.material.poisson_ratio).to_dataset()
@@ -60,7 +59,7 @@ def _fitted(rubber: Rubber) -> RetardationSpectrum | ModulusTable:
     return (rubber.linear or rubber.material).spectrum
 
 
-def _step_groups(rubber: Rubber, tests: StepTests, fit: StepSuperposition) -> dict[str, xarray.Dataset]:
+def _step_groups(rubber: Rubber, tests: StepTests, fit: StepSuperposition) -> dict[str, Dataset]:
     """Return the data sets of creep or relaxation tests: tensile points, shift factors, check, master curve."""
     used = tests.in_tension(rubber.material.poisson_ratio).thinned(PER_DECADE)
     spectrum, curve = _fitted(rubber), fit.master_curve
@@ -74,7 +73,7 @@ def _step_groups(rubber: Rubber, tests: StepTests, fit: StepSuperposition) -> di
     }
 
 
-def _factors(rubber: Rubber, fit: Superposition | StepSuperposition, temperatures: Any) -> xarray.Dataset:
+def _factors(rubber: Rubber, fit: Superposition | StepSuperposition, temperatures: Any) -> Dataset:
     """Return shift factors, of all tests where there are several kinds, with the overlap of one kind."""
     found = fit.to_dataset()
     if (joint := rubber.joint) is not None:
@@ -92,7 +91,7 @@ def _factors(rubber: Rubber, fit: Superposition | StepSuperposition, temperature
     )
 
 
-def _shift_law(rubber: Rubber) -> xarray.Dataset:
+def _shift_law(rubber: Rubber) -> Dataset:
     """Return the law over the temperatures that it was fitted to, or 50 K about its reference."""
     law = rubber.law
     assert law is not None

@@ -9,11 +9,10 @@ import click
 from viscofric.cli.errors import reported_errors
 from viscofric.cli.files import DASH, DATA, to_be_written, write_dataset
 from viscofric.cli.output import json_option, out_option, print_json
+from viscofric.datasets import Dataset
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    import xarray
 
     from viscofric.rheology.material import Material
 
@@ -68,7 +67,7 @@ def _about(material: Material) -> list[str]:
     return lines
 
 
-def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]) -> xarray.Dataset:
+def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]) -> Dataset:
     """Return the moduli of a material at a temperature, at frequencies or in each decade."""
     import numpy as np
 
@@ -89,7 +88,7 @@ def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]
     return now.modulus_dataset(omega).assign_attrs({} if at is None else {"temperature": at})
 
 
-def _lines(moduli: xarray.Dataset) -> list[str]:
+def _lines(moduli: Dataset) -> list[str]:
     import numpy as np
 
     from viscofric.units import shown_celsius

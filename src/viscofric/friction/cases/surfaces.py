@@ -246,7 +246,5 @@ def _ends(rest: str) -> tuple[str, tuple[float, float]]:
 
 
 def _as_period(one: Topography) -> Topography:
-    from viscofric.roughness.topography import Topography
-
     said = Note("taken-as-period", "taken as one period of the surface")
     return Topography(one.heights, one.spacing, True, one.name, (*one.history, said))

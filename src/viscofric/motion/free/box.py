@@ -1,4 +1,4 @@
-"""Rectangles of cells on a lattice fixed to the body, pressures on them, and memory carried to other cells and modes."""
+"""Rectangles of cells on a lattice fixed to the body, pressures on them, and memory carried to other cells."""
 
 from __future__ import annotations
 

@@ -4,25 +4,21 @@ from __future__ import annotations
 
 import math
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.data import Deformation
 from viscofric.notes import Note, setting
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.headings import FREQUENCY_IN_NAME, TEMPERATURE_IN_NAME, Vocabulary, heading, with_primes
 from viscofric.readers.source import to_rad_per_second
+from viscofric.readers.table import Table
 from viscofric.units import CELSIUS_ZERO
 
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.data import Deformation
-    from viscofric.readers.table import Table
-
-    #: Kind of the moduli and the words of the file that state it, or (None, "").
-    Said = tuple[Deformation | None, str]
+#: Kind of the moduli and the words of the file that state it, or (None, "").
+Said = tuple[Deformation | None, str]
 
 
 _SORTS = ("", "tensile ", "tension ", "young's ", "shear ", "complex ")

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
+from os import PathLike
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.transforms import Bbox
 
 from viscofric.errors import InputError, not_written
 from viscofric.files import write_atomically
+from viscofric.motion.solution import TransientSolution
 from viscofric.report.figures.motion import moves, plot_transient
 from viscofric.report.figures.pressures import Frames, frames_of, plot_pressure_frame
 from viscofric.report.figures.style import INK, STYLE, mark_synthetic, new_figure, unit_for
 from viscofric.report.texts.numbers import prefixed
-
-if TYPE_CHECKING:
-    from os import PathLike
-
-    from matplotlib.transforms import Bbox
-
-    from viscofric.motion.solution import TransientSolution
 
 #: Most frames, and how long they last together, s.
 FRAMES, _SECONDS = 60, 6.0

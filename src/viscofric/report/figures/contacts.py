@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
 
+from viscofric.arrays import Array
 from viscofric.report.figures.contact import draw_arrow, draw_outline, draw_profile, highest_shown, pressure_mesh
 from viscofric.report.figures.rough import mark_motion, plot_pressure_of_period
 from viscofric.report.figures.style import BLUE, GREY, INK, ORANGE, VERMILION, WHITE, new_figure, slender_bar
 from viscofric.report.texts.numbers import megapascals, significant
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from matplotlib.axes import Axes
-    from matplotlib.collections import QuadMesh
-    from matplotlib.figure import Figure
-
-    from viscofric.arrays import Array
-
 
 _MOST_CELLS = 200  # along an edge of a map; more do not show
 _MARGIN = 1.12  # of the shown region, over the largest contact

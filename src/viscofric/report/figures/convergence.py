@@ -2,28 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from viscofric.arrays import Array, Mask
+from viscofric.datasets import Dataset
 from viscofric.report.figures.style import BLUE, GREEN, ORANGE, VERMILION, decade_ticks, new_figure, speed_ticks
 from viscofric.report.results import interpolated, values
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from viscofric.arrays import Array, Mask
-
 
 _SMALLEST = 1e-9  # relative errors below are drawn there
 _FEW = 4.0  # points
 _MANY = 2_000  # points that are drawn as an image within the figure
 
 
-def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None) -> None:
+def plot_errors(axes: Axes, cases: Dataset, *, accuracy: float | None = None) -> None:
     """Draw the error estimate and the energy balance along `case`, over friction, with a line at the accuracy."""
     x = _along(cases)
     friction = np.abs(values(cases, "friction_coefficient"))
@@ -41,7 +37,7 @@ def plot_errors(axes: Axes, cases: xr.Dataset, *, accuracy: float | None = None)
     decade_ticks(axes.yaxis)
 
 
-def plot_cells(axes: Axes, cases: xr.Dataset) -> None:
+def plot_cells(axes: Axes, cases: Dataset) -> None:
     """Draw how many cells along the longer edge the finest grid of every solved case has."""
     cells = values(cases, "cells")
     _points(axes, _along(cases), cells, ~interpolated(cases), GREEN, "s", "cells")
@@ -51,7 +47,7 @@ def plot_cells(axes: Axes, cases: xr.Dataset) -> None:
     _finish(axes, cases, "cells along an edge")
 
 
-def convergence_figure(cases: xr.Dataset, *, accuracy: float | None = None) -> Figure | None:
+def convergence_figure(cases: Dataset, *, accuracy: float | None = None) -> Figure | None:
     """Return errors and grids of all cases, or None where nothing is known of them."""
     if not np.isfinite(values(cases, "friction_error")).any() or cases.sizes["case"] < 2:
         return None
@@ -68,11 +64,11 @@ def convergence_figure(cases: xr.Dataset, *, accuracy: float | None = None) -> F
     return figure
 
 
-def _has_speeds(cases: xr.Dataset) -> bool:
+def _has_speeds(cases: Dataset) -> bool:
     return np.unique(values(cases, "speed")).size > 1
 
 
-def _along(cases: xr.Dataset) -> Array:
+def _along(cases: Dataset) -> Array:
     return np.asarray(1e3 * values(cases, "speed") if _has_speeds(cases) else 1.0 + np.arange(cases.sizes["case"]))
 
 
@@ -84,7 +80,7 @@ def _points(axes: Axes, x: Array, y: Array, mask: Mask, colour: str, marker: str
         axes.plot(x[shown], y, label=label, rasterized=int(shown.sum()) > _MANY, **look)
 
 
-def _finish(axes: Axes, cases: xr.Dataset, label: str) -> None:
+def _finish(axes: Axes, cases: Dataset, label: str) -> None:
     if _has_speeds(cases):
         axes.set_xscale("log")
         speed_ticks(axes.xaxis)

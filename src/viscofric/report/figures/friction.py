@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from viscofric.arrays import Array
 from viscofric.errors import InputError
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.report.data import (
     Friction,
     Measured,
@@ -34,18 +40,7 @@ from viscofric.report.figures.style import (
 )
 from viscofric.report.results import nearest, nominal_temperatures, number
 from viscofric.report.texts.numbers import degrees
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from viscofric.arrays import Array
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 _BAND = 0.18  # how much of a band's colour covers what lies below it
 _MILLIMETRES = 1e3

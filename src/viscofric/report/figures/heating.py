@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import matplotlib
 import numpy as np
 
+from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
 from viscofric.report.data import as_dataset
 from viscofric.report.figures.interface import plot_friction_parts
@@ -35,7 +36,6 @@ from viscofric.report.texts.numbers import short
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -59,7 +59,7 @@ _RISES = (
 _MEANS = {"face_rise": ": of the face", "loss_weighted_rise": ": where the loss is released"}
 
 
-def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset) -> None:
+def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | Dataset) -> None:
     """Draw viscoelastic friction with heating against speed, beside the isothermal one.
 
     Parameters
@@ -96,7 +96,7 @@ def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset) 
     axes.legend(title="predicted", alignment="left")
 
 
-def plot_temperature_rise(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset) -> None:
+def plot_temperature_rise(axes: Axes, curves: HeatedFrictionCurves | Dataset) -> None:
     """Draw the rise of temperature of contacts against speed, with its parts; see `plot_heated_friction`.
 
     The rise that the rubber responds to is that of the face, or that weighted with the loss (`Heating.average`); both
@@ -130,7 +130,7 @@ def plot_temperature_rise(axes: Axes, curves: HeatedFrictionCurves | xr.Dataset)
     legend_beside(axes, title="predicted mean rise")
 
 
-def _one_curve(curves: HeatedFrictionCurves | xr.Dataset) -> tuple[xr.Dataset, float]:
+def _one_curve(curves: HeatedFrictionCurves | Dataset) -> tuple[Dataset, float]:
     """Return the data set of one temperature in ascending speed, and the temperature; raise `InputError` for others."""
     data = as_dataset(curves)
     if "temperature_rise" not in data:
@@ -152,13 +152,13 @@ def heated_curves_figure(curves: HeatedFrictionCurves) -> Figure:
     return _pairs([("", as_dataset(curves.at_temperature(float(kelvin)))) for kelvin in shown])
 
 
-def heating_figure(tree: xr.DataTree) -> Figure | None:
+def heating_figure(tree: DataTree) -> Figure | None:
     """Return heated friction beside the isothermal one, and the rise of temperature, of at most three curves."""
     curves = _shown(tree)
     return _pairs(curves) if curves else None
 
 
-def _pairs(curves: Sequence[tuple[str, xr.Dataset]]) -> Figure:
+def _pairs(curves: Sequence[tuple[str, Dataset]]) -> Figure:
     figure = new_figure(11.0, 3.4 * len(curves))
     for (left, right), (words, curve) in zip(figure.subplots(len(curves), 2, squeeze=False), curves, strict=True):
         plot_heated_friction(left, curve)
@@ -167,7 +167,7 @@ def _pairs(curves: Sequence[tuple[str, xr.Dataset]]) -> Figure:
     return figure
 
 
-def heated_parts_figure(tree: xr.DataTree) -> Figure | None:
+def heated_parts_figure(tree: DataTree) -> Figure | None:
     """Return the parts of heated friction, hysteresis and Coulomb friction or interface, of at most three curves."""
     curves = [(words, rubbed) for words, one in _shown(tree) if (rubbed := _with_coulomb(one)) is not None]
     if not curves:
@@ -179,7 +179,7 @@ def heated_parts_figure(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-def _with_coulomb(curve: xr.Dataset) -> xr.Dataset | None:
+def _with_coulomb(curve: Dataset) -> Dataset | None:
     """Return a curve whose given Coulomb friction, if any, is its interface; None without either."""
     if "interface_friction" in curve:
         return curve
@@ -189,7 +189,7 @@ def _with_coulomb(curve: xr.Dataset) -> xr.Dataset | None:
     return curve.assign(interface_friction=given, interface_error=0.0 * given)
 
 
-def _shown(tree: xr.DataTree) -> list[tuple[str, xr.Dataset]]:
+def _shown(tree: DataTree) -> list[tuple[str, Dataset]]:
     """Return at most three curves over speed along `case`, each with what tells it apart from the others."""
     data = group(tree, "heating")
     if data is None or "speed" not in data.dims:
@@ -212,7 +212,7 @@ def _shown(tree: xr.DataTree) -> list[tuple[str, xr.Dataset]]:
     return found
 
 
-def temperature_map_figure(tree: xr.DataTree) -> Figure | None:
+def temperature_map_figure(tree: DataTree) -> Figure | None:
     """Return the rise of temperature of the rubber's face at the warmest contact: seen from above, and along it."""
     data = group(tree, "temperature_map")
     if data is None:
@@ -229,7 +229,7 @@ def temperature_map_figure(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-def _plot_map(axes: Axes, data: xr.Dataset) -> Any:
+def _plot_map(axes: Axes, data: Dataset) -> Any:
     x, y = _MILLIMETRES * values(data, "x"), _MILLIMETRES * values(data, "y")
     colours = matplotlib.colormaps["inferno"]
     mesh = axes.pcolormesh(x, y, data["rise"].values.T, cmap=colours, shading="nearest", rasterized=True)
@@ -240,7 +240,7 @@ def _plot_map(axes: Axes, data: xr.Dataset) -> Any:
     return mesh
 
 
-def _plot_centre_line(axes: Axes, data: xr.Dataset) -> None:
+def _plot_centre_line(axes: Axes, data: Dataset) -> None:
     middle = data.sizes["y"] // 2
     x, rise = values(data, "x"), data["rise"].values[:, middle]
     inside = data["contact"].values[:, middle] > 0.5

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset, DataTree
 from viscofric.report.figures.style import GREY, legend_above, looks, new_figure, speed_ticks, unit_for
 from viscofric.report.results import group
 from viscofric.report.sweeps import SAMPLE, axis_of, best_estimate
 from viscofric.units import celsius
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from viscofric.arrays import Array
 
 #: More lines cannot be told apart.
 MOST_LINES = 6
@@ -29,8 +26,8 @@ class _Line(NamedTuple):
     """One case: what tells it apart, in words, and its results, also with samples of the material."""
 
     words: str
-    best: xr.Dataset
-    samples: xr.Dataset | None
+    best: Dataset
+    samples: Dataset | None
 
     def band(self, name: str) -> tuple[Array, Array] | None:
         """Return the ends of the central 95 % of the samples; None without samples."""
@@ -41,7 +38,7 @@ class _Line(NamedTuple):
         return low, high
 
 
-def histories_figure(tree: xr.DataTree) -> Figure | None:
+def histories_figure(tree: DataTree) -> Figure | None:
     """Return load, indentation, friction and rise of temperature of at most six cases against time."""
     data = group(tree, "history")
     if data is None:
@@ -74,7 +71,7 @@ def histories_figure(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-def impacts_figure(tree: xr.DataTree) -> Figure | None:
+def impacts_figure(tree: DataTree) -> Figure | None:
     """Return the restitution of impacts against temperature or speed, whichever has more values."""
     data = group(tree, "impact")
     if data is None:
@@ -119,7 +116,7 @@ def _plot_isothermal(axes: Axes, lines: list[_Line], second: float) -> None:
         axes.plot(one.best["time"].values / second, friction, color=look.colour, linestyle=":", linewidth=0.8)
 
 
-def _lines(data: xr.Dataset, name: str, along: str) -> list[_Line]:
+def _lines(data: Dataset, name: str, along: str) -> list[_Line]:
     """Return at most six solved cases, spread over all."""
     best = best_estimate(data)
     dimensions = [str(one) for one in best[name].dims if one != along]

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.datasets import Dataset
 from viscofric.report.data import Master, Moduli, as_dataset, moduli, moduli_of_master_curve, modulus_band
 from viscofric.report.figures.style import (
     BLUE,
@@ -25,7 +26,6 @@ from viscofric.units import shown_celsius
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 _MEGAPASCAL = 1e6
 
 
-def plot_identified_modulus(axes: Axes, found: Identified | xr.Dataset, known: Material | Master | None = None) -> None:
+def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Material | Master | None = None) -> None:
     """Draw an identified modulus with its 95 % band, the identified frequencies marked.
 
     Parameters

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.lines import Line2D
 
+from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
 from viscofric.report.data import Measured, as_dataset
 from viscofric.report.figures.friction import plot_measured
@@ -31,7 +32,6 @@ from viscofric.roughness.rough_friction import RoughFriction
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -51,8 +51,8 @@ MOST_PANELS = 3
 
 def plot_shear_stress(
     axes: Axes,
-    stress: ShearStress | xr.Dataset,
-    laws: Sequence[InterfaceLaw | xr.Dataset] = (),
+    stress: ShearStress | Dataset,
+    laws: Sequence[InterfaceLaw | Dataset] = (),
     *,
     synthetic: bool = False,
 ) -> None:
@@ -96,7 +96,7 @@ def plot_shear_stress(
     legend_beside(axes, handles, title)
 
 
-def _plot_law(axes: Axes, line: xr.Dataset, dashes: Any, *, banded: bool) -> Line2D:
+def _plot_law(axes: Axes, line: Dataset, dashes: Any, *, banded: bool) -> Line2D:
     """Draw a law at one temperature, and return what the legend shows of it."""
     speed, stress = _MILLIMETRES * values(line, "speed"), _MEGA * np.ravel(line["shear_stress"].values)
     colour = INK if banded else GREY
@@ -107,7 +107,7 @@ def _plot_law(axes: Axes, line: xr.Dataset, dashes: Any, *, banded: bool) -> Lin
     return Line2D([], [], color=colour, linestyle=dashes, label=str(line.attrs["law"]))
 
 
-def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | PerssonTheory | xr.Dataset) -> None:
+def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | PerssonTheory | Dataset) -> None:
     """Draw predicted friction against speed with its parts, hysteresis and interface, stacked.
 
     Parameters
@@ -158,7 +158,7 @@ class _Parts(NamedTuple):
     given: bool = False
 
 
-def _parts(curves: FrictionCurves | PerssonTheory | xr.Dataset) -> _Parts:
+def _parts(curves: FrictionCurves | PerssonTheory | Dataset) -> _Parts:
     """Return the parts of friction along any dimensions, by their names."""
     data = as_dataset(curves)
     of_curves = "viscoelastic" in data
@@ -191,7 +191,7 @@ def _parts_of_mean(found: RoughFriction) -> _Parts:
     return _Parts(np.ravel(speed), np.ravel(kelvin), mean, np.ravel(total) - mean, np.ravel(error))
 
 
-def stress_figure(tree: xr.DataTree) -> Figure | None:
+def stress_figure(tree: DataTree) -> Figure | None:
     """Return the figure of a study's shear stress, with the law fitted to it."""
     stress, law = group(tree, "interface"), group(tree, "interface_law")
     if stress is None:
@@ -201,7 +201,7 @@ def stress_figure(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-def parts_figure(tree: xr.DataTree) -> Figure | None:
+def parts_figure(tree: DataTree) -> Figure | None:
     """Return the figure of hysteresis and interface at a few temperatures, where nothing but these and speed varies."""
     cases, friction = solved_cases(tree), group(tree, "prediction")
     if cases is None or friction is None or "interface_friction" not in cases or SAMPLE in friction.dims:

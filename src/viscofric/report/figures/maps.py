@@ -3,28 +3,23 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import matplotlib
 import matplotlib.patheffects
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.contour import QuadContourSet
+from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset, DataTree
 from viscofric.report.figures.style import INK, VERMILION, WHITE, slender_bar, speed_ticks
 from viscofric.report.figures.sweeps import FRICTION, panel_points, panel_title, small_multiples
 from viscofric.report.results import group, rubbers, values
 from viscofric.report.sweeps import SEED, best_estimate, seeds_averaged, sweep_axes
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.contour import QuadContourSet
-    from matplotlib.figure import Figure
-
-    from viscofric.arrays import Array
-
 
 _COEFFICIENT = "friction_coefficient"
 _LEVELS = 10
@@ -88,7 +83,7 @@ def maximum_ridge(speed: Array, temperature: Array, friction: Array) -> Array:
 
 
 def map_figure(
-    friction: xr.Dataset,
+    friction: Dataset,
     measurement: tuple[Array, Array] | None = None,
     shifts: Sequence[tuple[Array, Array] | None] = (),
 ) -> Figure | None:
@@ -142,12 +137,12 @@ _ROWS = 120  # of a map, about
 _BEYOND = 50.0  # K
 
 
-def known_shifts(tree: xr.DataTree) -> list[tuple[Array, Array] | None]:
+def known_shifts(tree: DataTree) -> list[tuple[Array, Array] | None]:
     """Return temperature (K, ascending) and log10 of the shift factor of each rubber; None where it is not known."""
     return [_known_shift(branch) for _, branch in rubbers(tree) or [("", tree)]]
 
 
-def _known_shift(tree: xr.DataTree) -> tuple[Array, Array] | None:
+def _known_shift(tree: DataTree) -> tuple[Array, Array] | None:
     factors, law = group(tree, "shift_factors"), group(tree, "shift_law")
     measured = factors is not None and str(factors.attrs.get("shift_used", "measured")) == "measured"
     found = factors if measured or law is None else law

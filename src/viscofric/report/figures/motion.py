@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset
 from viscofric.errors import check_choice
 from viscofric.report.figures.style import (
     BLUE,
@@ -22,12 +25,6 @@ from viscofric.report.figures.style import (
 )
 from viscofric.report.texts.numbers import degrees, prefixed
 from viscofric.units import celsius
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-
-    from viscofric.arrays import Array
 
 
 class _Line(NamedTuple):
@@ -77,7 +74,7 @@ _ARROWS = 4
 _BESIDE = 0.05
 
 
-def plot_transient(axes: Axes, data: xr.Dataset, quantity: str = "friction_coefficient", against: str = "time") -> None:
+def plot_transient(axes: Axes, data: Dataset, quantity: str = "friction_coefficient", against: str = "time") -> None:
     """Draw one quantity of a contact against time or distance.
 
     Parameters
@@ -115,7 +112,7 @@ def plot_transient(axes: Axes, data: xr.Dataset, quantity: str = "friction_coeff
         axes.legend(loc="best")
 
 
-def plot_force_depth(axes: Axes, data: xr.Dataset) -> None:
+def plot_force_depth(axes: Axes, data: Dataset) -> None:
     """Draw the load against the indentation; the area below the way down less that of the way back is lost.
 
     Parameters
@@ -135,7 +132,7 @@ def plot_force_depth(axes: Axes, data: xr.Dataset) -> None:
     axes.set_ylabel(f"{_title(data, 'load')} ({load.name})")
 
 
-def plot_friction_loop(axes: Axes, data: xr.Dataset) -> None:
+def plot_friction_loop(axes: Axes, data: Dataset) -> None:
     """Draw the friction force against the position along its direction, with arrows in the order of time.
 
     The area of a closed loop is the work of friction.
@@ -163,7 +160,7 @@ def plot_friction_loop(axes: Axes, data: xr.Dataset) -> None:
     axes.set_ylabel(f"{_title(data, 'friction_force')} ({unit.name})")
 
 
-def plot_restitution(axes: Axes, data: xr.Dataset) -> None:
+def plot_restitution(axes: Axes, data: Dataset) -> None:
     """Draw the restitution of an impact against speed, a line for each temperature, or against temperature if longer.
 
     Parameters
@@ -197,37 +194,37 @@ def plot_restitution(axes: Axes, data: xr.Dataset) -> None:
         axes.legend(loc="best")
 
 
-def position_along(data: xr.Dataset) -> Array:
+def position_along(data: Dataset) -> Array:
     """Return the position along the direction of the friction force, (n,) in m."""
     x, y = np.asarray(data.attrs["direction"], dtype=float)
     return np.asarray(x * data["position_x"] + y * data["position_y"])
 
 
-def distance(data: xr.Dataset) -> Array:
+def distance(data: Dataset) -> Array:
     """Return the distance along the path since the start, (n,) in m."""
     steps = np.hypot(np.diff(np.asarray(data["position_x"])), np.diff(np.asarray(data["position_y"])))
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def moves(data: xr.Dataset) -> bool:
+def moves(data: Dataset) -> bool:
     """Return whether the position ever changes."""
     return bool(distance(data)[-1] > 0.0)
 
 
-def returns(data: xr.Dataset) -> bool:
+def returns(data: Dataset) -> bool:
     """Return whether the indenter comes back along its path, so that friction against position is a loop."""
     steps = np.diff(position_along(data))
     return bool(np.any(steps > 0.0) and np.any(steps < 0.0))
 
 
-def _along(data: xr.Dataset, against: str) -> tuple[Array, str]:
+def _along(data: Dataset, against: str) -> tuple[Array, str]:
     """Return the values of the axis across, and its label."""
     values, base = (np.asarray(data["time"]), "s") if against == "time" else (distance(data), "m")
     unit = unit_for(float(np.abs(values).max()), base)
     return values / unit.size, f"{against} {'$t$' if against == 'time' else '$s$'} ({unit.name})"
 
 
-def _drawn(data: xr.Dataset, quantity: str) -> tuple[str, tuple[_Line, ...]]:
+def _drawn(data: Dataset, quantity: str) -> tuple[str, tuple[_Line, ...]]:
     """Return the label of a quantity and the columns that there are."""
     _, lines = _QUANTITIES[quantity]
     found = tuple(line for line in lines if line.column in data)
@@ -236,12 +233,12 @@ def _drawn(data: xr.Dataset, quantity: str) -> tuple[str, tuple[_Line, ...]]:
     return _title(data, quantity), found
 
 
-def _title(data: xr.Dataset, quantity: str) -> str:
+def _title(data: Dataset, quantity: str) -> str:
     titles = _PER_AREA if data.attrs.get("geometry") == "periodic" else {}
     return titles.get(quantity, _QUANTITIES[quantity][0])
 
 
-def _unit_of(data: xr.Dataset, columns: list[str]) -> Unit:
+def _unit_of(data: Dataset, columns: list[str]) -> Unit:
     """Return the unit in which some columns are drawn."""
     base = str(data[columns[0]].attrs["units"])
     if base == "1":

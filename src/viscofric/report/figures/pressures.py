@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
 
+from viscofric.arrays import Array
+from viscofric.datasets import DataArray
+from viscofric.motion.impact_solution import RestitutionCurve
+from viscofric.motion.solution import TransientSolution
 from viscofric.report.figures.contact import draw_profile, pressure_mesh
 from viscofric.report.figures.motion import (
     moves,
@@ -19,18 +27,6 @@ from viscofric.report.figures.motion import (
 from viscofric.report.figures.style import INK, Unit, new_figure, sequential_looks, unit_for
 from viscofric.report.texts.numbers import prefixed
 from viscofric.units import Quantities, to_si_array
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.collections import QuadMesh
-    from matplotlib.figure import Figure
-
-    from viscofric.arrays import Array
-    from viscofric.motion.impact_solution import RestitutionCurve
-    from viscofric.motion.solution import TransientSolution
 
 #: Pressures that are drawn without times of the user's choice.
 _FRAMES = 5
@@ -46,7 +42,7 @@ class Frames(NamedTuple):
     """Pressures at several times, with the scales that all have in common."""
 
     times: list[float]
-    fields: list[xr.DataArray]
+    fields: list[DataArray]
     length: Unit
     pressure: Unit
     highest: float  # in its unit
@@ -219,7 +215,7 @@ def restitution_figure(curve: RestitutionCurve, title: str = "") -> Figure:
     return figure
 
 
-def _centre_line(field: xr.DataArray) -> tuple[Array, Array]:
+def _centre_line(field: DataArray) -> tuple[Array, Array]:
     """Return places along the motion and the pressure there, through the indenter's axis."""
     values = np.asarray(field)
     if field.dims == ("r",):
@@ -230,7 +226,7 @@ def _centre_line(field: xr.DataArray) -> tuple[Array, Array]:
     return np.asarray(field[field.dims[0]]), values
 
 
-def _reach(fields: Sequence[xr.DataArray]) -> tuple[tuple[float, float], tuple[float, float]]:
+def _reach(fields: Sequence[DataArray]) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the ends along x and y of what is loaded at any of the times, with a margin."""
     ends = []
     for axis in (0, 1):
@@ -241,7 +237,7 @@ def _reach(fields: Sequence[xr.DataArray]) -> tuple[tuple[float, float], tuple[f
     return ends[0], ends[1]
 
 
-def _whole(field: xr.DataArray) -> tuple[tuple[float, float], tuple[float, float]]:
+def _whole(field: DataArray) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the ends along x and y of all cells of a periodic surface."""
     ends = [(0.0, 0.0), (0.0, 0.0)]
     for axis, name in enumerate(field.dims):
@@ -251,7 +247,7 @@ def _whole(field: xr.DataArray) -> tuple[tuple[float, float], tuple[float, float
     return ends[0], ends[1]
 
 
-def _loaded(field: xr.DataArray, axis: int) -> tuple[float, float]:
+def _loaded(field: DataArray, axis: int) -> tuple[float, float]:
     """Return the ends of the loaded part along an axis; of the whole field without a load."""
     round_one = field.dims == ("r",)
     if axis >= field.ndim and not round_one:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from viscofric.arguments import insist_on
+from viscofric.datasets import Dataset
 from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamps
 from viscofric.report.figures.style import BLUE, GREY, VERMILION, sequential_looks
@@ -17,11 +19,6 @@ from viscofric.rheology.ramps.glass_transition import glass_transition
 from viscofric.rheology.ramps.result import RampSuperposition
 from viscofric.units import CELSIUS_ZERO
 
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-
-
 _PASCAL_PER_MEGAPASCAL = 1e6
 #: So many ramps have an entry in the legend.
 _NAMED = 8
@@ -29,7 +26,7 @@ _NAMED = 8
 
 def plot_temperature_ramps(
     axes: Axes,
-    ramps: TemperatureRamps | RampSuperposition | xr.Dataset,
+    ramps: TemperatureRamps | RampSuperposition | Dataset,
     quantity: Literal["moduli", "tan delta"] = "moduli",
 ) -> None:
     """Draw temperature ramps: storage and loss modulus, or tan δ with its peaks, a colour for each frequency.
@@ -70,7 +67,7 @@ def plot_temperature_ramps(
     axes.legend(title="frequency")
 
 
-def _with_peaks(ramps: TemperatureRamps | RampSuperposition) -> xr.Dataset:
+def _with_peaks(ramps: TemperatureRamps | RampSuperposition) -> Dataset:
     if isinstance(ramps, RampSuperposition):
         return ramps.to_dataset()
     found = [one for ramp in ramps.ramps if (one := glass_transition(ramp)) is not None]

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, cast
+from typing import Any, Literal, TypeAlias, cast
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.report.data import (
     Master,
@@ -30,19 +34,12 @@ from viscofric.report.figures.style import (
 )
 from viscofric.report.results import nearest, nominal_temperatures, number, values
 from viscofric.report.texts.numbers import degrees
+from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.units import celsius
 
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.spectra.modulus_table import ModulusTable
-
-    Fitted = RetardationSpectrum | ModulusTable | xr.Dataset
-    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+Fitted: TypeAlias = "RetardationSpectrum | ModulusTable | Dataset"
 
 
 _PASCAL_PER_MEGAPASCAL = 1e6
@@ -210,7 +207,7 @@ def _fitted(master_curve: Master, spectrum: Fitted | None, frequency: Array) -> 
     if spectrum is not None:
         return moduli(spectrum if hasattr(spectrum, "data_vars") else spectrum.modulus_dataset(frequency))
     found = getattr(master_curve, "data_vars", {})
-    return moduli(cast("xr.Dataset", master_curve), "fitted_") if "fitted_storage_modulus" in found else None
+    return moduli(cast("Dataset", master_curve), "fitted_") if "fitted_storage_modulus" in found else None
 
 
 _RESPONSES = {
@@ -219,7 +216,7 @@ _RESPONSES = {
 }
 
 
-def plot_step_master_curve(axes: Axes, curve: xr.Dataset, *, synthetic: bool = False) -> ScalarMappable:
+def plot_step_master_curve(axes: Axes, curve: Dataset, *, synthetic: bool = False) -> ScalarMappable:
     """Draw a creep compliance or relaxation modulus over reduced time, with the fit; return the colours."""
     name = next(one for one in _RESPONSES if one in curve)
     factor, label = _RESPONSES[name]
@@ -244,7 +241,7 @@ _DECADES_SHOWN = 10.0
 
 
 def plot_retardation_spectrum(
-    axes: Axes, spectrum: RetardationSpectrum | xr.Dataset, samples: MaterialSamples | None = None
+    axes: Axes, spectrum: RetardationSpectrum | Dataset, samples: MaterialSamples | None = None
 ) -> None:
     """Draw the compliance C_k of each retardation mode over its time τ_k.
 

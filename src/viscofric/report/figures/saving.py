@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import io
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
 
 import matplotlib
 from matplotlib.colors import to_hex, to_rgb
+from matplotlib.figure import Figure
 
 from viscofric.files import write_atomically
 from viscofric.report.figures.style import INK, STYLE, mark_synthetic
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-    from pathlib import Path
-
-    from matplotlib.figure import Figure
-
 
 _DOTS_PER_INCH = 180
 _UNDATED: dict[str, dict[str, Any]] = {

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.report.data import FARTHER, Shifts, ShiftTable, as_dataset, law_line, law_residuals, shift_table
 from viscofric.report.figures.style import (
@@ -25,18 +29,9 @@ from viscofric.rheology.shifts.laws import WLF, Arrhenius, WLFArrhenius
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.rheology.shifts.vertical_shift import VerticalShift
+from viscofric.rheology.superposition.result import Superposition
 from viscofric.units import CELSIUS_ZERO
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import xarray as xr
-    from matplotlib.axes import Axes
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.vertical_shift import VerticalShift
-    from viscofric.rheology.superposition.result import Superposition
-
 
 #: 10 to this power is still a float, and beyond any axis.
 _LARGEST = 100.0
@@ -65,7 +60,7 @@ def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | 
 
 
 def plot_vertical_shift(
-    axes: Axes, vertical_shift: VerticalShift | Superposition | xr.Dataset, temperatures: Array | None = None
+    axes: Axes, vertical_shift: VerticalShift | Superposition | Dataset, temperatures: Array | None = None
 ) -> None:
     """Draw the vertical shift b(T): a table with its standard errors, or a law.
 
@@ -91,7 +86,7 @@ def plot_vertical_shift(
     plain_numbers(axes, "y")
 
 
-def _vertical(source: Any, temperatures: Array | None) -> xr.Dataset:
+def _vertical(source: Any, temperatures: Array | None) -> Dataset:
     """Return a vertical shift as a dataset; that of a law at many temperatures."""
     if hasattr(source, "data_vars") or not hasattr(source, "reference") or hasattr(source, "temperatures"):
         return as_dataset(source)

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
 from viscofric.report.figures.contacts import Contact
 from viscofric.report.results import group, number, values
 from viscofric.report.sweeps import SEED, VARIED, solved_cases, value_label
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
 FIELDS = "fields"
 #: Coordinates of a case, in the order in which they are listed.
@@ -35,7 +31,7 @@ class Shown(NamedTuple):
     conditions: dict[str, Any]
 
 
-def shown_contacts(tree: xr.DataTree) -> list[Shown]:
+def shown_contacts(tree: DataTree) -> list[Shown]:
     """Return the slowest contact, that of the most friction and the fastest, of those whose fields are kept."""
     found = _kept(tree)
     if not found:
@@ -57,7 +53,7 @@ def shown_contacts(tree: xr.DataTree) -> list[Shown]:
     ]
 
 
-def _kept(tree: xr.DataTree) -> list[tuple[xr.Dataset, dict[str, Any]]]:
+def _kept(tree: DataTree) -> list[tuple[Dataset, dict[str, Any]]]:
     """Return the fields that the results keep, each with the conditions of its case and its friction."""
     if FIELDS not in tree.children:
         return []
@@ -75,7 +71,7 @@ def _kept(tree: xr.DataTree) -> list[tuple[xr.Dataset, dict[str, Any]]]:
     return kept
 
 
-def _friction_of(cases: xr.Dataset, conditions: dict[str, Any]) -> float:
+def _friction_of(cases: Dataset, conditions: dict[str, Any]) -> float:
     """Return the friction coefficient of the case with these conditions, NaN if there is none."""
     same = np.ones(cases.sizes["case"], dtype=bool)
     for name, value in conditions.items():
@@ -86,13 +82,13 @@ def _friction_of(cases: xr.Dataset, conditions: dict[str, Any]) -> float:
     return float(values(cases, "friction_coefficient")[rows[0]]) if rows.size else math.nan
 
 
-def _varied(found: list[tuple[xr.Dataset, dict[str, Any]]]) -> set[str]:
+def _varied(found: list[tuple[Dataset, dict[str, Any]]]) -> set[str]:
     """Return which conditions differ among the contacts, and those that are always listed."""
     differ = {name for name in _CONDITIONS if len({str(conditions.get(name)) for _, conditions in found}) > 1}
     return differ | {"temperature", "speed"}
 
 
-def _contact(fields: xr.Dataset, conditions: dict[str, Any], title: str, named: set[str]) -> Contact:
+def _contact(fields: Dataset, conditions: dict[str, Any], title: str, named: set[str]) -> Contact:
     words = [
         value_label(fields, name, conditions[name]) for name in _CONDITIONS if name in conditions and name in named
     ]
@@ -103,7 +99,7 @@ def _contact(fields: xr.Dataset, conditions: dict[str, Any], title: str, named: 
     return Contact(title, ", ".join(words), conditions["friction_coefficient"], x, y, pressure, displacement)
 
 
-def trails(tree: xr.DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
+def trails(tree: DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
     """Return the surface on each centre line, from well behind the contact to well ahead: place (m), displacement (m).
 
     The kept pressure is convolved with the moving half-space; of layers, of several rubbers, and of rubbers that the
@@ -115,7 +111,7 @@ def trails(tree: xr.DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
     return [trail for trail in found if trail is not None]
 
 
-def _calculated_trail(tree: xr.DataTree, contact: Contact, conditions: dict[str, Any]) -> tuple[Array, Array] | None:
+def _calculated_trail(tree: DataTree, contact: Contact, conditions: dict[str, Any]) -> tuple[Array, Array] | None:
     spectrum, poisson_ratio = group(tree, "spectrum"), number(tree.attrs, "poisson_ratio")
     if spectrum is None or spectrum["retardation_time"].ndim != 1 or not math.isfinite(poisson_ratio):
         return None
@@ -128,7 +124,7 @@ def _calculated_trail(tree: xr.DataTree, contact: Contact, conditions: dict[str,
     return None if alpha is None else _trail(contact, alpha * conditions["speed"], spectrum, poisson_ratio)
 
 
-def _trail(contact: Contact, reduced_speed: float, spectrum: xr.Dataset, poisson_ratio: float) -> tuple[Array, Array]:
+def _trail(contact: Contact, reduced_speed: float, spectrum: Dataset, poisson_ratio: float) -> tuple[Array, Array]:
     from viscofric.contact.fields.surface import surface_displacement
 
     x, y, pressure = _merged(contact)
@@ -162,7 +158,7 @@ def _merged(contact: Contact) -> tuple[Array, Array, Array]:
     return x.reshape(rows, every).mean(axis=1), y.reshape(columns, every).mean(axis=1), merged
 
 
-def _shift_factor(tree: xr.DataTree, kelvin: float) -> float | None:
+def _shift_factor(tree: DataTree, kelvin: float) -> float | None:
     """Return α(T) as the study took it, None where the results do not contain it."""
     from viscofric.report.data import law_of
 
@@ -174,9 +170,8 @@ def _shift_factor(tree: xr.DataTree, kelvin: float) -> float | None:
     return None if law is None else float(10.0 ** law.log10(kelvin))
 
 
-def _measured(factors: xr.Dataset) -> ShiftFactors:
+def _measured(factors: Dataset) -> ShiftFactors:
     from viscofric.report.data import shift_table
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
     table = shift_table(factors)
     return ShiftFactors(table.temperature, table.log10, table.reference)

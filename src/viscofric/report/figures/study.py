@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.figure import Figure
 
+from viscofric.datasets import Dataset, DataTree
 from viscofric.files import write_atomically
 from viscofric.report.data import law_of
 from viscofric.report.figures import saving
@@ -49,17 +51,11 @@ from viscofric.report.results import (
 )
 from viscofric.report.sweeps import MOST_LINES, SAMPLE, solved_cases, sweep_axes, thinned
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
-    import xarray as xr
-    from matplotlib.figure import Figure
-
-
-def _of(name: str, draw: Callable[..., None], *size: float) -> Callable[[xr.DataTree], Figure | None]:
+def _of(name: str, draw: Callable[..., None], *size: float) -> Callable[[DataTree], Figure | None]:
     """Return what draws a group of the results on a figure of a size, given the figure, the group and the tree."""
 
-    def drawn(tree: xr.DataTree) -> Figure | None:
+    def drawn(tree: DataTree) -> Figure | None:
         data = group(tree, name)
         if data is None:
             return None
@@ -73,25 +69,25 @@ def _of(name: str, draw: Callable[..., None], *size: float) -> Callable[[xr.Data
 _PAIR = (9.0, 4.3)
 
 
-def _isotherms(figure: Figure, sweeps: xr.Dataset, tree: xr.DataTree) -> None:
+def _isotherms(figure: Figure, sweeps: Dataset, tree: DataTree) -> None:
     left, right = figure.subplots(1, 2)
     plot_isotherms(left, sweeps, "storage")
     temperature_bar(figure, plot_isotherms(right, sweeps, "loss"), [left, right])
 
 
-def _ramps(figure: Figure, ramps: xr.Dataset, tree: xr.DataTree) -> None:
+def _ramps(figure: Figure, ramps: Dataset, tree: DataTree) -> None:
     left, right = figure.subplots(1, 2)
     plot_temperature_ramps(left, ramps)
     plot_temperature_ramps(right, ramps, "tan delta")
 
 
-def _superposition(figure: Figure, sweeps: xr.Dataset, tree: xr.DataTree) -> None:
+def _superposition(figure: Figure, sweeps: Dataset, tree: DataTree) -> None:
     left, right = figure.subplots(1, 2)
     plot_van_gurp_palmen(left, sweeps)
     temperature_bar(figure, plot_cole_cole(right, sweeps), [left, right])
 
 
-def _master_curve(figure: Figure, curve: xr.Dataset, tree: xr.DataTree) -> None:
+def _master_curve(figure: Figure, curve: Dataset, tree: DataTree) -> None:
     spectrum = group(tree, "spectrum_curve")
     top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[2.6, 1.0])
     reference = reference_temperature(tree)
@@ -101,16 +97,16 @@ def _master_curve(figure: Figure, curve: xr.Dataset, tree: xr.DataTree) -> None:
     top.set_xlabel("")
 
 
-def _step_master_curve(figure: Figure, curve: xr.Dataset, tree: xr.DataTree) -> None:
+def _step_master_curve(figure: Figure, curve: Dataset, tree: DataTree) -> None:
     axes = figure.subplots()
     temperature_bar(figure, plot_step_master_curve(axes, curve, synthetic=is_synthetic(tree)), [axes])
 
 
-def _shift_factors(figure: Figure, factors: xr.Dataset, tree: xr.DataTree) -> None:
+def _shift_factors(figure: Figure, factors: Dataset, tree: DataTree) -> None:
     plot_shift_factors(figure.subplots(), factors, law_of(group(tree, "shift_law")))
 
 
-def _vertical_shift(tree: xr.DataTree) -> Figure | None:
+def _vertical_shift(tree: DataTree) -> Figure | None:
     factors = group(tree, "shift_factors")
     if factors is None or "log10_vertical_shift" not in factors:
         return None
@@ -119,18 +115,18 @@ def _vertical_shift(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-def _spectrum(figure: Figure, spectrum: xr.Dataset, tree: xr.DataTree) -> None:
+def _spectrum(figure: Figure, spectrum: Dataset, tree: DataTree) -> None:
     plot_retardation_spectrum(figure.subplots(), spectrum)
 
 
-def _friction_shift_factors(figure: Figure, found: xr.Dataset, tree: xr.DataTree) -> None:
+def _friction_shift_factors(figure: Figure, found: Dataset, tree: DataTree) -> None:
     # Friction may reach beyond the sweeps.
     both = found.isel(temperature=np.isfinite(values(found, "known_log10_shift_factor")))
     names = {f"known_{name}": name for name in ("log10_shift_factor", "standard_error")}
     plot_shift_comparison(figure.subplots(), found, both.drop_vars(names.values()).rename(names))
 
 
-def friction_against_speed(tree: xr.DataTree) -> Figure | None:
+def friction_against_speed(tree: DataTree) -> Figure | None:
     """Friction at a few temperatures, beside what was measured; where nothing else varies, or friction was measured."""
     prediction, measurement = solved_cases(tree), group(tree, "measurement")
     if measurement is None and (prediction is None or not _is_plain(tree)):
@@ -141,20 +137,20 @@ def friction_against_speed(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-def friction_sweep(tree: xr.DataTree) -> Figure | None:
+def friction_sweep(tree: DataTree) -> Figure | None:
     """Friction over the axes of a study: where more than speed and temperature varies, or the speed does not."""
     friction = group(tree, "prediction")
     drawn_as_curves = group(tree, "measurement") is not None and varied(tree) <= _CURVES
     return None if friction is None or drawn_as_curves or _is_plain(tree) else sweep_figure(friction)
 
 
-def _is_plain(tree: xr.DataTree) -> bool:
+def _is_plain(tree: DataTree) -> bool:
     """Whether curves over the speed, one for each temperature, are all there is."""
     names, friction = varied(tree), group(tree, "prediction")
     return "speed" in names and names <= _CURVES and friction is not None and SAMPLE not in friction.dims
 
 
-def varied(tree: xr.DataTree) -> set[str]:
+def varied(tree: DataTree) -> set[str]:
     """Return the names of the axes along which friction was predicted at more than one point."""
     friction = group(tree, "prediction")
     return set() if friction is None else {axis.name for axis in sweep_axes(friction)}
@@ -163,7 +159,7 @@ def varied(tree: xr.DataTree) -> set[str]:
 _CURVES = {"speed", "temperature"}
 
 
-def _few_curves(prediction: xr.Dataset, measurement: xr.Dataset | None) -> xr.Dataset:
+def _few_curves(prediction: Dataset, measurement: Dataset | None) -> Dataset:
     """Leave out temperatures where there are too many lines to distinguish, and loads other than the measured."""
     temperature, load = (values(prediction, name) for name in ("temperature", "load"))
     nominal = nominal_temperatures(temperature)
@@ -175,14 +171,14 @@ def _few_curves(prediction: xr.Dataset, measurement: xr.Dataset | None) -> xr.Da
     return prediction.isel(case=np.flatnonzero(shown & np.isin(nearest(nominal, temperature), sorted(kept))))
 
 
-def friction_map(tree: xr.DataTree) -> Figure | None:
+def friction_map(tree: DataTree) -> Figure | None:
     """Friction over speed and temperature."""
     friction, measurement = group(tree, "prediction"), group(tree, "measurement")
     points = None if measurement is None else (values(measurement, "speed"), values(measurement, "temperature"))
     return None if friction is None else map_figure(friction, points, known_shifts(tree))
 
 
-def friction_master_curve(tree: xr.DataTree) -> Figure | None:
+def friction_master_curve(tree: DataTree) -> Figure | None:
     """Friction of all temperatures over the reduced speed, a line for each of several rubbers."""
     reference = reference_temperature(tree)
     found = [(name, part) for name, branch in rubbers(tree) if (part := solved_cases(branch, _MASTER)) is not None]
@@ -205,7 +201,7 @@ def friction_master_curve(tree: xr.DataTree) -> Figure | None:
 _MASTER = "prediction_master"
 
 
-def coulomb_friction(tree: xr.DataTree) -> Figure | None:
+def coulomb_friction(tree: DataTree) -> Figure | None:
     """Measured Coulomb friction."""
     measurement = group(tree, "measurement")
     if measurement is None or not np.isfinite(values(measurement, "coulomb")).any():
@@ -215,7 +211,7 @@ def coulomb_friction(tree: xr.DataTree) -> Figure | None:
     return figure
 
 
-def contacts(tree: xr.DataTree) -> Figure | None:
+def contacts(tree: DataTree) -> Figure | None:
     """Pressure of the slowest contact, of that with the most friction and of the fastest."""
     shown = shown_contacts(tree)
     if not shown:
@@ -226,21 +222,21 @@ def contacts(tree: xr.DataTree) -> Figure | None:
     return contacts_figure(each)
 
 
-def recovery_trail(tree: xr.DataTree) -> Figure | None:
+def recovery_trail(tree: DataTree) -> Figure | None:
     """Draw the surface behind those contacts; a rough surface has no behind."""
     shown = [] if is_rough(tree) else shown_contacts(tree)
     found = trails(tree, shown)
     return trail_figure([contact for contact, _ in shown], found) if found and len(found) == len(shown) else None
 
 
-def convergence(tree: xr.DataTree) -> Figure | None:
+def convergence(tree: DataTree) -> Figure | None:
     """Errors and grids of the requested cases."""
     cases = solved_cases(tree)
     return None if cases is None else convergence_figure(cases, accuracy=number(tree.attrs, "accuracy"))
 
 
 #: Name of the files -> what draws the figure, or gives None if the results lack it: of friction …
-FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
+FRICTION_FIGURES: dict[str, Callable[[DataTree], Figure | None]] = {
     "friction_against_speed": friction_against_speed,
     "friction_sweep": friction_sweep,
     "friction_map": friction_map,
@@ -259,7 +255,7 @@ FRICTION_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
     "convergence": convergence,
 }
 #: … and of the rubber, or of each of several.
-RUBBER_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
+RUBBER_FIGURES: dict[str, Callable[[DataTree], Figure | None]] = {
     "master_curve": _of("master_curve", _master_curve, 6.2, 5.6),
     "step_master_curve": _of("step_master_curve", _step_master_curve),
     "spectrum": _of("spectrum", _spectrum),
@@ -271,7 +267,7 @@ RUBBER_FIGURES: dict[str, Callable[[xr.DataTree], Figure | None]] = {
 }
 
 
-def figure_images(tree: xr.DataTree, formats: tuple[str, ...] = ("png", "svg")) -> dict[str, dict[str, bytes]]:
+def figure_images(tree: DataTree, formats: tuple[str, ...] = ("png", "svg")) -> dict[str, dict[str, bytes]]:
     """Draw every figure that the results afford: name -> format -> bytes, those of a second rubber with ``_2``."""
     images = _drawn(FRICTION_FIGURES, tree, formats) | _drawn(RUBBER_FIGURES, tree, formats)
     for place, (_, branch) in enumerate(rubbers(tree), 1):
@@ -280,7 +276,7 @@ def figure_images(tree: xr.DataTree, formats: tuple[str, ...] = ("png", "svg")) 
 
 
 def _drawn(
-    figures: dict[str, Callable[[xr.DataTree], Figure | None]], tree: xr.DataTree, formats: tuple[str, ...]
+    figures: dict[str, Callable[[DataTree], Figure | None]], tree: DataTree, formats: tuple[str, ...]
 ) -> dict[str, dict[str, bytes]]:
     found = {
         name: saving.images(partial(draw, tree), formats, name=name, synthetic=is_synthetic(tree))
@@ -289,7 +285,7 @@ def _drawn(
     return {name: image for name, image in found.items() if image}
 
 
-def draw_figures(tree: xr.DataTree, folder: str | Path) -> list[Path]:
+def draw_figures(tree: DataTree, folder: str | Path) -> list[Path]:
     """Draw every figure that a study's results afford, as PNG and SVG.
 
     Parameters

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 
 from viscofric.report.data import Sweeps, moduli_of_sweeps
 from viscofric.report.figures.rubber import draw_by_temperature, modulus_label
 from viscofric.report.figures.style import BLUE, GREY, VERMILION, legend_above, logarithmic, plain_numbers
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
-
-    from viscofric.rheology.superposition.consistency import SuperpositionCheck
-    from viscofric.rheology.superposition.kramers_kronig import KramersKronig
-
+from viscofric.rheology.superposition.consistency import SuperpositionCheck
+from viscofric.rheology.superposition.kramers_kronig import KramersKronig
 
 _PASCAL_PER_MEGAPASCAL = 1e6
 

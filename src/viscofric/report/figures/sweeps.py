@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from viscofric.arrays import Array
+from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.report.figures.style import (
     GREY,
@@ -36,16 +41,6 @@ from viscofric.report.sweeps import (
     thinned,
 )
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from viscofric.arrays import Array
-
-
 FRICTION = r"viscoelastic friction coefficient $\mu$"
 _COEFFICIENT = "friction_coefficient"
 _BAND = 0.18
@@ -53,7 +48,7 @@ _THIN: dict[str, Any] = {"linewidth": 0.7, "alpha": 0.45, "zorder": 1.5}  # of o
 _HEADROOM = 1.06
 
 
-def plot_sweep(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequence[int] = (0,)) -> None:
+def plot_sweep(axes: Axes, friction: Dataset, layout: Layout, shown: Sequence[int] = (0,)) -> None:
     """Draw friction along one axis of a study, a line for each point of another.
 
     Where there are members of the rubber's posterior (`sample`), the line is the best estimate, and the band holds 95 %
@@ -82,7 +77,7 @@ def plot_sweep(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequence
         axes.plot(missing, np.full(missing.size, 0.03), "x", color=VERMILION, transform=axes.get_xaxis_transform())
 
 
-def plot_study(axes: Axes, friction: xr.Dataset) -> None:
+def plot_study(axes: Axes, friction: Dataset) -> None:
     """Draw friction over the first panel of a study's results (`StudyResults.dataset`), with its labels."""
     layout = layout_of(friction)
     if layout is None:
@@ -94,7 +89,7 @@ def plot_study(axes: Axes, friction: xr.Dataset) -> None:
     _legend_beside(axes, friction, layout, shown)
 
 
-def _middle_and_band(part: xr.Dataset, along: str) -> tuple[Array, Array, Array]:
+def _middle_and_band(part: Dataset, along: str) -> tuple[Array, Array, Array]:
     """Return friction along an axis and the limits of its band, NaN where there is none."""
     each = _of_seeds(part, along)
     if each is not None:
@@ -114,7 +109,7 @@ def _middle_and_band(part: xr.Dataset, along: str) -> tuple[Array, Array, Array]
     return mu, lower, upper
 
 
-def _of_seeds(part: xr.Dataset, along: str) -> Array | None:
+def _of_seeds(part: Dataset, along: str) -> Array | None:
     """Return friction along an axis on each of several surfaces, best estimate of the rubber; None without them."""
     best = best_estimate(part)[_COEFFICIENT]
     if SEED not in best.dims or along == SEED:
@@ -129,7 +124,7 @@ def line_looks(lines: SweepAxis | None, shown: Sequence[int]) -> list[Look]:
     return sequential_looks(len(shown))
 
 
-def sweep_figure(friction: xr.Dataset) -> Figure | None:
+def sweep_figure(friction: Dataset) -> Figure | None:
     """Return labelled friction over all axes of a study: curves in one panel, or in small multiples with one scale."""
     layout = layout_of(friction)
     if layout is None or not np.isfinite(friction[_COEFFICIENT].values).any():
@@ -173,7 +168,7 @@ def _label_outside(figure: Figure, along: SweepAxis, panels: Sequence[Axes]) -> 
         figure.supylabel(FRICTION, fontsize=10.5)
 
 
-def _legend_beside(axes: Axes, friction: xr.Dataset, layout: Layout, shown: Sequence[int]) -> None:
+def _legend_beside(axes: Axes, friction: Dataset, layout: Layout, shown: Sequence[int]) -> None:
     """Put one legend beside the panels: what the colours mean, what bands and crosses are."""
     handles: list[Any] = []
     if layout.lines is not None:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.checks import Check
 from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.datasets import Dataset, DataTree
 from viscofric.friction.assumption_check import assumption_checks_of
 from viscofric.friction.intervals import consistency_check
 from viscofric.notes import Note
@@ -32,13 +34,8 @@ from viscofric.report.sweeps import solved_cases
 from viscofric.report.texts.numbers import degrees, percent, several, significant
 from viscofric.study.results.results import beyond_accuracy
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
 
-    import xarray as xr
-
-
-def all_checks(tree: xr.DataTree) -> list[Check]:
+def all_checks(tree: DataTree) -> list[Check]:
     """Return every check that the results allow, in the order of the calculation."""
     found = list(rubber_checks(tree))
     for rubber, branch in rubbers(tree):
@@ -55,7 +52,7 @@ def counted(checks: list[Check]) -> str:
     return f"{len(checks)} check{'' if len(checks) == 1 else 's'}: {parts}." if checks else ""
 
 
-def rubber_checks(tree: xr.DataTree) -> Iterator[Check]:
+def rubber_checks(tree: DataTree) -> Iterator[Check]:
     """Yield every check of the rubber that the results allow."""
     for part in (_isotherms, _superposition, _spectrum):
         yield from part(tree)
@@ -72,7 +69,7 @@ def _judged(name: str, words: str, value: float, attributes: Mapping[Any, Any], 
     return Check.of(name, holds == 1.0, words.replace("@", f"rms; good if ≤ {_decades(limit)}"), value, limit)
 
 
-def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
+def _isotherms(tree: DataTree) -> Iterator[Check]:
     factors = group(tree, "shift_factors")
     if factors is None:
         return
@@ -97,7 +94,7 @@ def _isotherms(tree: xr.DataTree) -> Iterator[Check]:
     yield Check("Isotherms used", "warning", Note("isotherms-used", words, values=counted))
 
 
-def _superposition(tree: xr.DataTree) -> Iterator[Check]:
+def _superposition(tree: DataTree) -> Iterator[Check]:
     factors = group(tree, "shift_factors")
     if factors is None:
         return
@@ -125,7 +122,7 @@ def _superposition(tree: xr.DataTree) -> Iterator[Check]:
             yield Check.of("Storage against loss modulus", belong, str(whole.attrs["causality"]))
 
 
-def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
+def _law(tree: DataTree, measured_used: bool) -> Iterator[Check]:
     law = group(tree, "shift_law")
     rms = math.nan if law is None else number(law.attrs, "rms")
     if law is None or not math.isfinite(rms):
@@ -140,7 +137,7 @@ def _law(tree: xr.DataTree, measured_used: bool) -> Iterator[Check]:
         yield Check.of("Shift law", holds == 1.0, words, rms, limit)
 
 
-def _spectrum(tree: xr.DataTree) -> Iterator[Check]:
+def _spectrum(tree: DataTree) -> Iterator[Check]:
     steps = group(tree, "step_master_curve")
     if steps is not None and math.isfinite(step := number(steps.attrs, "rms_log10_step")):
         words = f"The spectrum lies {_decades(step)} from the measured response (@)."
@@ -175,20 +172,20 @@ _ASSUMPTIONS = {
 }
 
 
-def friction_checks(tree: xr.DataTree) -> Iterator[Check]:
+def friction_checks(tree: DataTree) -> Iterator[Check]:
     """Yield every check of friction that the results allow, in the order of the calculation."""
     parts = (_contact, _small_strain, _assumptions, _frequencies, _measurement, _friction_shifts, _cases)
     for part in parts:
         yield from part(tree)
 
 
-def _predictions(tree: xr.DataTree) -> list[xr.Dataset]:
+def _predictions(tree: DataTree) -> list[Dataset]:
     """Return the solved cases: those requested, and those along the friction master curve."""
     names = ("prediction", "prediction_master")
     return [part for name in names if (part := solved_cases(tree, name)) is not None]
 
 
-def _contact(tree: xr.DataTree) -> Iterator[Check]:
+def _contact(tree: DataTree) -> Iterator[Check]:
     parts = _predictions(tree)
     if not parts:
         return
@@ -224,7 +221,7 @@ def _contact(tree: xr.DataTree) -> Iterator[Check]:
         )
 
 
-def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
+def _small_strain(tree: DataTree) -> Iterator[Check]:
     parts = _predictions(tree)
     if not parts or is_rough(tree):
         return
@@ -247,7 +244,7 @@ def _small_strain(tree: xr.DataTree) -> Iterator[Check]:
     )
 
 
-def _assumptions(tree: xr.DataTree) -> Iterator[Check]:
+def _assumptions(tree: DataTree) -> Iterator[Check]:
     found = group(tree, "assumptions")
     if found is None:
         return
@@ -256,7 +253,7 @@ def _assumptions(tree: xr.DataTree) -> Iterator[Check]:
             yield replace(check, name=_ASSUMPTIONS[check.name])
 
 
-def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
+def _frequencies(tree: DataTree) -> Iterator[Check]:
     counts, outside, cases = [], 0, {}
     for name, what in (
         ("prediction", "requested cases"),
@@ -287,7 +284,7 @@ def _frequencies(tree: xr.DataTree) -> Iterator[Check]:
     yield Check.of("Measured frequency range", outside == 0, Note("frequency-range", words, values=counted))
 
 
-def _measurement(tree: xr.DataTree) -> Iterator[Check]:
+def _measurement(tree: DataTree) -> Iterator[Check]:
     measurement = group(tree, "measurement")
     if measurement is None:
         return
@@ -303,7 +300,7 @@ def consistency_shown(check: Check) -> Check:
     return replace(check, name="Consistency of the four configurations", sentence=words)
 
 
-def _friction_shifts(tree: xr.DataTree) -> Iterator[Check]:
+def _friction_shifts(tree: DataTree) -> Iterator[Check]:
     found = group(tree, "friction_shift_factors")
     if found is not None:
         likely = number(found.attrs, "p_value") >= _LIKELY
@@ -314,7 +311,7 @@ def _friction_shifts(tree: xr.DataTree) -> Iterator[Check]:
             yield Check.of("Shift factors from friction", likely, sentence)
 
 
-def _cases(tree: xr.DataTree) -> Iterator[Check]:
+def _cases(tree: DataTree) -> Iterator[Check]:
     found = group(tree, "prediction")
     if found is None:
         return
@@ -330,7 +327,7 @@ def _cases(tree: xr.DataTree) -> Iterator[Check]:
         yield _accuracy(cases, accuracy, is_rough(tree))
 
 
-def _accuracy(cases: xr.Dataset, accuracy: float, rough: bool) -> Check:
+def _accuracy(cases: Dataset, accuracy: float, rough: bool) -> Check:
     """Judge the numerical errors of friction by the requested accuracy."""
     beyond, between = int(beyond_accuracy(cases, accuracy).sum()), int(interpolated(cases).sum())
     friction, error = (np.abs(values(cases, name)) for name in ("friction_coefficient", "friction_error"))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import chain
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.datasets import Dataset, DataTree
 from viscofric.report.results import (
     EXTRAPOLATED,
     WIDE,
@@ -34,12 +35,6 @@ from viscofric.report.texts.tables import (
     times,
     whole,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import xarray as xr
-
 
 _GLANCE = "at-a-glance"
 _MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
@@ -83,7 +78,7 @@ def _with_remarks(table: Table, doubts: Sequence[tuple[str, ...]]) -> Table:
     return replace(table, headings=[*table.headings, "remark"], rows=rows, note=note)
 
 
-def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
+def friction_at_a_glance(tree: DataTree) -> Table | None:
     """Predicted friction in one look: over speed and temperature, or its highest value for all else that varies."""
     prediction = solved_cases(tree)
     if prediction is None:
@@ -104,7 +99,7 @@ def friction_at_a_glance(tree: xr.DataTree) -> Table | None:
 _OF_SEEDS = "Mean over the seeds of the surface, with half its 95 % confidence interval (Student's t)."
 
 
-def _friction_grid(tree: xr.DataTree, prediction: xr.Dataset, kind: Sequence[tuple[str, ...]]) -> Table:
+def _friction_grid(tree: DataTree, prediction: Dataset, kind: Sequence[tuple[str, ...]]) -> Table:
     """Return a row for each speed, and a column for each temperature and all else that varies."""
     speed, friction = values(prediction, "speed"), values(prediction, "friction_coefficient")
     nominal = nominal_temperatures(values(prediction, "temperature"))
@@ -135,7 +130,7 @@ def _friction_grid(tree: xr.DataTree, prediction: xr.Dataset, kind: Sequence[tup
     )
 
 
-def _mean(cases: xr.Dataset, row: int, friction: float) -> str:
+def _mean(cases: Dataset, row: int, friction: float) -> str:
     """Return friction, of several seeds with half the confidence interval of the mean."""
     if "seeds" not in cases:
         return significant(friction, 3)
@@ -143,7 +138,7 @@ def _mean(cases: xr.Dataset, row: int, friction: float) -> str:
 
 
 def _highest_friction(
-    tree: xr.DataTree, prediction: xr.Dataset, others: Sequence[str], kind: Sequence[tuple[str, ...]]
+    tree: DataTree, prediction: Dataset, others: Sequence[str], kind: Sequence[tuple[str, ...]]
 ) -> Table:
     """Return a row for each combination of all else that varies: its highest friction, and where that lies."""
     friction, doubts = values(prediction, "friction_coefficient"), remarks(tree, prediction)
@@ -182,7 +177,7 @@ def _meaning(*doubts: str) -> str:
     return "; ".join(f"{doubt}: {meaning}" for doubt, meaning in _DOUBTFUL.items() if doubt in doubts)
 
 
-def agreement_table(tree: xr.DataTree) -> Table | None:
+def agreement_table(tree: DataTree) -> Table | None:
     """Prediction against measurement, temperature by temperature."""
     agreement = group(tree, "agreement")
     if agreement is None:
@@ -214,7 +209,7 @@ def agreement_table(tree: xr.DataTree) -> Table | None:
     )
 
 
-def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_open: bool) -> Table | None:
+def prediction_table(tree: DataTree, name: str, key: str, caption: str, is_open: bool) -> Table | None:
     """Every case of a group of predictions: friction, its band and errors, and the size of the contact."""
     prediction = group(tree, name)
     if prediction is None:
@@ -266,11 +261,11 @@ def prediction_table(tree: xr.DataTree, name: str, key: str, caption: str, is_op
     return _with_remarks(table, doubts)
 
 
-def _unit(cases: xr.Dataset, name: str) -> str:
+def _unit(cases: Dataset, name: str) -> str:
     return str(cases[name].attrs.get("units", "")) if name in cases else ""
 
 
-def _varied_columns(cases: xr.Dataset) -> list[Column]:
+def _varied_columns(cases: Dataset) -> list[Column]:
     """Return columns of the other quantities that vary; names of rubbers stand before them."""
     return [
         Column(name.replace("_", " "), name, partial(value_label, cases, name))
@@ -279,7 +274,7 @@ def _varied_columns(cases: xr.Dataset) -> list[Column]:
     ]
 
 
-def measurement_table(tree: xr.DataTree) -> Table | None:
+def measurement_table(tree: DataTree) -> Table | None:
     """Every measured point with its prediction."""
     measurement = group(tree, "measurement")
     if measurement is None:
@@ -315,7 +310,7 @@ def measurement_table(tree: xr.DataTree) -> Table | None:
     return _with_remarks(table, remarks(tree, measurement))
 
 
-def friction_shift_table(tree: xr.DataTree) -> Table | None:
+def friction_shift_table(tree: DataTree) -> Table | None:
     """Shift factors from friction and from the modulus."""
     found = group(tree, "friction_shift_factors")
     if found is None:
@@ -334,7 +329,7 @@ def friction_shift_table(tree: xr.DataTree) -> Table | None:
     return made_table("friction-shift-factors", caption, full, columns, is_open=False)
 
 
-def detail_tables(tree: xr.DataTree) -> list[Table]:
+def detail_tables(tree: DataTree) -> list[Table]:
     """Return the full tables that the results afford."""
     found = [
         prediction_table(tree, "prediction", "prediction", "Friction predicted for each case.", True),
@@ -359,7 +354,7 @@ def _within_reach(table: Table) -> Table:
     return replace(table, rows=table.rows[:_LONGEST], note=note, left_out=left_out)
 
 
-def _master_and_rubber(tree: xr.DataTree) -> list[Table | None]:
+def _master_and_rubber(tree: DataTree) -> list[Table | None]:
     return [
         prediction_table(
             tree,

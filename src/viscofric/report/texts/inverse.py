@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.datasets import plain, record
+from viscofric.datasets import Dataset, plain, record
 from viscofric.notes import listed
 from viscofric.report.results import values
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
@@ -16,8 +16,6 @@ from viscofric.rheology.cards import native
 from viscofric.units import shown_celsius, shown_number
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from viscofric.arrays import Array
     from viscofric.friction.identification.result import IdentifiedBand, IdentifiedMaterial
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
@@ -53,7 +51,7 @@ def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str
     return aligned(zip(*columns, strict=True))
 
 
-def _factors(master: FrictionMasterCurve) -> xr.Dataset:
+def _factors(master: FrictionMasterCurve) -> Dataset:
     """Return the shift factors of a master curve: those found, or those given at the temperatures of the curves."""
     if master.found:
         return master.shift_factors.to_dataset()

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.steady import SMALL_STRAIN
+from viscofric.datasets import Dataset, DataTree
 from viscofric.files import parse_toml
 from viscofric.notes import Note
 from viscofric.report.results import (
@@ -40,14 +43,6 @@ from viscofric.report.texts.numbers import (
 from viscofric.study.results.compare import flat_keys
 from viscofric.units import CELSIUS_ZERO
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import xarray as xr
-
-    from viscofric.arrays import Array
-
-
 _FEW = 6  # points that are listed one by one
 
 
@@ -58,7 +53,7 @@ class Input(NamedTuple):
     value: str
 
 
-def scope(tree: xr.DataTree) -> list[str]:
+def scope(tree: DataTree) -> list[str]:
     """Say the inputs of the study in sentences."""
     attrs = tree.attrs
     said = []
@@ -107,7 +102,7 @@ def scope(tree: xr.DataTree) -> list[str]:
     return said + _interface(tree) + _heating(tree)
 
 
-def _interface(tree: xr.DataTree) -> list[str]:
+def _interface(tree: DataTree) -> list[str]:
     """Say which part of friction is measured, fitted and predicted, where there is an interface."""
     found, stress = group(tree, "prediction"), group(tree, "interface")
     if found is None or "interface_friction" not in found:
@@ -125,7 +120,7 @@ def _interface(tree: xr.DataTree) -> list[str]:
     return [said]
 
 
-def _heating(tree: xr.DataTree) -> list[str]:
+def _heating(tree: DataTree) -> list[str]:
     """Say what of the heat is given, fitted and predicted, and what heating changes."""
     heating = group(tree, "heating")
     if heating is None:
@@ -148,7 +143,7 @@ def _heating(tree: xr.DataTree) -> list[str]:
     return [said]
 
 
-def inputs(tree: xr.DataTree) -> list[Input]:
+def inputs(tree: DataTree) -> list[Input]:
     """Return what the study was given: rubber, indenter, conditions, accuracy."""
     attrs, listed = tree.attrs, []
     rubber = str(attrs.get("material") or attrs.get("material_name") or "")
@@ -201,7 +196,7 @@ def _other_settings(text: str, known: set[str]) -> list[Input]:
     return found
 
 
-def _axes(tree: xr.DataTree) -> list[SweepAxis]:
+def _axes(tree: DataTree) -> list[SweepAxis]:
     friction = group(tree, "prediction")
     return [] if friction is None else sweep_axes(friction)
 
@@ -213,7 +208,7 @@ def _points(axis: SweepAxis) -> str:
     return f"{axis.labels[0]} to {axis.labels[-1]} ({len(axis)} values)"
 
 
-def _temperatures(data: xr.Dataset) -> list[str]:
+def _temperatures(data: Dataset) -> list[str]:
     return [unbroken(degrees(float(kelvin))) for kelvin in nominal_temperatures(values(data, "temperature"))]
 
 
@@ -221,7 +216,7 @@ def _speeds(metres_per_second: Array) -> str:
     return unbroken(speeds(float(np.nanmin(metres_per_second)), float(np.nanmax(metres_per_second))))
 
 
-def _under(prediction: xr.Dataset, load: float) -> str:
+def _under(prediction: Dataset, load: float) -> str:
     """Say the load, or the range of loads."""
     loads = values(prediction, "load")
     loads = loads[np.isfinite(loads)] if np.isfinite(loads).any() else np.array([load])
@@ -231,7 +226,7 @@ def _under(prediction: xr.Dataset, load: float) -> str:
     return f" under {unbroken(f'{_range(loads, 4)} {unit}')}" if np.isfinite(loads).all() else ""
 
 
-def _isotherms_used(tree: xr.DataTree) -> str:
+def _isotherms_used(tree: DataTree) -> str:
     factors = group(tree, "shift_factors")
     if factors is None:
         return ""
@@ -258,7 +253,7 @@ class KeyNumber(NamedTuple):
     remark: str
 
 
-def key_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+def key_numbers(tree: DataTree) -> list[KeyNumber]:
     """Return the most important numbers of the results."""
     found = [*_friction_numbers(tree), *_shift_numbers(tree), *_ramp_numbers(tree), *_modulus_numbers(tree)]
     for rubber, branch in rubbers(tree)[:_MOST_RUBBERS]:
@@ -266,7 +261,7 @@ def key_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     return found
 
 
-def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+def _friction_numbers(tree: DataTree) -> list[KeyNumber]:
     found = []
     prediction, agreement = solved_cases(tree), group(tree, "agreement")
     if prediction is not None:
@@ -291,7 +286,7 @@ def _friction_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     return found
 
 
-def _caveat(tree: xr.DataTree, prediction: xr.Dataset) -> str:
+def _caveat(tree: DataTree, prediction: Dataset) -> str:
     """Say how many of the cases behind the headline rest on doubtful ground."""
     wide, beyond = int(is_wide(tree, prediction).sum()), int(is_extrapolated(prediction).sum())
     of, said = prediction.sizes["case"], ""
@@ -302,7 +297,7 @@ def _caveat(tree: xr.DataTree, prediction: xr.Dataset) -> str:
     return said
 
 
-def _shift_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+def _shift_numbers(tree: DataTree) -> list[KeyNumber]:
     factors, law, reference = group(tree, "shift_factors"), group(tree, "shift_law"), reference_temperature(tree)
     if factors is None or law is None or reference is None:
         return []
@@ -318,7 +313,7 @@ def _shift_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     ]
 
 
-def _ramp_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+def _ramp_numbers(tree: DataTree) -> list[KeyNumber]:
     """Return the law of temperature ramps, and the glass transition at each frequency."""
     ramps = group(tree, "ramps")
     if ramps is None:
@@ -333,7 +328,7 @@ def _ramp_numbers(tree: xr.DataTree) -> list[KeyNumber]:
     return found
 
 
-def _modulus_numbers(tree: xr.DataTree) -> list[KeyNumber]:
+def _modulus_numbers(tree: DataTree) -> list[KeyNumber]:
     spectrum = group(tree, "spectrum")
     if spectrum is None:
         return []

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.datasets import Dataset, DataTree
 from viscofric.report.results import group, values
 from viscofric.report.results import table as texts
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -56,7 +53,7 @@ def aligned(rows: Iterable[Iterable[str]]) -> list[str]:
 
 
 def made_table(
-    key: str, caption: str, dataset: xr.Dataset, columns: list[Column], is_open: bool = True, note: str = ""
+    key: str, caption: str, dataset: Dataset, columns: list[Column], is_open: bool = True, note: str = ""
 ) -> Table:
     """Write down those columns that the dataset has."""
     columns = [column for column in columns if column.variable in dataset.variables]
@@ -71,13 +68,13 @@ def made_table(
     )
 
 
-def _cells(dataset: xr.Dataset, column: Column) -> list[str]:
+def _cells(dataset: Dataset, column: Column) -> list[str]:
     if dataset[column.variable].dtype.kind in "OU":
         return [str(value) for value in dataset[column.variable].values]
     return [column.text(float(value)) for value in values(dataset, column.variable)]
 
 
-def shift_factor_table(tree: xr.DataTree) -> Table | None:
+def shift_factor_table(tree: DataTree) -> Table | None:
     """Shift factors of the isotherms."""
     factors = group(tree, "shift_factors")
     if factors is None:
@@ -94,7 +91,7 @@ def shift_factor_table(tree: xr.DataTree) -> Table | None:
     return made_table("shift-factors", "Shift factors of the isotherms.", full, columns, is_open=False)
 
 
-def law_table(tree: xr.DataTree) -> Table | None:
+def law_table(tree: DataTree) -> Table | None:
     """Shift laws with their constants, compared by AIC."""
     laws = group(tree, "laws")
     if laws is None:
@@ -111,7 +108,7 @@ def law_table(tree: xr.DataTree) -> Table | None:
     return made_table("laws", "Shift laws fitted to the shift factors, compared by AIC.", laws, columns, False, note)
 
 
-def spectrum_table(tree: xr.DataTree) -> Table | None:
+def spectrum_table(tree: DataTree) -> Table | None:
     """Modes of the retardation spectrum."""
     spectrum = group(tree, "spectrum")
     if spectrum is None:

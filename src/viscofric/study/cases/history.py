@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from viscofric.datasets import Dataset
 from viscofric.friction.cases.record import Column, HistoryRecord
 from viscofric.friction.cases.surfaces import surface_of
 from viscofric.motion.cycle import solve_cycle
@@ -12,11 +13,7 @@ from viscofric.motion.impact import solve_impact
 from viscofric.motion.solve import solve_transient
 from viscofric.notes import note_of
 from viscofric.rheology.material import Material
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 #: Number of a cycle -> its meaning; units by that of the load.
 _OF_CYCLE = {
@@ -70,14 +67,14 @@ def solve_hit(
     return HistoryRecord({}, tuple(map(note_of, hit.warnings)), columns=columns)
 
 
-def _columns(data: xarray.Dataset) -> dict[str, Column]:
+def _columns(data: Dataset) -> dict[str, Column]:
     return {
         str(name): Column(one.values.tolist(), str(one.attrs["units"]), str(one.attrs["long_name"]))
         for name, one in data.variables.items()
     }
 
 
-def _of_cycle(data: xarray.Dataset) -> dict[str, Column]:
+def _of_cycle(data: Dataset) -> dict[str, Column]:
     """Return the numbers of a cycle, which are attributes of its data set."""
     units = {"energy_per_cycle": str(data["dissipated"].attrs["units"])}
     units |= dict.fromkeys(("storage_stiffness", "loss_stiffness"), _STIFFNESS[str(data["load"].attrs["units"])])

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
+from viscofric.datasets import Dataset
 from viscofric.friction.cases.record import Failure, HistoryRecord, Record
 from viscofric.friction.cases.solving import Task
 from viscofric.notes import Note, counted
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    import xarray
-
 
 #: Numbers over time with the names of coordinates.
 _OVER_TIME = ("load", "temperature")
@@ -80,14 +76,14 @@ class Singles:
         ]
         return [*counted(each, of=self.NOUN)]
 
-    def dataset(self) -> xarray.Dataset | None:
+    def dataset(self) -> Dataset | None:
         """Return all results along their axes; None if all failed."""
         import xarray
 
         columns = self.columns()
         return xarray.Dataset(columns, self._coordinates, self._attributes) if columns else None
 
-    def groups(self) -> dict[str, xarray.Dataset]:
+    def groups(self) -> dict[str, Dataset]:
         """Return all results by their groups; none if all failed."""
         found = self.dataset()
         return {} if found is None else {self.GROUP: found}

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from viscofric.datasets import DataTree
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import LARGEST_FILE, file_path, read_text
 from viscofric.study.results.columns import PLACES, TITLE, over_all_dimensions, read_table_text
@@ -16,7 +17,6 @@ from viscofric.units import shown_celsius
 if TYPE_CHECKING:
     from pathlib import Path
 
-    import xarray
     from numpy.typing import NDArray
 
     from viscofric.arrays import Integers, Mask
@@ -57,7 +57,7 @@ class CaseTable:
         return cls._of_table(path) if file_path(path).suffix.lower() in _TABLES else cls.of_tree(*open_tree(path))
 
     @classmethod
-    def of_tree(cls, tree: xarray.DataTree, folder: Path) -> CaseTable:
+    def of_tree(cls, tree: DataTree, folder: Path) -> CaseTable:
         """Return the cases of results in a folder."""
         dataset = cases_of(tree, folder)
         columns = {str(name): over_all_dimensions(dataset, str(name)).ravel() for name in dataset.variables}

@@ -5,18 +5,15 @@ from __future__ import annotations
 import csv
 import io
 import json
-from typing import TYPE_CHECKING, Any, TextIO
+from collections.abc import Iterator, Mapping
+from typing import Any, TextIO
 
 import numpy as np
 
+from viscofric.datasets import Dataset, DataTree
 from viscofric.notes import note_of
 from viscofric.study.results.file import rubbers_of
 from viscofric.units import CELSIUS_ZERO
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    import xarray
 
 #: How a table of results begins, after its ``#``.
 TITLE = "viscofric results"
@@ -57,7 +54,7 @@ _NAMED = {
 }
 
 
-def table_text(cases: xarray.Dataset) -> str:
+def table_text(cases: Dataset) -> str:
     """Return the cases of results as a table: lines with ``#``, a line of headings, a row for each case."""
     text = io.StringIO()
     for name, said in about(cases.attrs):
@@ -66,7 +63,7 @@ def table_text(cases: xarray.Dataset) -> str:
     return text.getvalue()
 
 
-def write_columns(text: TextIO, dataset: xarray.Dataset) -> None:
+def write_columns(text: TextIO, dataset: Dataset) -> None:
     """Write a data set as a table: a line of headings with units, and a row for each point."""
     writer = csv.writer(text, lineterminator="\n")
     names, units, columns = columns_of(dataset)
@@ -125,7 +122,7 @@ def about(attributes: Mapping[Any, Any]) -> list[tuple[str, str]]:
     return [(name, " ".join(str(said).split())) for name, said in found]
 
 
-def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list[Any]]]:
+def columns_of(dataset: Dataset) -> tuple[list[str], list[str], list[list[Any]]]:
     """Return names, units (degC, or K of differences) and values of columns, the last dimension running fastest."""
     known = [name for name in PLACES if name in dataset.coords]
     known += [str(name) for name in dataset.coords if name not in PLACES]
@@ -143,7 +140,7 @@ def columns_of(dataset: xarray.Dataset) -> tuple[list[str], list[str], list[list
     return names, units, columns
 
 
-def over_all_dimensions(dataset: xarray.Dataset, name: str) -> Any:
+def over_all_dimensions(dataset: Dataset, name: str) -> Any:
     """Return the values of a variable over all dimensions of its data set, in their order."""
     return dataset[name].broadcast_like(dataset).transpose(*dataset.sizes).values
 
@@ -157,7 +154,7 @@ def written(value: Any) -> str:
     return "" if value is None else repr(value) if isinstance(value, float) else str(value)
 
 
-def tables(tree: xarray.DataTree) -> Iterator[tuple[str, xarray.Dataset]]:
+def tables(tree: DataTree) -> Iterator[tuple[str, Dataset]]:
     """Yield the tables of results other than the cases, with their names; of several materials, with the material's."""
     for name, group in _tables_of(tree):
         if name != "prediction":
@@ -168,7 +165,7 @@ def tables(tree: xarray.DataTree) -> Iterator[tuple[str, xarray.Dataset]]:
                 yield f"{called} {name}", group
 
 
-def _tables_of(tree: xarray.DataTree) -> Iterator[tuple[str, xarray.Dataset]]:
+def _tables_of(tree: DataTree) -> Iterator[tuple[str, Dataset]]:
     for name, node in tree.children.items():
         group = node.to_dataset()
         if not node.children and group.data_vars:

@@ -4,26 +4,20 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.solution import ERRORS
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.files import parse_toml
 from viscofric.notes import Note
 from viscofric.showing import Rows, Shown
 from viscofric.study.results.case_table import CaseTable, common_cases
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    import xarray
-
-    from viscofric.arrays import Array
-
 
 #: Variables that are compared -> the variable with its stated error.
 COMPARED = {
@@ -105,7 +99,7 @@ class ResultsComparison(Shown):
         same_cases = self.only_first == self.only_second == self.solved_once == 0
         return same_cases and all(difference.equal for difference in self.differences)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the differences along the dimension ``variable``.
 
         Returns

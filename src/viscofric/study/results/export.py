@@ -7,21 +7,17 @@ import json
 import re
 import shutil
 import tempfile
+from collections.abc import Callable, Mapping
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import Any, Literal, get_args
 
+from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import DataFileError, InputError, check_choice, not_imported, not_written
 from viscofric.files import file_path, write_atomically
 from viscofric.notes import note_of
 from viscofric.study.results.columns import about, columns_of, table_text, tables
 from viscofric.study.results.file import RESULTS_FILE, cases_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-
-    import xarray
-
 
 Form = Literal["csv", "excel", "netcdf", "zarr"]
 FORMS: tuple[Form, ...] = get_args(Form)
@@ -34,7 +30,7 @@ NAMES: dict[Form, str] = {
 }
 
 
-def export_results(tree: xarray.DataTree, folder: Path, form: Form, path: str | Path | None = None) -> Path:
+def export_results(tree: DataTree, folder: Path, form: Form, path: str | Path | None = None) -> Path:
     """Write results for other programs; see `StudyResults.export`."""
     check_choice(form, "form", *FORMS)
     target = folder / NAMES[form] if path is None else file_path(path)
@@ -52,7 +48,7 @@ def export_results(tree: xarray.DataTree, folder: Path, form: Form, path: str | 
     return target
 
 
-def _write_netcdf(dataset: xarray.Dataset, target: Path) -> None:
+def _write_netcdf(dataset: Dataset, target: Path) -> None:
     if target.is_dir():
         raise DataFileError(target, "is a folder; give the name of a file.", code="is-folder")
 
@@ -62,7 +58,7 @@ def _write_netcdf(dataset: xarray.Dataset, target: Path) -> None:
     _moved_into_place(write, target)
 
 
-def _write_zarr(dataset: xarray.Dataset, target: Path) -> None:
+def _write_zarr(dataset: Dataset, target: Path) -> None:
     try:
         import zarr  # noqa: F401
     except Exception as error:
@@ -100,7 +96,7 @@ _NARROWEST, _WIDEST = 8, 60
 _SENTENCES = ("warnings", "notes")
 
 
-def workbook(tree: xarray.DataTree, cases: xarray.Dataset) -> bytes:
+def workbook(tree: DataTree, cases: Dataset) -> bytes:
     """Return results as the bytes of a workbook: sheets summary, prediction, the other tables, variables."""
     import xlsxwriter  # type: ignore[import-untyped]
 
@@ -159,7 +155,7 @@ class _Made:
         page.set_column(1, 1, 110)
         page.freeze_panes(1, 0)
 
-    def table(self, name: str, dataset: xarray.Dataset) -> None:
+    def table(self, name: str, dataset: Dataset) -> None:
         """Write a data set on a sheet: fixed headings with units, a row for each point."""
         names, units, columns = columns_of(dataset)
         count = len(columns[0])

@@ -8,15 +8,12 @@ import os
 import re
 import tempfile
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import DataFileError, InputError, not_written
 from viscofric.files import file_path, insist_on_true_size, sync_folder
-
-if TYPE_CHECKING:
-    import xarray
 
 RESULTS_FILE = "results.nc"
 _PREDICTION = "prediction"
@@ -46,7 +43,7 @@ _SIGNATURE = b"\x89HDF\r\n\x1a\n"
 _CUT = re.compile(r"truncated file: eof = (\d+),.*stored_eof = (\d+)")
 
 
-def cases_of(tree: xarray.DataTree, folder: Path) -> xarray.Dataset:
+def cases_of(tree: DataTree, folder: Path) -> Dataset:
     """Return the predicted cases of results; see `StudyResults.dataset`."""
     if _PREDICTION not in tree.children:
         words = "these results have no prediction of friction; they are of a material alone."
@@ -55,7 +52,7 @@ def cases_of(tree: xarray.DataTree, folder: Path) -> xarray.Dataset:
     return found.assign_attrs({name: tree.attrs[name] for name in _ABOUT if name in tree.attrs})
 
 
-def rubbers_of(tree: xarray.DataTree) -> dict[str, xarray.DataTree]:
+def rubbers_of(tree: DataTree) -> dict[str, DataTree]:
     """Return the groups of each material by its name; see `StudyResults.materials`."""
     branches = tree.children.get("materials")
     if branches is None:
@@ -65,7 +62,7 @@ def rubbers_of(tree: xarray.DataTree) -> dict[str, xarray.DataTree]:
     return {names.get(int(number), number): branch for number, branch in branches.children.items()}
 
 
-def open_tree(path: str | Path) -> tuple[xarray.DataTree, Path]:
+def open_tree(path: str | Path) -> tuple[DataTree, Path]:
     """Return the tree of results and their folder; see `open_results`."""
     import h5netcdf  # noqa: F401 - its own errors are not those of the file
     import xarray
@@ -110,7 +107,7 @@ def _where_they_are(folder: Path) -> str:
     return f"there are results in {near[0]}." if near else "run the study first."
 
 
-def save_results(tree: xarray.DataTree, folder: Path) -> Path:
+def save_results(tree: DataTree, folder: Path) -> Path:
     """Write a tree to ``results.nc`` of a folder, as a whole or not at all."""
     target = folder / RESULTS_FILE
     tree.attrs[DIGEST] = digest(tree)
@@ -128,7 +125,7 @@ def save_results(tree: xarray.DataTree, folder: Path) -> Path:
     return target
 
 
-def digest(tree: xarray.DataTree) -> str:
+def digest(tree: DataTree) -> str:
     """Return a digest of all numbers, names and attributes: HDF5 does not notice zeros left by a power cut."""
     found = hashlib.sha256()
     for node in sorted(tree.subtree, key=lambda node: node.path):

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.free.estimates import FRICTION_FLOOR
+from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, note_of
 from viscofric.showing import Plotted, Rows
@@ -26,8 +27,6 @@ from viscofric.units import number
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
-
-    import xarray
 
     from viscofric.arrays import Mask
     from viscofric.friction.curves import FrictionCurves
@@ -47,7 +46,7 @@ class StudyResults(Plotted):
         Where it is stored.
     """
 
-    tree: xarray.DataTree
+    tree: DataTree
     folder: Path
 
     def _shown(self) -> Rows:
@@ -67,7 +66,7 @@ class StudyResults(Plotted):
         return ("cases", ", ".join(f"{size} {name}" for name, size in sizes.items())), ("friction coefficient", found)
 
     @property
-    def dataset(self) -> xarray.Dataset:
+    def dataset(self) -> Dataset:
         """The predicted cases over their axes, with the provenance in the attributes; SI units.
 
         Every axis of the study with more than one point is a dimension (material, sample, radius, thickness, load,
@@ -81,17 +80,17 @@ class StudyResults(Plotted):
         """
         return cases_of(self.tree, self.folder)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return `dataset`."""
         return self.dataset
 
     @property
-    def materials(self) -> dict[str, xarray.DataTree]:
+    def materials(self) -> dict[str, DataTree]:
         """Sweeps, shift factors, master curve and spectrum of each material, by its name."""
         return rubbers_of(self.tree)
 
     @property
-    def fields(self) -> dict[int, xarray.Dataset]:
+    def fields(self) -> dict[int, Dataset]:
         """Pressure and displacement of the cases that kept them, by the number of the case (from 1)."""
         kept = self.tree.children.get("fields")
         return {} if kept is None else {int(number): node.to_dataset() for number, node in kept.children.items()}
@@ -165,7 +164,7 @@ class StudyResults(Plotted):
         return tuple(map(note_of, json.loads(self.tree.attrs["warnings"])))
 
 
-def beyond_accuracy(cases: xarray.Dataset, accuracy: float) -> Mask:
+def beyond_accuracy(cases: Dataset, accuracy: float) -> Mask:
     """Return in which cases the estimated numerical error of friction exceeds the (relative) accuracy.
 
     `cases` have any shape; failed ones count as within.  Friction below the solver's floor, a fraction of the contact's

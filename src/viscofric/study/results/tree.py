@@ -42,14 +42,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.friction.cases.record import FIELD_MEANING, MEANING, Failure, Record
 from viscofric.friction.cases.surfaces import MadeSurface
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
-
-    import xarray
 
     from viscofric.contact.solution import Meaning
     from viscofric.friction.curves import FrictionCurves
@@ -58,7 +56,7 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.study import Study
     from viscofric.study.study_rubber import BandColumns, StudyRubber
 
-    Groups = dict[str, xarray.Dataset]
+    Groups = dict[str, Dataset]
 
 _WITHIN = "within_measured_frequencies"
 # Flags of a case, with their values for a case without a solution.
@@ -112,7 +110,7 @@ def prediction(
     within: Sequence[bool] | None = None,
     curves: FrictionCurves | BandColumns | None = None,
     interface: Mapping[str, Any] | None = None,
-) -> xarray.Dataset:
+) -> Dataset:
     """Return the cases of a sweep over its axes; those with one point are scalar coordinates.
 
     Axes that vary together share a dimension, which has no coordinate of its own name.  `within` (whether the contact's
@@ -152,7 +150,7 @@ def prediction(
 
 def master_prediction(
     records: Sequence[Record], geometry: str, within: Sequence[bool] | None, curves: FrictionCurves
-) -> xarray.Dataset:
+) -> Dataset:
     """Return the contacts along the friction master curve, with their bands where known."""
     meaning = meaning_of(geometry)
     columns: dict[str, Any] = {name: [getattr(record, name) for record in records] for name in MEANING[geometry]}
@@ -192,7 +190,7 @@ def field_groups(sweep: Sweep, outcomes: Sequence[Record | Failure]) -> Groups:
 
 def measurement_data(
     measured: FrictionCurves, reduced_speed: Any, solved: Any, within: Sequence[bool] | None, predicted: FrictionCurves
-) -> xarray.Dataset:
+) -> Dataset:
     """Return the separated measurement with the prediction at the `solved` points, NaN at the others."""
     columns: dict[str, Any] = {"reduced_speed": reduced_speed}
     values = {"predicted": predicted.viscoelastic, "predicted_error": predicted.viscoelastic_error}
@@ -209,7 +207,7 @@ def measurement_data(
 
 
 def material_groups(
-    groups: Sequence[Mapping[str, xarray.Dataset]], attributes: Sequence[Mapping[str, Any]]
+    groups: Sequence[Mapping[str, Dataset]], attributes: Sequence[Mapping[str, Any]]
 ) -> tuple[Groups, dict[str, Any]]:
     """Place the groups and attributes of each material: at the root for one, in branches of their own for several."""
     import xarray
@@ -280,7 +278,7 @@ def _surface_setting(study: Study, sweep: Sweep) -> dict[str, Any]:
     }
 
 
-def as_measured(data: xarray.Dataset) -> xarray.Dataset:
+def as_measured(data: Dataset) -> Dataset:
     """Say in their long names that friction coefficients were measured."""
     for name in ("viscoelastic", "coulomb"):
         if name in data:

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import difflib
 from collections import Counter
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeAlias
 
 from viscofric.study.cases.sweep import CONDITIONS, MOST_CASES, axes_of, body_of, coordinates, count_cases
 from viscofric.study.run_file.contact import BallTable
 from viscofric.study.run_file.tables import PerLength, Problem, worded
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
-    #: Valid tables by their names in the file.
-    Tables: TypeAlias = Mapping[str, Any]
+#: Valid tables by their names in the file.
+Tables: TypeAlias = Mapping[str, Any]
 
 
 def relations(tables: Tables) -> Iterator[Problem]:

@@ -6,12 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.datasets import plain
+from viscofric.datasets import DataArray, Dataset, plain
 from viscofric.web.figures.spec import Spec, around, axis, axis_of, figure, kind_of, line, number, quantity
 
 if TYPE_CHECKING:
-    import xarray
-
     from viscofric.arrays import Array
     from viscofric.motion.impact_solution import ImpactContact
     from viscofric.motion.solution import TransientSolution
@@ -27,7 +25,7 @@ _FRAMES, _POINTS, _FRAME_DIGITS = 120, 121, 4
 _ENERGIES = {"work": "work on the material", "stored": "stored", "dissipated": "dissipated"}
 
 
-def motion_view(data: xarray.Dataset, contacts: tuple[ImpactContact, ...], steps: str) -> dict[str, Any]:
+def motion_view(data: Dataset, contacts: tuple[ImpactContact, ...], steps: str) -> dict[str, Any]:
     """Return ``figures``, ``key_numbers`` and ``summary`` of a solution's data; `steps` says how many there were."""
     error = data["friction_force_error"] / data["load"].where(data["load"] > 0.0)
     data = data.assign(friction_coefficient_error=error.fillna(0.0))
@@ -68,7 +66,7 @@ def pressures(solved: TransientSolution) -> dict[str, Any]:
     return {"animation": found, "figures": {"motion-pressure": plain(spec)}}
 
 
-def _line_of(pressure: xarray.DataArray, along: str, waves: bool) -> tuple[Array, Array]:
+def _line_of(pressure: DataArray, along: str, waves: bool) -> tuple[Array, Array]:
     """Return positions (m) and pressures (Pa) along the motion."""
     if "r" in pressure.dims:
         r, p = pressure["r"].values, pressure.values
@@ -80,7 +78,7 @@ def _line_of(pressure: xarray.DataArray, along: str, waves: bool) -> tuple[Array
     return pressure[along].values, pressure.values
 
 
-def _over_time(data: xarray.Dataset, title: str, y: Spec, names: dict[str, str | None]) -> Spec:
+def _over_time(data: Dataset, title: str, y: Spec, names: dict[str, str | None]) -> Spec:
     """Draw columns with their errors over the time."""
     lines = []
     for name, words in names.items():
@@ -89,7 +87,7 @@ def _over_time(data: xarray.Dataset, title: str, y: Spec, names: dict[str, str |
     return figure(title, axis_of(data, "time"), y, lines)
 
 
-def _figures(data: xarray.Dataset) -> dict[str, Spec]:
+def _figures(data: Dataset) -> dict[str, Spec]:
     # a constant load has no range of its own
     load = axis_of(data, "load", range=[0.0, 1.08 * float(data["load"].max()) or 1.0])
     sizes = {name: words for name, words in _SIZES.items() if name in data and data[name].notnull().any()}
@@ -118,7 +116,7 @@ def _figures(data: xarray.Dataset) -> dict[str, Spec]:
     return {f"motion-{name}": spec for name, spec in found.items() if spec}
 
 
-def _of_impact(data: xarray.Dataset, first: ImpactContact) -> list[Spec]:
+def _of_impact(data: Dataset, first: ImpactContact) -> list[Spec]:
     stays = not np.isfinite(first.contact_time)
     return [
         number("Restitution", first.restitution, digits=4, error=first.restitution_error),
@@ -128,7 +126,7 @@ def _of_impact(data: xarray.Dataset, first: ImpactContact) -> list[Spec]:
     ]
 
 
-def _of_history(data: xarray.Dataset) -> list[Spec]:
+def _of_history(data: Dataset) -> list[Spec]:
     def at(label: str, name: str, place: int, remark: str = "") -> Spec:
         value, error = float(data[name][place]), float(data[f"{name}_error"][place])
         shown = error if error > 1e-9 * abs(value) else None

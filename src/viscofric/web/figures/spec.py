@@ -6,14 +6,11 @@ A column is an array, or the path of a column of the result that is shown ("prof
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from viscofric.datasets import plain
-
-if TYPE_CHECKING:
-    import xarray
+from viscofric.datasets import Dataset, plain
 
 #: Of a figure, a trace, a number or a table.
 Spec = dict[str, Any]
@@ -38,12 +35,12 @@ _KINDS = {
 }
 
 
-def kind_of(data: xarray.Dataset, name: str) -> str:
+def kind_of(data: Dataset, name: str) -> str:
     """Return the kind of a column, "plain" of one without a unit."""
     return _KINDS.get(data[name].attrs.get("units", "1"), "plain")
 
 
-def axis_of(data: xarray.Dataset, name: str, **look: Any) -> Spec:
+def axis_of(data: Dataset, name: str, **look: Any) -> Spec:
     """Return the axis of a column, with its long name."""
     return axis(data[name].attrs["long_name"], kind_of(data, name), **look)
 

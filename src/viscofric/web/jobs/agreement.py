@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from pydantic import Field
 
-from viscofric.datasets import plain
+from viscofric.datasets import DataTree, plain
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import listed, note_of
 from viscofric.report.data import predicted
 from viscofric.report.results import (
@@ -36,11 +37,6 @@ from viscofric.web.jobs.friction_data import by_temperature, drawn_line, measure
 from viscofric.web.jobs.friction_input import friction_curves, measured
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.friction.curves import FrictionCurves
 
 #: Tables of the run file that the comparison rests on; other tables belong to other steps.
 _TABLES = ("material", "indenter", "surface", "layer", "measurement", "solver", "uncertainty", "data_origin")
@@ -110,7 +106,7 @@ def _contacts(requested: dict[str, Any], curves: FrictionCurves, context: Contex
     return Contacts(checked, [rubber], Measurement(curves, rubber.material, ball.indenter, load))
 
 
-def _reply(tree: xarray.DataTree) -> dict[str, Any]:
+def _reply(tree: DataTree) -> dict[str, Any]:
     requested, along, agreement = (group(tree, name) for name in ("prediction", "prediction_master", "agreement"))
     assert requested is not None
     lines = predicted(cases_of(requested))
@@ -135,7 +131,7 @@ def _reply(tree: xarray.DataTree) -> dict[str, Any]:
     }
 
 
-def _points(tree: xarray.DataTree) -> list[dict[str, Any]]:
+def _points(tree: DataTree) -> list[dict[str, Any]]:
     """Return measured points beside their prediction, with what is doubtful about each."""
     points = group(tree, "measurement")
     assert points is not None

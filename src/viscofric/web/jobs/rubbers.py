@@ -61,8 +61,6 @@ def made_rubber(study: Mapping[str, Any], context: Context) -> Rubber:
 
 def friction_bands(study: Mapping[str, Any], context: Context) -> FrictionBands:
     """Return the draws of the rubber of [uncertainty]; `samples` is None where none can be drawn."""
-    from viscofric.study.study_rubber import FrictionBands
-
     table, wanted = checked_tables(study, context)
     rubber = made_rubber(study, context)
     settings = [table, wanted.draws, wanted.seed]
@@ -74,7 +72,6 @@ def study_rubber(study: Mapping[str, Any], context: Context, temperatures: Seque
     import numpy as np
 
     from viscofric.study.rubber import shift_of
-    from viscofric.study.study_rubber import StudyRubber
 
     rubber = made_rubber(study, context)
     shift = shift_of(rubber)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.datasets import plain, record
+from viscofric.datasets import Dataset, plain, record
 from viscofric.report.data import law_line, law_residuals, shift_table
 from viscofric.rheology.shifts.parametric_law import LEVEL_95, ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -15,8 +15,6 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-    import xarray
 
     from viscofric.arrays import Array
     from viscofric.rheology.shifts.law_comparison import LawRow
@@ -91,7 +89,7 @@ def _steps(rubber: Rubber) -> dict[str, Any] | None:
     return {"kind": curve.kind, "curves": curves, "fit": {"time": plain(curve.time), "response": plain(fitted)}}
 
 
-def with_bars(factors: xarray.Dataset) -> dict[str, Any]:
+def with_bars(factors: Dataset) -> dict[str, Any]:
     """Return a data set of shift factors as JSON, with ``error95``, half of each 95 % interval, where it is known."""
     found = record(factors, _DIGITS)
     if "standard_error" in found:

@@ -7,37 +7,34 @@ the shifts that `eplexor_master` undoes.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Mask
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.eplexor_master import (
     AS_IT_IS,
+    ShiftList,
     insist_on_sense,
     isotherm_of_each_row,
     programmed_frequencies,
     shift_list,
 )
 from viscofric.readers.dma.names import DMA, quantity
+from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
-from viscofric.readers.table import instrument_table
+from viscofric.readers.source import Source
+from viscofric.readers.table import Table, instrument_table
 from viscofric.readers.tables import numbered_rows
 from viscofric.readers.workbook import sheet_names, sheets
 from viscofric.units import shown_celsius
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
+Rows = Sequence[Sequence[Any]]
 
-    from viscofric.arrays import Array, Indices, Mask
-    from viscofric.readers.dma.instruments.eplexor_master import ShiftList
-    from viscofric.readers.dma.readings import Readings
-    from viscofric.readers.source import Source
-    from viscofric.readers.table import Table
-
-    Rows = Sequence[Sequence[Any]]
 
 NAME = "Netzsch Eplexor workbook"
 DATA = "Exported Data"

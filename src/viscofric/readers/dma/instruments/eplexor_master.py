@@ -9,23 +9,17 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array, Indices, Mask
 from viscofric.errors import DataFileError
 from viscofric.units import CELSIUS_ZERO, conversion, shown_celsius
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from viscofric.arrays import Array
-
-    Rows = Sequence[Sequence[Any]]
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Indices, Mask
+Rows = Sequence[Sequence[Any]]
 
 
 SHIFT_LIST = "Shiftlist"

@@ -18,7 +18,6 @@ import csv
 import re
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,16 +25,13 @@ from viscofric.errors import DataFileError
 from viscofric.notes import Note
 from viscofric.readers.dma import names
 from viscofric.readers.dma.names import DMA, tools_in
+from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
 from viscofric.readers.source import Source, decimal_comma
 from viscofric.readers.table import Table, instrument_table
 
-if TYPE_CHECKING:
-    from viscofric.readers.dma.readings import Readings
-    from viscofric.readers.source import Source
-
-    #: Line and cells of points.
-    Rows = list[tuple[int, tuple[str, ...]]]
+#: Line and cells of points.
+Rows = list[tuple[int, tuple[str, ...]]]
 
 
 _INTERVAL = re.compile(

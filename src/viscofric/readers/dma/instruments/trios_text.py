@@ -10,21 +10,18 @@ from __future__ import annotations
 import csv
 import io
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.ta_steps import StepText, readings_of, steps_of
+from viscofric.readers.dma.readings import Readings
+from viscofric.readers.source import Source
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+#: Line of the file, counted from 1, and its cells.
+Row = tuple[int, list[str]]
 
-    from viscofric.readers.dma.readings import Readings
-    from viscofric.readers.source import Source
-
-    #: Line of the file, counted from 1, and its cells.
-    Row = tuple[int, list[str]]
 
 NAME = "TA Instruments TRIOS text or CSV"
 

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import doubts, insist_on_agreement
 from viscofric.readers.dma.names import (
     MODULI,
+    Said,
     deformation_of,
     joined_tables,
     quantity,
@@ -24,20 +26,13 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
-from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, to_rad_per_second, unit_conversion
-from viscofric.readers.table import MISSING
+from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, Source, to_rad_per_second, unit_conversion
+from viscofric.readers.table import MISSING, Table
 from viscofric.readers.tables import name_columns
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
+#: Labels and values that name a sample holder.
+Tools = Sequence[tuple[str, str]]
 
-    from viscofric.arrays import Array, Integers
-    from viscofric.readers.dma.names import Said
-    from viscofric.readers.source import Source
-    from viscofric.readers.table import Table
-
-    #: Labels and values that name a sample holder.
-    Tools = Sequence[tuple[str, str]]
 
 _OF_OSCILLATION = re.compile(r"complex|oscillat|amplitude|dynamic|\bdyn\b", re.IGNORECASE)
 _DOUBLE = re.compile(r"\bdouble\s+(strain|amplitude)|\bDSA\b|\bp-?p\b|\bpeak[ -]to[ -]peak\b", re.IGNORECASE)
