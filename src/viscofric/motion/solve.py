@@ -31,7 +31,7 @@ from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, number, to_si_array
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from viscofric.arrays import Array
     from viscofric.heat.heating import Heating
@@ -467,8 +467,3 @@ def _beyond_on_waves(
     waves: Any = scipy.fft.rfft2(field.pressure)
     whole = dissipation(transfer, surface.shape, surface.spacing, toward, waves)
     return beyond_measured(surface, solid, transfer, waves, whole)
-
-
-def _half_length(extents: Mapping[str, float]) -> float:
-    """Return half the length of a contact along its motion, zero where there is none."""
-    return extents.get("contact_radius", 0.5 * (extents.get("front", 0.0) + extents.get("rear", 0.0)))

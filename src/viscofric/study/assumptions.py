@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -11,21 +12,17 @@ from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, assumptions_dataset
 from viscofric.friction.assumptions import check_assumptions
+from viscofric.friction.cases.indenter_case import IndenterCase
+from viscofric.friction.cases.record import Record
+from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import MadeSurface, surface_of
 from viscofric.friction.coulomb import with_interface
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, Remedy, note_of
+from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.study.contacts import Contacts, Solved
+from viscofric.study.run_file.study import Study
 from viscofric.study.study_rubber import curves_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from viscofric.friction.cases.indenter_case import IndenterCase
-    from viscofric.friction.cases.record import Record
-    from viscofric.friction.cases.surface_case import SurfaceCase
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.study.contacts import Contacts, Solved
-    from viscofric.study.run_file.study import Study
 
 # Checks with a warning of the run; others have warnings of single contacts, or are harmless.
 _WARNED_OF = ("half-space", "uncoupled")

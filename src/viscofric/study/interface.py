@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,13 +16,11 @@ from viscofric.friction.coulomb import with_interface
 from viscofric.friction.interface_stress import shear_stress
 from viscofric.notes import Note, note_of
 from viscofric.rheology.interface.friction import interface_friction, interface_notes
+from viscofric.rheology.interface.law import InterfaceLaw
+from viscofric.study.contacts import Contacts, Solved
+from viscofric.study.measurement import Measurement
+from viscofric.study.run_file.interface import InterfaceTable
 from viscofric.study.study_rubber import curves_of
-
-if TYPE_CHECKING:
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.study.contacts import Contacts, Solved
-    from viscofric.study.measurement import Measurement
-    from viscofric.study.run_file.interface import InterfaceTable
 
 _CUT_OFF = Note(
     "interface-on-roughness",

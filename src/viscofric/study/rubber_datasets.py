@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.datasets import Dataset
 from viscofric.rheology.shifts.parametric_law import law_misfit
 from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
+from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.superposition.joint import of_all_kinds
+from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperposition
-
-if TYPE_CHECKING:
-    from viscofric.rheology.spectra.modulus_table import ModulusTable
-    from viscofric.rheology.superposition.result import Superposition
-    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-    from viscofric.step_tests import StepTests
-    from viscofric.study.rubber import Rubber
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
+from viscofric.step_tests import StepTests
+from viscofric.study.rubber import Rubber
 
 
 def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dict[str, Dataset]:

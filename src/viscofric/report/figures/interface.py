@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
+from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.interface_stress import ShearStress
 from viscofric.report.data import Measured, as_dataset
 from viscofric.report.figures.friction import plot_measured
 from viscofric.report.figures.style import (
@@ -26,21 +32,10 @@ from viscofric.report.figures.style import (
 )
 from viscofric.report.results import group, is_synthetic, nearest, nominal_temperatures, number, values
 from viscofric.report.sweeps import SAMPLE, solved_cases, sweep_axes, thinned
+from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
+from viscofric.roughness.persson_result import PerssonTheory
 from viscofric.roughness.rough_friction import RoughFriction
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from viscofric.arrays import Array
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.interface_stress import ShearStress
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.roughness.persson_result import PerssonTheory
-
 
 _MEGA, _MILLIMETRES = 1e-6, 1e3
 _DASHES: tuple[Any, ...] = ("-", "--", ":", "-.")

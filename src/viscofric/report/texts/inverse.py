@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.datasets import Dataset, plain, record
+from viscofric.friction.identification.result import IdentifiedBand, IdentifiedMaterial
+from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+from viscofric.friction.shifting.shift_agreement import ShiftAgreement
 from viscofric.notes import listed
 from viscofric.report.results import values
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
 from viscofric.report.texts.tables import aligned
 from viscofric.rheology.cards import native
+from viscofric.rheology.shifts.laws import ParametricLaw
+from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import shown_celsius, shown_number
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.friction.identification.result import IdentifiedBand, IdentifiedMaterial
-    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-    from viscofric.friction.shifting.shift_agreement import ShiftAgreement
-    from viscofric.rheology.shifts.laws import ParametricLaw
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
 
 _SHIFT_UNITS = {
     "temperature": "K",

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.datasets import Dataset, plain, record
 from viscofric.report.data import law_line, law_residuals, shift_table
+from viscofric.rheology.shifts.law_comparison import LawRow
 from viscofric.rheology.shifts.parametric_law import LEVEL_95, ParametricLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from viscofric.arrays import Array
-    from viscofric.rheology.shifts.law_comparison import LawRow
-    from viscofric.rheology.shifts.shift_law import ShiftLaw
-    from viscofric.rheology.superposition.result import Superposition
-    from viscofric.study.rubber import Rubber
-
+from viscofric.rheology.superposition.result import Superposition
+from viscofric.study.rubber import Rubber
 
 _DIGITS = 6
 #: Points of a line that a law is drawn with.
