@@ -1,11 +1,12 @@
-"""Threads: one for BLAS, which slows down iterative solvers many-fold on a busy machine; several for large FFTs."""
+"""Threads: one for BLAS, which slows down iterative solvers many-fold on a busy machine; several for large arrays."""
 
 from __future__ import annotations
 
 import functools
 import os
 import sys
-from typing import TYPE_CHECKING, ParamSpec, TypeVar
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from viscofric.arguments import whole_number
 
@@ -14,13 +15,15 @@ if TYPE_CHECKING:
 
     from threadpoolctl import ThreadpoolController
 
-#: Environment variable with the number of threads of the FFTs of large arrays.
+#: Environment variable with the number of threads of the FFTs of large arrays, and of what else is done with these.
 THREADS_VARIABLE = "VISCOFRIC_FFT_THREADS"
 #: What a number of threads has to be.
 THREADS = "a whole number from 1, such as 2"
 
 #: Elements from which on several threads are faster, and elements for each thread.
 _LARGE, _EACH = 2**19, 2**17
+#: Elements of a part of an array of which several stay in the processor's cache.
+_PART = 2**17
 
 _Parameters = ParamSpec("_Parameters")
 _Result = TypeVar("_Result")
@@ -62,3 +65,30 @@ def usable_threads() -> int:
 def threads_for(elements: int, threads: int | None = None) -> int:
     """Return how many threads the FFT of so many real numbers is to have, of those given or usable."""
     return 1 if elements < _LARGE else min(threads or usable_threads(), elements // _EACH)
+
+
+def in_parts(function: Callable[..., _Result], *arrays: Any, threads: int | None = None) -> list[_Result]:
+    """Call a function with the same rows of all arrays, part after part; return what it returns, in the order of rows.
+
+    Parts of large arrays are shared among so many threads as their FFTs have, and each stays in the processor's cache
+    from one operation of the function to the next.
+    """
+    rows, size = arrays[0].shape[0], arrays[0].size
+    if size < _LARGE:
+        return [function(*arrays)]
+    each = max(1, _PART * rows // size)
+    found: dict[int, _Result] = {}
+    waiting = iter(range(0, rows, each))
+
+    def work() -> None:
+        for start in waiting:
+            found[start] = function(*(array[start : start + each] for array in arrays))
+
+    number = threads_for(size, threads)
+    if number == 1:
+        work()
+    else:
+        with ThreadPoolExecutor(number) as pool:
+            for done in [pool.submit(work) for _ in range(number)]:
+                done.result()
+    return [found[start] for start in range(0, rows, each)]

@@ -24,7 +24,7 @@ from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
 from viscofric.errors import InputError
 from viscofric.processes import Workers, call_all
-from viscofric.threads import THREADS_VARIABLE, threads_for, usable_threads
+from viscofric.threads import THREADS_VARIABLE, in_parts, threads_for, usable_threads
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -293,6 +293,37 @@ def test_threads_change_no_digit(name: str) -> None:
         lambda by: by.convolved(values, factor, (1800, 1280)),
     ):
         np.testing.assert_array_equal(transformed(one), transformed(two))
+
+
+def test_parts_cover_all_rows_in_their_order_with_any_threads() -> None:
+    """Each row once, the results by rows; small arrays, and those of other libraries, whole."""
+    values, column = np.arange(2.0 * 900 * 700).reshape(900, 700, 2), np.arange(900)[:, None, None]
+
+    def add(found: NDArray[np.float64], values: NDArray[np.float64], column: NDArray[np.int64]) -> int:
+        found += values + column
+        return int(column[0, 0, 0])
+
+    for threads in (1, 2, 3):
+        found = np.zeros_like(values)
+        first = in_parts(add, found, values, column, threads=threads)
+        np.testing.assert_array_equal(found, values + column)
+        assert len(first) > threads
+        assert first == sorted(first)
+    assert in_parts(len, values[:100]) == [100]
+    with pytest.raises(ZeroDivisionError):
+        in_parts(lambda _: 1 // 0, values, threads=2)
+
+
+def test_threads_change_no_contact() -> None:
+    surface = vf.contact.PeriodicSurface(self_affine(1024), 1.0 / 1024)
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    found = [
+        vf.solve_periodic(
+            rubber, surface, speed="1 m/s", pressure="200 kPa", backend=Backend("scipy", threads), tolerance=1e-4
+        )
+        for threads in (1, 2)
+    ]
+    np.testing.assert_array_equal(found[0].pressure, found[1].pressure)
 
 
 def test_backends_are_values() -> None:

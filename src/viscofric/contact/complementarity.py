@@ -25,6 +25,8 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
+import numpy as np
+
 if TYPE_CHECKING:
     from viscofric.contact.arrays.backend import AnyArray, Backend, Cells
     from viscofric.contact.extension import Extension
@@ -152,7 +154,9 @@ def solve_complementarity(
     while True:
         set_changes += 1
         products = operator.products - start + (0 if inner is operator else inner.products - inner_start)
-        state, gap, overlapping = _look(backend, pressure, displacement + height, load, indentation, depth, doubt)
+        state, gap, chosen, overlapping = _look(
+            backend, pressure, displacement, height, load, indentation, depth, doubt
+        )
         state_now = ComplementaritySolution(
             **state,
             pressure=pressure,
@@ -169,7 +173,7 @@ def solve_complementarity(
         spent = products >= most_products or (patience is not None and since_best >= patience)
         if state_now.converged or spent or not math.isfinite(state_now.complementarity):
             return best
-        contact = backend.cells((pressure > 0.0) | overlapping)
+        contact = backend.cells(chosen)
         unit = abs(state_now.indentation) if depth is None else depth
         gap = contact.gathered(gap)  # the rest of it is not needed, and large
         correction, steps, linear = solve_on_contact(
@@ -178,10 +182,11 @@ def solve_complementarity(
         )  # fmt: skip
         linear_iterations += steps
         values = contact.gathered(pressure) + correction
-        wrong, cells = int(xp.count_nonzero(overlapping)) + int(xp.count_nonzero(values < 0.0)), len(contact)
+        wrong, cells = overlapping + int(xp.count_nonzero(values < 0.0)), len(contact)
         values = _loaded_to(backend, backend.positive_part(values), load)
-        pressure = contact.scattered(values)  # not into the old one, which may be the best so far
-        del state_now, gap, overlapping, contact, correction, values  # large, and no longer needed
+        # Not into the old pressure, which may be the best so far.
+        pressure = contact.inserted(backend.zeros(pressure.shape, pressure.dtype), values)
+        del state_now, gap, chosen, contact, correction, values  # large, and no longer needed
         displacement = operator(pressure)
         if near_end:
             reduction = next(each for part, each in _REDUCTIONS if wrong > part * cells or part == 0.0)
@@ -201,35 +206,46 @@ def _loaded_to(backend: Backend, pressure: AnyArray, load: float | None) -> AnyA
 def _look(
     backend: Backend,
     pressure: AnyArray,
-    gap: AnyArray,
+    displacement: AnyArray,
+    height: AnyArray,
     load: float | None,
     indentation: float | None,
     depth: float | None,
     doubt: float,
-) -> tuple[dict[str, float], AnyArray, AnyArray]:
-    """Return what a pressure comes to, its gap, and the free cells that overlap.
-
-    `gap` is counted from the indenter's lowest point at zero, and is overwritten.
-    """
+) -> tuple[dict[str, float], AnyArray, AnyArray, int]:
+    """Return what a pressure comes to, its gap, the cells in contact, and how many free ones overlap."""
     xp = backend.xp
-    loaded = pressure > 0.0
-    under = gap[loaded]
+    gap, chosen = xp.empty_like(displacement), xp.empty_like(displacement, dtype=xp.bool)
+
+    def opened(
+        gap: AnyArray, chosen: AnyArray, pressure: AnyArray, displacement: AnyArray, height: AnyArray
+    ) -> AnyArray:
+        gap[...] = displacement + height
+        chosen[...] = pressure > 0.0
+        return gap[chosen]
+
+    def settled(gap: AnyArray, chosen: AnyArray, pressure: AnyArray) -> tuple[float, float, float]:
+        gap -= indentation
+        overlapping = ~chosen & (gap < -level)
+        chosen[...] = chosen | overlapping
+        least, total, wrong = backend.floats(xp.min(gap), backend.total(pressure), xp.count_nonzero(overlapping))
+        return least, total, wrong
+
+    under = xp.concat(backend.in_parts(opened, gap, chosen, pressure, displacement, height))
     if indentation is None:
         indentation = float(backend.total(under)) / max(under.shape[0], 1)
-    gap -= indentation
     under -= indentation
     level = doubt * math.sqrt(float(under @ under) / max(under.shape[0], 1))
-    overlapping = ~loaded & (gap < -level)
-    least, total = backend.floats(xp.min(gap), backend.total(pressure))
-    worst = -least
+    least, total, wrong = zip(*backend.in_parts(settled, gap, chosen, pressure), strict=True)
+    worst = -float(np.min(least))
     if under.shape[0]:
         worst = max(worst, float(backend.largest(xp.abs(under))))
     state = {
         "indentation": indentation,
         "complementarity": worst / (abs(indentation) if depth is None else depth),
-        "load": 0.0 if load is None else abs(total / load - 1.0),
+        "load": 0.0 if load is None else abs(sum(total) / load - 1.0),
     }
-    return state, gap, overlapping
+    return state, gap, chosen, int(sum(wrong))
 
 
 def solve_on_contact(

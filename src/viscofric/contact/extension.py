@@ -74,20 +74,21 @@ class Extension:
         self._lines = [self._array(_interpolation(size)) for size in blocks]
 
     def on(self, contact: Cells) -> Callable[[AnyArray], AnyArray]:
-        """Return the extension of values on a contact: from (n,) at its cells to (nx, ny)."""
+        """Return the extension of values on a contact: from (n,) at its cells to (nx, ny); the next overwrites it."""
         xp = self.backend.xp
-        share = self._smoothed(xp.astype(contact.chosen, self.dtype))
+        share = self._smoothed(contact.scattered(xp.ones_like(contact.indices, dtype=self.dtype)))
         scale = self.backend.reciprocal(xp.clip(share, min=_LEAST))
         trail = self._trail(contact)
+        found = xp.empty_like(contact.chosen, dtype=self.dtype)
 
         def extended(values: AnyArray) -> AnyArray:
-            found = self._spread(self._smoothed(contact.scattered(values)) * scale)
+            field = self._spread(self._smoothed(contact.scattered(values)) * scale, found)
             for cells, rest, sources in trail:
-                near = rest * cells.gathered(found)
+                near = rest * cells.gathered(field)
                 for source, weight in sources:
                     near += weight * xp.take(values, source)
-                found = cells.inserted(found, near)
-            return contact.inserted(found, values)
+                field = cells.inserted(field, near)
+            return contact.inserted(field, values)
 
         return extended
 
@@ -133,19 +134,28 @@ class Extension:
         xp, transforms = self.backend.xp, self.backend.transforms
         over_x, over_y = self._means
         (nx, ny), bx, by = self.shape, over_x.shape[1], over_y.shape[1]
-        means = xp.matmul(over_x, xp.reshape(field, (nx, bx, ny * by)))
-        means = xp.matmul(xp.reshape(means, (nx * ny, by)), over_y[0, :])
-        waves = transforms.forward(xp.reshape(means, self.shape))
+
+        def average(field: AnyArray, means: AnyArray) -> None:
+            means[...] = xp.reshape(xp.matmul(xp.reshape(xp.matmul(over_x, field), (-1, by)), over_y[0, :]), (-1, ny))
+
+        means = self.backend.zeros(self.shape, self.dtype)
+        self.backend.in_parts(average, xp.reshape(field, (nx, bx, ny * by)), means)
+        waves = transforms.forward(means)
         waves *= self._weights
         return transforms.inverse(waves, self.shape)
 
-    def _spread(self, values: AnyArray) -> AnyArray:
-        """Interpolate linearly between the centres of blocks."""
+    def _spread(self, values: AnyArray, field: AnyArray) -> AnyArray:
+        """Interpolate linearly between the centres of blocks, into a field."""
         xp = self.backend.xp
         along_x, along_y = self._lines
         (nx, ny), bx, by = self.shape, along_x.shape[0], along_y.shape[0]
+
+        def interpolate(field: AnyArray, values: AnyArray) -> None:
+            field[...] = xp.matmul(along_x, values)
+
         values = xp.reshape(xp.matmul(_with_neighbours(xp, values, 1), along_y.T), (nx, ny * by))
-        return xp.reshape(xp.matmul(along_x, _with_neighbours(xp, values, 0)), (nx * bx, ny * by))
+        self.backend.in_parts(interpolate, xp.reshape(field, (nx, bx, ny * by)), _with_neighbours(xp, values, 0))
+        return field
 
     def _array(self, values: Array) -> AnyArray:
         return self.backend.xp.astype(self.backend.asarray(values), self.dtype)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import importlib
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -19,13 +19,17 @@ from viscofric.arguments import whole_number
 from viscofric.contact.arrays.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
 from viscofric.errors import InputError, not_imported, wrong_argument
 from viscofric.showing import Shown
-from viscofric.threads import THREADS, usable_threads
+from viscofric.threads import THREADS, in_parts, usable_threads
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     #: An array of whichever library the backend has.
     AnyArray: TypeAlias = Any
+
+Result = TypeVar("Result")
 
 _ON_NUMPY = ("scipy", "ducc0", "pyfftw")
 _OTHERS = ("torch", "cupy", "array_api_strict")
@@ -50,7 +54,7 @@ class Backend(Shown):
         its FFTs: "cupy", or "torch", if need be with a device, as in "torch:cuda"; all in double precision.
         "array_api_strict" shows that the array standard is kept to, slowly.
     threads : int, optional
-        Of the FFTs of large NumPy arrays; if not given, the number in the environment variable VISCOFRIC_FFT_THREADS,
+        Of the work on large NumPy arrays; if not given, the number in the environment variable VISCOFRIC_FFT_THREADS,
         otherwise one for each processor that this process may use, no more than OMP_NUM_THREADS.
 
     Raises
@@ -188,6 +192,10 @@ class Backend(Shown):
         """Largest value, likewise."""
         return values.max() if self.is_numpy else self.xp.max(values)
 
+    def zeros(self, shape: tuple[int, ...], dtype: Any) -> AnyArray:
+        """Array of zeros; of NumPy's, memory that is never written to costs nothing."""
+        return self.xp.zeros(shape, dtype=dtype, device=self.device)
+
     def positive_part(self, values: AnyArray) -> AnyArray:
         """max(x, 0) in place where the library can."""
         if self.is_numpy:
@@ -197,6 +205,10 @@ class Backend(Shown):
     def reciprocal(self, values: AnyArray) -> AnyArray:
         """1/x in place where the library can."""
         return np.divide(1.0, values, out=values) if self.is_numpy else 1.0 / values
+
+    def in_parts(self, function: Callable[..., Result], *arrays: AnyArray) -> list[Result]:
+        """Call a function with parts of arrays, see `viscofric.threads.in_parts`; with all of them unless NumPy's."""
+        return in_parts(function, *arrays, threads=self.threads) if self.is_numpy else [function(*arrays)]
 
     def cells(self, chosen: AnyArray) -> Cells:
         """Cells at which an array of truth values is true."""
@@ -221,20 +233,25 @@ class Cells:
 
     def gathered(self, field: AnyArray) -> AnyArray:
         """Values (n,) of a field at the cells."""
-        return self.backend.xp.reshape(field, (-1,))[self.indices]
+        flat = self.backend.xp.reshape(field, (-1,))
+        found = self.backend.in_parts(lambda some: flat[some], self.indices)
+        return found[0] if len(found) == 1 else self.backend.xp.concat(found)
 
     def inserted(self, field: AnyArray, values: AnyArray) -> AnyArray:
         """Return a field with values put in at the cells; the field may be overwritten."""
-        self.backend.xp.reshape(field, (-1,))[self.indices] = values
+        flat = self.backend.xp.reshape(field, (-1,))
+
+        def insert(some: AnyArray, part: AnyArray) -> None:
+            flat[some] = part
+
+        self.backend.in_parts(insert, self.indices, values)
         return field
 
     def scattered(self, values: AnyArray) -> AnyArray:
         """Field of the values at the cells and of zeros elsewhere; the next call overwrites it."""
-        xp = self.backend.xp
         if self._field is None or self._field.dtype != values.dtype:
-            self._field = xp.zeros(self.chosen.shape, dtype=values.dtype, device=self.backend.device)
-        xp.reshape(self._field, (-1,))[self.indices] = values
-        return self._field
+            self._field = self.backend.zeros(self.chosen.shape, values.dtype)
+        return self.inserted(self._field, values)
 
 
 class MaskedCells(Cells):

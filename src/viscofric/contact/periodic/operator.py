@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -56,7 +57,7 @@ class PeriodicOperator:
         """Multiply each wave of a field by its factor."""
         self.ffts += 2
         waves = self.backend.transforms.forward(values)
-        waves *= factor
+        self.backend.in_parts(operator.imul, waves, factor)
         return self.backend.transforms.inverse(waves, self.shape)
 
     @cached_property

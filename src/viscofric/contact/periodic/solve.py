@@ -29,7 +29,7 @@ from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSol
 from viscofric.contact.periodic.surface import PeriodicSurface, Topographic, wave_number
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, wrong_argument
-from viscofric.threads import one_blas_thread, threads_for
+from viscofric.threads import in_parts, one_blas_thread, threads_for
 from viscofric.units import Quantity, checked_poisson_ratio, number, positive, to_si, velocity
 
 if TYPE_CHECKING:
@@ -293,9 +293,13 @@ def _stages(
 
 def _heights(z: Array, units: _Units) -> Array:
     """Heights above the lowest point of the indenter, which are z downwards, in units of the depth."""
-    found = z.max() - z
-    found /= units.depth
-    return np.asarray(found)
+    found, highest = np.empty_like(z), z.max()
+
+    def measure(found: Array, z: Array) -> None:
+        found[...] = (highest - z) / units.depth
+
+    in_parts(measure, found, z)
+    return found
 
 
 def _assemble(
@@ -311,11 +315,18 @@ def _assemble(
 ) -> tuple[PeriodicSolution, float]:
     """Return to SI units, and balance the energy; also return the rms slope under pressure."""
     velocity, toward, kelvin = motion
-    pressure = (units.depth / units.compliance) * result.pressure
-    mean_pressure = float(pressure.mean())
+    pressure, displacement = result.pressure, result.displacement
+    gap, highest = np.empty_like(pressure), surface.z.max()
+
+    def restore(pressure: Array, displacement: Array, gap: Array, z: Array) -> None:
+        pressure *= units.depth / units.compliance
+        displacement *= units.depth
+        gap[...] = displacement + (highest - z) - units.depth * result.indentation
+        displacement += compression
+
+    mean_pressure = (units.depth / units.compliance) * float(pressure.mean())
     compression = solid.mean_compression() * mean_pressure
-    gap = result.displacement + (surface.z.max() - surface.z) / units.depth - result.indentation
-    gap *= units.depth
+    in_parts(restore, pressure, displacement, gap, surface.z)
     by_pressure, steepness = _on_slopes(surface, pressure, toward)
     transfer *= units.compliance
     waves = scipy.fft.rfft2(pressure, workers=threads_for(pressure.size))
@@ -347,7 +358,7 @@ def _assemble(
         x=surface.x,
         y=surface.y,
         pressure=pressure,
-        displacement=units.depth * result.displacement + compression,
+        displacement=displacement,
         gap=gap,
         diagnostics=PeriodicDiagnostics(
             complementarity=result.complementarity,

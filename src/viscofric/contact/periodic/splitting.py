@@ -18,6 +18,7 @@ and the largest |K̂|.  The active set is much faster once its set is nearly rig
 from __future__ import annotations
 
 import math
+from operator import imul
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -50,36 +51,61 @@ def split_steps(
     extrapolates from earlier steps (Anderson), which pays where many are needed.
     """
     backend, xp = operator.backend, operator.backend.xp
-    height = backend.asarray(height)
-    # y and p are multiplied by ρ throughout, so that most of a step is done in place.
-    resolvent = backend.reciprocal(operator.transfer / rho + 1.0)
-    pressure = xp.astype(backend.asarray(guess), operator.dtype)
+    height, guess = backend.asarray(height), backend.asarray(guess)
     offset = float(xp.mean(height)) if indentation is None else indentation
-    surface = xp.astype(height - offset, operator.dtype, copy=False)
-    gap = operator(pressure) + surface
+    # y and p are multiplied by ρ throughout, so that most of a step is done in place.
+    resolvent, surface = xp.empty_like(operator.transfer), xp.empty_like(height, dtype=operator.dtype)
+    pressure, result = xp.empty_like(surface), xp.empty_like(guess)
+
+    def resolve(resolvent: AnyArray, transfer: AnyArray) -> None:
+        resolvent[...] = 1.0 / (transfer / rho + 1.0)
+
+    def prepare(surface: AnyArray, pressure: AnyArray, height: AnyArray, guess: AnyArray) -> None:
+        surface[...] = xp.astype(height - offset, operator.dtype)
+        pressure[...] = xp.astype(guess, operator.dtype)
+
+    def begin(state: AnyArray, pressure: AnyArray, shifted: AnyArray, surface: AnyArray) -> None:
+        state += surface - level
+        state[...] = backend.positive_part(state)
+        pressure *= rho
+        state += pressure
+        shifted[...] = state - surface
+
+    def step(state: AnyArray, flat: AnyArray, shifted: AnyArray, surface: AnyArray) -> None:
+        state -= flat
+        flat -= state
+        flat[...] = backend.positive_part(flat)
+        state += flat
+        shifted[...] = state - surface
+
+    def finish(result: AnyArray, flat: AnyArray) -> None:
+        result[...] = xp.astype(flat / rho, xp.float64)
+
+    backend.in_parts(resolve, resolvent, operator.transfer)
+    backend.in_parts(prepare, surface, pressure, height, guess)
+    state, level = operator(pressure), 0.0
     if indentation is None:
-        gap -= xp.mean(gap[pressure > 0.0])
-    state = rho * pressure + backend.positive_part(gap)
+        loaded = pressure > 0.0
+        level = float(xp.mean(state[loaded] + surface[loaded]))
+    flat, shifted = pressure, xp.empty_like(surface)
+    backend.in_parts(begin, state, pressure, shifted, surface)
     acceleration = Acceleration(backend) if accelerated else None
-    result = rho * pressure
     for _ in range(steps):
-        waves = backend.transforms.forward(state - surface)
-        waves *= resolvent
+        waves = backend.transforms.forward(shifted)
+        backend.in_parts(imul, waves, resolvent)
         if load is not None:
             waves[0, 0] = rho * load
         flat = backend.transforms.inverse(waves, operator.shape)
         if acceleration is None:
-            state -= flat
-            flat -= state
-            result = backend.positive_part(flat)
-            state += result
+            backend.in_parts(step, state, flat, shifted, surface)
         else:
-            result = backend.positive_part(2.0 * flat - state)
-            state = acceleration.next(state, result - flat)
+            positive = backend.positive_part(2.0 * flat - state)
+            state = acceleration.next(state, positive - flat)
+            flat, shifted = positive, state - surface
     operator.ffts += 2 * steps
     operator.products += steps
-    result /= rho
-    return xp.astype(result, xp.float64, copy=False)
+    backend.in_parts(finish, result, flat)
+    return result
 
 
 class Acceleration:

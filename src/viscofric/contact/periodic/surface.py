@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from operator import imul
 from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -10,7 +11,7 @@ import scipy.fft
 
 from viscofric.errors import InputError
 from viscofric.showing import Shown
-from viscofric.threads import threads_for
+from viscofric.threads import in_parts, threads_for
 from viscofric.units import Quantity, in_si, two_lengths
 
 if TYPE_CHECKING:
@@ -123,16 +124,17 @@ class PeriodicSurface(Shown):
 
     def slope(self, direction: tuple[float, float]) -> Array:
         """Return the derivative of the heights along a unit vector, by their Fourier series; (nx, ny) array."""
-        found, threads = np.zeros(self.shape), threads_for(self.z.size)
+        found, threads = None, threads_for(self.z.size)
         for axis, part in enumerate(direction):
             points = self.shape[axis]
             if part != 0.0 and points > 1:
                 q: Array = 2.0 * np.pi * np.fft.rfftfreq(points, self.spacing[axis]).astype(np.float64)
                 factor = 1j * part * without_nyquist(q, points)
                 waves = scipy.fft.rfft(self.z, axis=axis, workers=threads)
-                waves *= factor[:, None] if axis == 0 else factor
-                found += scipy.fft.irfft(waves, points, axis=axis, overwrite_x=True, workers=threads)
-        return found
+                in_parts(imul, waves, np.broadcast_to(factor[:, None] if axis == 0 else factor, waves.shape))
+                along = scipy.fft.irfft(waves, points, axis=axis, overwrite_x=True, workers=threads)
+                found = along if found is None else found + along
+        return np.zeros(self.shape) if found is None else found
 
     def coarser(self, shapes: Sequence[tuple[int, int]]) -> list[Coarser]:
         """Return the surface on fewer points of the same period, without its shortest waves."""
@@ -176,16 +178,18 @@ def _doubled(values: Array, axis: int) -> Array:
     """Insert the mean of each two neighbours between them, along one axis."""
     nx, ny = values.shape
     found = np.empty((nx, 2, ny) if axis == 0 else (nx, ny, 2))
-    between = found[:, 1, :] if axis == 0 else found[:, :, 1]
-    if axis == 0:
-        found[:, 0, :] = values
-        np.add(values[:-1], values[1:], out=between[:-1])
-        np.add(values[-1], values[0], out=between[-1])
-    else:
-        found[:, :, 0] = values
-        np.add(values[:, :-1], values[:, 1:], out=between[:, :-1])
-        np.add(values[:, -1], values[:, 0], out=between[:, -1])
-    between *= 0.5
+
+    def insert(found: Array, values: Array, after: Array) -> None:
+        if axis == 0:
+            found[:, 0] = values
+            found[:, 1] = 0.5 * (values + after)
+        else:
+            found[:, :, 0] = values
+            np.add(values[:, :-1], values[:, 1:], out=found[:, :-1, 1])
+            np.add(values[:, -1], values[:, 0], out=found[:, -1, 1])
+            found[:, :, 1] *= 0.5
+
+    in_parts(insert, found, values, np.roll(values, -1, axis=0) if axis == 0 else values)
     return found.reshape((2 * nx, ny) if axis == 0 else (nx, 2 * ny))
 
 

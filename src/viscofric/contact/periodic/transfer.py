@@ -10,6 +10,7 @@ import numpy as np
 
 from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
+from viscofric.threads import in_parts
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -162,6 +163,10 @@ def dissipation(
     if not np.iscomplexobj(transfer):
         return 0.0  # elastic, without shear
     qx, qy = (without_nyquist(one, size) for one, size in zip(wave_number(shape, spacing), shape, strict=True))
-    along = direction[0] * qx + direction[1] * qy
-    work = along * np.imag(transfer) * np.square(np.abs(pressure_waves))
-    return float((work * hermitian_factor(shape[1])).sum()) / float(shape[0] * shape[1]) ** 2
+    twice = hermitian_factor(shape[1])
+
+    def work(transfer: ComplexArray, waves: ComplexArray, qx: Array) -> float:
+        along = direction[0] * qx + direction[1] * qy
+        return float((along * transfer.imag * (waves.real**2 + waves.imag**2) * twice).sum())
+
+    return sum(in_parts(work, transfer, pressure_waves, qx)) / float(shape[0] * shape[1]) ** 2
