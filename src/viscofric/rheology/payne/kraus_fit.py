@@ -236,7 +236,7 @@ def _fitted(sweep: AmplitudeSweep) -> tuple[Array, Array, Array]:
     best = min((least_squares(away, start, bounds=bounds) for start in starts), key=lambda one: float(one.cost))
     for _ in range(PASSES):
         residual = (best.fun.reshape(2, -1)) * scatter[:, None]
-        scatter = np.maximum(np.sqrt(np.sum(residual**2, axis=1) / _freedom(best.jac)), 1e-9)
+        scatter = np.maximum(np.sqrt(np.sum(residual**2, axis=1) / _freedom(np.asarray(best.jac))), 1e-9)
         best = least_squares(away, best.x, bounds=bounds)
     residual = best.fun.reshape(2, -1)
     same = np.ones(len(strain) - 1, dtype=bool)
