@@ -89,6 +89,11 @@ class ContactSettings:
         return min(USUAL, LOOSEST * self.accuracy) if self.tolerance is None else self.tolerance
 
     @property
+    def coarse_residual(self) -> float:
+        """The tolerance of grids that are refined in any case: as the accuracy needs it, if that counts."""
+        return self.residual if self.grid is not None else max(self.residual, LOOSEST * self.accuracy)
+
+    @property
     def counterface(self) -> float:
         """(1 − ν_i²)/E_i of the indenter, 1/Pa; zero where it is rigid."""
         return self._derived[0]

@@ -27,7 +27,7 @@ from viscofric.contact.indenters.indenter import (
 )
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.layer import ScaledLayer
-from viscofric.contact.settings import LOOSEST, ContactSettings
+from viscofric.contact.settings import ContactSettings
 from viscofric.errors import InputError, brief
 from viscofric.heat.heating import Heating
 from viscofric.rheology.material import Material, insist_on_material
@@ -343,7 +343,7 @@ def _solve(
     cells = COARSEST // 2 if loose else COARSEST
     problem = Problem(
         geometry, solid, shape, control, settings.residual, settings.where,
-        coarsest=cells, coarse_tolerance=LOOSEST * settings.accuracy,
+        coarsest=cells, coarse_tolerance=settings.coarse_residual,
     )  # fmt: skip
     if layer is not None:
         scaled = ScaledLayer.of(layer, scale.length, material.poisson_ratio)

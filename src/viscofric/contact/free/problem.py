@@ -80,7 +80,7 @@ class Problem:
     backend: Backend = field(default_factory=Backend)
     layer: ScaledLayer | None = None  # to which the geometry's operator belongs; None for a half-space
     coarsest: int = COARSEST  # cells along the longer edge of the window on the coarsest grid
-    coarse_tolerance: float = 0.0  # of the contact conditions on grids that are refined in any case, if it is larger
+    coarse_tolerance: float = 0.0  # likewise, of grids that are refined in any case, if it is larger
 
     @cached_property
     def first_size(self) -> float:
