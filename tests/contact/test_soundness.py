@@ -85,8 +85,9 @@ def sound(coarse: vf.contact.ContactSolution, fine: vf.contact.ContactSolution) 
         ),
     ):
         assert abs(found - known) <= error
-    # What is dissipated and what the pressure's lean gives differ by less on the finer grid, or by little.
-    assert abs(true.energy) <= max(abs(stated.energy), 1e-3)
+    # What is dissipated and what the pressure's lean gives differ by less on the finer grid, or by little; where the
+    # same grid does for both, by as much to the solver's tolerance.
+    assert abs(true.energy) <= max(abs(stated.energy) * (1.0 + 1e-6), 1e-3)
     assert abs(fine.friction_coefficient) > 0.0
 
 
