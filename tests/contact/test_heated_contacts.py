@@ -172,6 +172,10 @@ def test_a_ball_warms_like_a_disc_of_its_area() -> None:
     rubber, other = (vf.heat.MovingHeatSource(1.0, radius, v, body) for v, body in ((0.02, RUBBER), (0.005, PTFE)))
     assert found.surface == pytest.approx(rubber.mean_temperature, rel=0.01)
     assert found.counterface == pytest.approx(other.mean_temperature, rel=0.01)
+    # A counterface that is the faster one passes at |v − slip| too.
+    overtaken = thermal_resistances(contact, modes, 0.5, vf.Heating(rubber=RUBBER, counterface=PTFE, slip=-0.015))
+    passed = vf.heat.MovingHeatSource(1.0, radius, 0.035, PTFE)
+    assert overtaken.counterface == pytest.approx(passed.mean_temperature, rel=0.01)
     assert 0.0 < found.loss < found.loss_below < found.surface
     # Nearly the same both ways per heat near the contact: the loss of a short memory is about as much ahead as behind.
     assert found.loss / (1.0 - found.beyond) == pytest.approx(found.surface_below, rel=0.2)

@@ -111,7 +111,7 @@ class FreeThermalContact(ThermalContact):
 
         one, speed = heat.resistances, abs(self.speed)
         rubber = factor(self.heating.rubber, speed)
-        other = factor(self.heating.counterface, abs(speed - self.heating.sliding(speed)))
+        other = factor(self.heating.counterface, abs(self.heating.over_counterface(speed)))
         parts: Any = (*(rubber * part for part in one[:4]), one.track, one.counterface * other, one.beyond)
         return ThermalResistances(*parts)
 
@@ -132,7 +132,7 @@ def thermal_resistances(
     found = float(released.power.sum())
     weight = released.power / found if found > 0.0 else released.power
     power = released._replace(power=_per_loss(released, loss))
-    other_speed = abs(speed - heating.sliding(speed))
+    other_speed = abs(heating.over_counterface(speed))
     other = math.inf
     if not (cells.is_line and other_speed == 0.0):
         other = cells.mean_rise(cells.influence(Diffusion(heating.counterface, other_speed)), flux[None], face[None])

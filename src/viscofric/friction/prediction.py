@@ -187,7 +187,7 @@ def predict_friction(
     rise = None
     if heating is not None:
         curves: FrictionCurves = (heated := predict_heated(contacts, heating, workers, report, interface, exact=exact))
-        slip, rise = heating.slip, heated.face_rise
+        slip, rise = None if heating.slip is None else heating.sliding(0.0), heated.face_rise
     else:
         curves = _isothermal(material, contacts, drawn, workers, report, exact)
     if interface is not None:

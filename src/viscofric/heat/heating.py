@@ -26,8 +26,9 @@ class Heating(Shown):
     coulomb : float
         Coulomb friction coefficient, whose heat both bodies share.
     slip : float, str or pint.Quantity, optional
-        Sliding velocity between the two surfaces, m/s.  The speed of the contact if not given: an indenter that slides
-        without rotation.
+        Sliding velocity between the two surfaces, m/s: the speed of the contact over the rubber less that over the
+        counterface, so that it is below zero where the counterface is the faster one.  The speed of the contact if not
+        given: an indenter that slides without rotation.
     track_radius : float, str or pint.Quantity, optional
         Of the circle on which the contact meets the rubber again and again, m; needed with `passes`.
     passes : int
@@ -81,7 +82,7 @@ class Heating(Shown):
         if not (passes >= 0.0 and (endless or passes == math.floor(passes))):
             raise wrong_argument("passes", passes, "must be a whole number or inf, not below zero.", "out-of-range")
         if self.slip is not None:
-            object.__setattr__(self, "slip", abs(to_si(self.slip, "m/s", "slip")))
+            object.__setattr__(self, "slip", to_si(self.slip, "m/s", "slip"))
         if self.nominal_radius is not None:
             object.__setattr__(self, "nominal_radius", positive(self.nominal_radius, "m", "nominal_radius"))
         if self.track_radius is not None:
@@ -104,7 +105,11 @@ class Heating(Shown):
 
     def sliding(self, speed: float) -> float:
         """Return the sliding velocity, m/s, of a contact that moves at a speed, m/s."""
-        return abs(speed) if self.slip is None else float(self.slip)
+        return abs(speed) if self.slip is None else abs(float(self.slip))
+
+    def over_counterface(self, speed: float) -> float:
+        """Return the velocity over the counterface, m/s, of a contact that moves at one over the rubber, m/s."""
+        return 0.0 if self.slip is None else speed - math.copysign(1.0, speed) * float(self.slip)
 
     def coulomb_heat(self, load: float, speed: float) -> float:
         """Return the heat of constant Coulomb friction, W (W/m, W/m²), of a load, N (N/m, Pa), at a speed, m/s."""
@@ -128,7 +133,7 @@ class Heating(Shown):
 
         Of a disc of a radius `size`, m, or a strip of that half-width, at a speed over the rubber, m/s.
         """
-        other = abs(speed - self.sliding(speed))
+        other = abs(self.over_counterface(speed))
         return face_resistance(self.rubber, speed, size, line), face_resistance(self.counterface, other, size, line)
 
     def nominal(self, speed: float) -> NominalResistances:
@@ -139,7 +144,7 @@ class Heating(Shown):
         area = math.pi * radius**2
         rubber, other = (
             disc_mean(velocity * radius / (2.0 * body.diffusivity), hertz=False) * radius / float(body.conductivity)
-            for body, velocity in ((self.rubber, speed), (self.counterface, abs(speed - self.sliding(speed))))
+            for body, velocity in ((self.rubber, speed), (self.counterface, abs(self.over_counterface(speed))))
         )
         return NominalResistances(rubber, other, area * self.track_resistance(radius, speed))
 

@@ -148,8 +148,7 @@ class Flash:
     def _taken(self, speed: float, radius: float) -> float:
         """Return the share of the Coulomb heat that the rubber takes up; macroasperities have a radius, m."""
         assert self.heating is not None
-        slip = self.heating.sliding(speed)
-        bodies = (self.heating.rubber, speed), (self.heating.counterface, abs(speed - slip))
+        bodies = (self.heating.rubber, speed), (self.heating.counterface, abs(self.heating.over_counterface(speed)))
         rubber, other = (
             disc_mean(velocity * radius / (2.0 * body.diffusivity), hertz=False) / float(body.conductivity)
             for body, velocity in bodies

@@ -159,7 +159,7 @@ def _counterface(solution: PeriodicSolution, heating: Heating) -> float:
     """Return the rise of the counterface's face per heat of the nominal area, K m²/W."""
     waves, flux, face = _on_face(solution)
     speed, toward = solution.speed, solution.direction
-    over = speed - math.copysign(heating.sliding(speed), speed)
+    over = heating.over_counterface(speed)
     spots = MovingHeat(heating.counterface, waves, (over * toward[0], over * toward[1])).surface_rise(flux, face)
     return heating.nominal(speed).counterface + spots
 
