@@ -44,7 +44,8 @@ class LinearRange(Shown):
     strain : float
         The amplitude, a fraction; infinite where the modulus falls by less within the sweep.
     standard_error : float
-        Of the strain, from the scatter of the points.
+        Of the strain: the distance of the farthest one at which the modulus has fallen as much within its own standard
+        error, from the scatter of the points.
     """
 
     drop: float
@@ -270,9 +271,11 @@ def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
     if not below.size:
         return LinearRange(part, math.inf, math.inf)
     place = int(below[0])
-    slope = (fallen[place] - fallen[place - 1]) / (fine[1] - fine[0])
-    row = basis[place] - basis[0]
-    variance = smoother.scatter[0] ** 2 * float(row @ curves.inverse[0] @ row)
-    variance *= inflation(curves.residual[:, 0], np.ones(len(logarithm) - 1, dtype=bool))
-    strain = float(10.0 ** fine[place])
-    return LinearRange(part, strain, strain * math.log(10.0) * math.sqrt(variance) / abs(float(slope)))
+    rows = basis - basis[0]
+    spread = smoother.scatter[0] * np.sqrt(np.einsum("ij,jk,ik->i", rows, curves.inverse[0], rows))
+    spread *= math.sqrt(inflation(curves.residual[:, 0], np.ones(len(logarithm) - 1, dtype=bool)))
+    # The lowest strain at which it may have fallen so far, and the highest at which it may not have: where the curve
+    # wavers before it falls, its slope where it crosses says little.
+    strain = 10.0**fine
+    low, high = strain[np.argmax(fallen < spread)], strain[np.flatnonzero(fallen >= -spread)[-1]]
+    return LinearRange(part, float(strain[place]), float(max(strain[place] - low, high - strain[place])))
