@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import io
-import json
 import sys
 import time
 import zipfile
 
 import pytest
 
+from readers.failing_parsers import dying, endless
 from readers.refusal import noted, refused
 from readers.samples.workbook import HEADER, one_sheet, rows, write
 from viscofric import read_dma
 from viscofric.errors import DataFileError
+from viscofric.limited_process import LimitedProcess
 from viscofric.readers import parse_workbook, workbook
 from viscofric.readers.source import Source
 
@@ -152,7 +153,7 @@ def _seconds(function, *arguments):
 def test_a_workbook_is_parsed_once(tmp_path, monkeypatch):
     source = opened(one_sheet(tmp_path))
     assert workbook.sheet_names(source) == ("Notes", "DMA")
-    monkeypatch.setattr(workbook.subprocess, "run", None)
+    monkeypatch.setattr(workbook, "_APART", None)
     assert len(workbook.sheets(source)["DMA"]) == len(rows())
 
 
@@ -187,18 +188,14 @@ def test_an_archive_that_unpacks_to_gigabytes_is_refused(tmp_path):
 
 
 def test_a_parser_that_does_not_end_is_ended(tmp_path, monkeypatch):
-    endless = tmp_path / "endless.py"
-    endless.write_text("import time\ntime.sleep(60)\n", encoding="utf-8")
-    monkeypatch.setattr(workbook, "_PARSER", endless)
-    monkeypatch.setattr(workbook, "LONGEST_PARSE", 0.2)
+    monkeypatch.setattr(workbook, "parsed", endless)
+    monkeypatch.setattr(workbook, "_APART", LimitedProcess(0.2, workbook.LARGEST_MEMORY))
     with refused("too-slow"):
         workbook.sheets(opened(one_sheet(tmp_path)))
 
 
 def test_a_parser_that_dies_is_an_error_like_any_other(tmp_path, monkeypatch):
-    dying = tmp_path / "dying.py"
-    dying.write_text("import os\nos.abort()\n", encoding="utf-8")
-    monkeypatch.setattr(workbook, "_PARSER", dying)
+    monkeypatch.setattr(workbook, "parsed", dying)
     with refused("damaged"):
         workbook.sheets(opened(one_sheet(tmp_path)))
     assert workbook.sheet_names(opened(one_sheet(tmp_path))) == ()
@@ -255,32 +252,21 @@ def test_long_texts_are_cut_before_they_take_memory(tmp_path):
 
 
 def test_more_cells_than_any_measurement_are_refused(monkeypatch, tmp_path):
-    class Stream(io.BytesIO):
-        buffer = property(lambda self: self)
-
-    answer = Stream()
     monkeypatch.setattr(parse_workbook, "LARGEST_ANSWER", 100)
-    monkeypatch.setattr(parse_workbook, "_limit_memory", lambda: None)  # it would hold for all tests
-    monkeypatch.setattr(sys, "stdin", Stream(one_sheet(tmp_path).read_bytes()))
-    monkeypatch.setattr(sys, "stdout", answer)
-    parse_workbook.main()
-    assert json.loads(answer.getvalue())["code"] == "too-large"
+    with refused("too-large"):
+        parse_workbook.parsed("a.xlsx", one_sheet(tmp_path).read_bytes())
 
 
 @pytest.mark.parametrize("python", ["", "/no/such/python"])
 def test_a_python_that_does_not_start_is_reported(tmp_path, monkeypatch, python):
     path = one_sheet(tmp_path)
+    workbook._APART.close()
     monkeypatch.setattr(sys, "executable", python)
     with refused("no-parser"):
         read_dma(path)
 
 
 def test_a_missing_package_is_not_blamed_on_the_file(tmp_path, monkeypatch):
-    path = one_sheet(tmp_path)
-    monkeypatch.setattr(workbook, "_PARSER", tmp_path / "parser.py")
-    (tmp_path / "parser.py").write_text('print(\'{"missing": "python-calamine"}\')', encoding="utf-8")
-    with refused("package-missing"):
-        read_dma(path)
     monkeypatch.setitem(sys.modules, "python_calamine", None)
-    with pytest.raises(ImportError):
-        parse_workbook._sheets(path.read_bytes())
+    with refused("package-missing"):
+        parse_workbook.parsed("a.xlsx", one_sheet(tmp_path).read_bytes())

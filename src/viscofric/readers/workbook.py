@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
 import sys
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 from viscofric.errors import DataFileError
 from viscofric.files import insist_on_size
+from viscofric.limited_process import LimitedProcess
+from viscofric.readers.parse_workbook import parsed
 
 if TYPE_CHECKING:
     from viscofric.readers.source import Source
@@ -23,8 +22,8 @@ if TYPE_CHECKING:
 MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1")
 #: Far above the time to parse a workbook of measurements.
 LONGEST_PARSE = 30.0  # s
-
-_PARSER = Path(__file__).with_name("parse_workbook.py")
+LARGEST_MEMORY = 3_000_000_000  # bytes
+_APART = LimitedProcess(LONGEST_PARSE, LARGEST_MEMORY, needed=parsed.__module__)
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,27 +95,16 @@ def opened(source: Source) -> Workbook:
 
 def _parse(source: Source) -> Workbook:
     insist_on_size(source.data, source.path)
-    # -P: modules in the script's folder must not replace those of Python
-    command = [sys.executable, "-P", str(_PARSER)]
-    window = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # none flashes up under Windows
     try:
-        done = subprocess.run(
-            command, input=source.data, capture_output=True, timeout=LONGEST_PARSE, check=False, creationflags=window
-        )
-        answer = json.loads(done.stdout)
-    except subprocess.TimeoutExpired:
+        sheets, hidden = _APART.call(parsed, path=source.path, data=source.data)
+    except TimeoutError:
         problem = f"takes longer than {LONGEST_PARSE:.0f} s to parse; save the sheet of measurements alone, or as CSV."
         raise DataFileError(source.path, problem, code="too-slow") from None
-    except ValueError:  # the parser ended, usually for lack of memory
+    except MemoryError:  # the process ended, usually for lack of memory
         raise DataFileError(
             source.path, "is a workbook that cannot be parsed; save it again, or as CSV.", code="damaged"
         ) from None
     except OSError as error:
         problem = f"was not read: workbooks are parsed by {sys.executable!r}, which does not start ({error.strerror}); "
         raise DataFileError(source.path, problem + "save the sheet as CSV.", code="no-parser") from None
-    if "missing" in answer:
-        problem = f"was not read: workbooks need {answer['missing']}, which this Python does not find; install it, or "
-        raise DataFileError(source.path, problem + "save the sheet as CSV.", code="package-missing")
-    if "problem" in answer:
-        raise DataFileError(source.path, answer["problem"], code=answer["code"])
-    return Workbook(dict(answer["sheets"]), tuple(answer["hidden"]))
+    return Workbook(sheets, tuple(hidden))
