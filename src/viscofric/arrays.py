@@ -1,4 +1,4 @@
-"""Names of NumPy's arrays for annotations, and the fit of numbers that are not negative."""
+"""Names of NumPy's arrays for annotations, the line of a field through the axis, and a fit of numbers above zero."""
 
 from typing import TypeAlias
 
@@ -10,6 +10,12 @@ ComplexArray: TypeAlias = NDArray[np.complex128]
 Mask: TypeAlias = NDArray[np.bool_]
 Integers: TypeAlias = NDArray[np.int64]
 Indices: TypeAlias = NDArray[np.intp]
+
+
+def centre_line(y: Array, field: Array) -> Array:
+    """Return the line of a field (nx, ny) through the axis: the mean of the rows of cells beside it."""
+    middle = np.flatnonzero(np.isclose(np.abs(y), np.abs(y).min(), rtol=1e-6))
+    return np.asarray(field[:, middle].mean(axis=1))
 
 
 def non_negative_fit(matrix: Array, aim: Array) -> Array:

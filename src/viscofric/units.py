@@ -345,12 +345,12 @@ def angular_frequency(value: Quantity, name: str) -> float:
     return positive(value, "rad/s", name)
 
 
-def two_lengths(value: Quantity | tuple[Quantity, Quantity], name: str = "spacing") -> tuple[float, float]:
-    """Return two lengths above zero, along x and y, m; a single one stands for both."""
+def two_lengths(value: Quantity | tuple[Quantity, Quantity]) -> tuple[float, float]:
+    """Return a spacing along x and y, above zero, m; a single length stands for both."""
     pair = value if isinstance(value, (tuple, list)) else (value, value)
     if len(pair) != 2:
-        raise wrong_argument(name, value, "must be one length or two, those of x and y.", "wrong-count")
-    return positive(pair[0], "m", name), positive(pair[1], "m", name)
+        raise wrong_argument("spacing", value, "must be one length or two, those of x and y.", "wrong-count")
+    return positive(pair[0], "m", "spacing"), positive(pair[1], "m", "spacing")
 
 
 def velocity(value: Quantity, name: str = "speed") -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -61,11 +60,6 @@ history_options = together(
         help="Number of times to report, instead of --times; dense after each change of load or speed.",
     ),
 )
-
-
-def history_inputs(parameters: dict[str, Any]) -> list[Path]:
-    """Return the file that the history is read from."""
-    return [] if parameters["history"] is None else [Path(parameters["history"])]
 
 
 def chosen_history(parameters: dict[str, Any], line: bool, reference: float | None) -> History:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -22,13 +23,11 @@ from viscofric.cli.contact_options import (
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import DASH, DATA, FILE, PICTURES, Source, check_ending, refuse_to_overwrite, write_dataset
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
-from viscofric.cli.history_options import chosen_history, chosen_times, history_inputs, history_options
+from viscofric.cli.history_options import chosen_history, chosen_times, history_options
 from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
 from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from matplotlib.figure import Figure
 
     from viscofric.contact.bodies import Layer
@@ -171,7 +170,8 @@ def _check_targets(parameters: dict[str, Any], out: Path | None, drawings: dict[
     for name, target in drawings.items():
         check_ending(target, f"--{name}", (".gif",) if name == "animation" else PICTURES)
     check_ending(parameters["state"], "--save-state", (".npz",))
-    inputs = [*inputs_of(parameters), *history_inputs(parameters)]
+    history = parameters["history"]
+    inputs = [*inputs_of(parameters), *([] if history is None else [Path(history)])]
     refuse_to_overwrite(inputs, out, parameters["state"], *drawings.values())
 
 

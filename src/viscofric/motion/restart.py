@@ -113,7 +113,8 @@ class Restart:
         states = [link.state for link in reached.pair]
         touched = [np.flatnonzero((one.force > 0.0) | one.memory.any(axis=1)) for one in states]
         kept = 1 + max((int(one[-1]) for one in touched if len(one)), default=0)
-        places = _extended(s[:kept], fresh)
+        # beyond those that were touched, as many as a larger contact needs
+        places = np.concatenate([s[:kept], fresh.s[fresh.s > s[kept - 1] + 0.5 * fresh.spacing]])
         mover = replace(fresh, s=places, g=profile(fresh.indenter, places), weights=both_sides(places))
         links = [link._replace(state=_padded(link.state, kept, mover)) for link in reached.pair]
         return _seen(mover, replace(reached, pair=Pair(*links)))
@@ -216,12 +217,6 @@ def _heights(indenter: Indenter, length: float) -> Array:
     angle = 0.1 + np.pi * np.arange(8) / 4.0
     distance = length * np.array([[0.25], [0.5], [0.75], [1.0]])
     return np.asarray(indenter.height(distance * np.cos(angle), distance * np.sin(angle)), dtype=float).ravel()
-
-
-def _extended(kept: Array, fresh: NormalMotion) -> Array:
-    """Return places of springs: those that were touched, and beyond them as many as a larger contact needs."""
-    beyond = fresh.s[fresh.s > kept[-1] + 0.5 * fresh.spacing]
-    return np.concatenate([kept, beyond])
 
 
 def _padded(state: SpringState, kept: int, mover: NormalMotion) -> SpringState:

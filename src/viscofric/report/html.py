@@ -191,7 +191,8 @@ def _figures(tree: DataTree, images: dict[str, dict[str, bytes]]) -> list[tuple[
 
     def shown(name: str) -> dict[str, Any]:
         svg = images[name]["svg"]
-        source = _as_data(adaptive(svg))
+        # shown as an image, its names and styles stay its own
+        source = "data:image/svg+xml;base64," + base64.b64encode(adaptive(svg)).decode("ascii")
         return {"name": name, "number": next(number), "caption": said[name], "source": source, "width": _width(svg)}
 
     groups = [("", _ANSWER), *_groups(tree)]
@@ -202,11 +203,6 @@ def _width(svg: bytes) -> int:
     """Return the width at which the letters of a figure are as large as those of its caption, CSS pixels."""
     points = re.search(rb'<svg[^>]*\swidth="([\d.]+)pt"', svg)
     return round(_PIXELS_PER_POINT * float(points[1])) if points else 0
-
-
-def _as_data(svg: bytes) -> str:
-    """Return an image as an address that carries it; shown as an image, its names and styles stay its own."""
-    return "data:image/svg+xml;base64," + base64.b64encode(svg).decode("ascii")
 
 
 def _moment(text: str) -> str:

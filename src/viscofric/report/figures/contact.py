@@ -9,6 +9,7 @@ import matplotlib
 import numpy as np
 from scipy.ndimage import uniform_filter
 
+from viscofric.arrays import Array, centre_line
 from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, Unit, new_figure, unit_for
 from viscofric.report.texts.numbers import prefixed, significant
 from viscofric.units import shown_celsius
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.collections import QuadMesh
     from matplotlib.figure import Figure
 
-    from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.contact.solution import ContactSolution
 
@@ -129,7 +129,7 @@ def plot_pressure_profile(axes: Axes, solution: ContactSolution) -> None:
     solution : ContactSolution
     """
     unit, pressure_unit = _along(solution), unit_for(solution.max_pressure, "Pa")
-    x, pressure = solution.x / unit.size, _centre(solution.pressure) / pressure_unit.size
+    x, pressure = solution.x / unit.size, centre_line(solution.y, solution.pressure) / pressure_unit.size
     draw_profile(axes, x, pressure)
     centre = solution.centre_of_pressure / unit.size
     axes.axvline(0.0, color=GREY, linewidth=0.8)
@@ -153,7 +153,7 @@ def plot_surface_profile(axes: Axes, solution: ContactSolution, indenter: Indent
         The one that was solved.
     """
     unit = _along(solution)
-    surface = -_centre(solution.displacement)
+    surface = -centre_line(solution.y, solution.displacement)
     rigid = _beneath(solution, indenter)
     depth_unit = unit_for(max(float(np.abs(surface).max()), abs(solution.indentation)), "m")
     x, shown = solution.x / unit.size, np.isfinite(rigid)
@@ -172,19 +172,12 @@ def plot_surface_profile(axes: Axes, solution: ContactSolution, indenter: Indent
     axes.legend(loc="upper center", ncols=2)
 
 
-def _centre(values: Array) -> Array:
-    """Return the line through the axis: the mean of the two rows of cells beside it."""
-    middle = values.shape[1] // 2
-    return values[:, 0] if values.shape[1] == 1 else np.asarray(0.5 * (values[:, middle - 1] + values[:, middle]))
-
-
 def _beneath(solution: ContactSolution, indenter: Indenter) -> Array:
     """Height of the indenter's surface along the centre line, from the level of the indentation, m."""
-    rows = solution.y[[0]] if len(solution.y) == 1 else solution.y[len(solution.y) // 2 - 1 : len(solution.y) // 2 + 1]
     # The solution's x lies along the direction, and its y to the left of it; the heights have axes of their own.
-    (ahead, aside), x = solution.direction, solution.x[:, None]
-    heights = np.asarray(indenter.height(ahead * x - aside * rows, aside * x + ahead * rows)).mean(axis=1)
-    return np.asarray(heights - solution.indentation)
+    (ahead, aside), x, y = solution.direction, solution.x[:, None], solution.y
+    heights = np.asarray(indenter.height(ahead * x - aside * y, aside * x + ahead * y))
+    return np.asarray(centre_line(y, heights) - solution.indentation)
 
 
 def contact_figure(solution: ContactSolution, indenter: Indenter, title: str = "") -> Figure:

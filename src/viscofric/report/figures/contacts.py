@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, centre_line
 from viscofric.report.figures.contact import draw_arrow, draw_outline, draw_profile, highest_shown, pressure_mesh
 from viscofric.report.figures.rough import mark_motion, plot_pressure_of_period
 from viscofric.report.figures.style import BLUE, GREY, INK, ORANGE, VERMILION, WHITE, new_figure, slender_bar
@@ -64,11 +64,6 @@ class Contact(NamedTuple):
         along = max(abs(end) for end in self.edges)
         return along if self.is_line or not across.size else max(along, float(np.abs(across).max()))
 
-    def centre_line(self, field: Array) -> Array:
-        """Return the line of a field through the axis."""
-        middle = np.flatnonzero(np.isclose(np.abs(self.y), np.abs(self.y).min(), rtol=1e-6))
-        return np.asarray(field[:, middle].mean(axis=1))
-
 
 def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: float, highest: float) -> QuadMesh:
     """Draw the pressure of a point contact seen from above, with its outline and its axis.
@@ -108,7 +103,7 @@ def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: fl
 
 def plot_contact_profile(axes: Axes, contact: Contact, pressure: Array) -> None:
     """Draw the pressure (nx, ny) on the centre line, and its mirror image: what differs causes the friction."""
-    x, line = contact.x / _MILLI, contact.centre_line(pressure)
+    x, line = contact.x / _MILLI, centre_line(contact.y, pressure)
     draw_profile(axes, x, line, label="pressure on the centre line")
     axes.plot(-x, line, color=GREY, linewidth=1.0, linestyle=(0, (1.5, 1.2)), label="mirror image")
     axes.axvline(0.0, color=INK, linewidth=0.8, label="indenter's axis")

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, centre_line
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
 from viscofric.report.figures.contacts import Contact
@@ -107,7 +107,7 @@ def trails(tree: DataTree, shown: list[Shown]) -> list[tuple[Array, Array]]:
     """
     found = [_calculated_trail(tree, contact, conditions) for contact, conditions in shown]
     if any(trail is None for trail in found):
-        found = [(contact.x, contact.centre_line(contact.displacement)) for contact, _ in shown]
+        found = [(contact.x, centre_line(contact.y, contact.displacement)) for contact, _ in shown]
     return [trail for trail in found if trail is not None]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field
 from scipy.ndimage import uniform_filter
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, centre_line
 from viscofric.contact.fields.surface import surface_displacement
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.solution import ERRORS, ContactSolution
@@ -97,8 +97,8 @@ def _closed(line: Any) -> Array:
 def profile(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) -> Profile:
     """Cut a contact along its centre line, with the trail behind it and the rubber's share of the displacement."""
     trail_x, trail = _trail(rubber, case, solution)
-    x, pressure = solution.x, _centre(solution.y, solution.pressure)
-    displacement = _centre(solution.y, solution.displacement)
+    x, pressure = solution.x, centre_line(solution.y, solution.pressure)
+    displacement = centre_line(solution.y, solution.displacement)
     gap = displacement - (solution.indentation - case.indenter.height(x, np.zeros_like(x)))
     loaded = pressure > 0.0
     own = np.interp(x, trail_x, trail)
@@ -141,13 +141,7 @@ def _trail(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) -
         behind=_BEHIND * length,
         ahead=_AHEAD * length,
     )
-    return found.x, _centre(found.y, found.displacement)
-
-
-def _centre(y: Array, field: Array) -> Array:
-    """Return the line of a field through the axis."""
-    middle = np.flatnonzero(np.isclose(np.abs(y), np.abs(y).min(), rtol=1e-6))
-    return np.asarray(field[:, middle].mean(axis=1))
+    return found.x, centre_line(found.y, found.displacement)
 
 
 def surface_profile(solution: PeriodicSolution) -> Profile:

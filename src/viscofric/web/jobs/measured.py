@@ -44,12 +44,14 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "summary": "not separated" if found.curves is None else f"{len(found.curves)} points",
     }
     if found.curves is not None:
+        check = found.curves.consistency_check  # whether the four sign configurations agree with each other
+        write_friction_curves(found.curves, context.downloads / _DOWNLOAD)
         result |= {
             "curves": measured_points(found.curves),
             "points": len(found.curves),
             "lines": pairs(_lines(found.curves)),
-            "checks": _checks(found.curves),
-            "download": _written(found.curves, context),
+            "checks": [] if check is None else [consistency_shown(check).record("page")],
+            "download": _DOWNLOAD,
         }
     numbers: dict[str, Any] = plain(result)
     return numbers | {"figures": measured_figures(numbers) if numbers["curves"] else {}}
@@ -58,14 +60,3 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     """Return a summary of the friction as a whole, without notes and checks."""
     return [(name, value) for name, value in friction_lines(curves) if name not in ("assumed", "residual")]
-
-
-def _checks(curves: FrictionCurves) -> list[dict[str, Any]]:
-    """Judge whether the four sign configurations agree with each other."""
-    check = curves.consistency_check
-    return [] if check is None else [consistency_shown(check).record("page")]
-
-
-def _written(curves: FrictionCurves, context: Context) -> str:
-    write_friction_curves(curves, context.downloads / _DOWNLOAD)
-    return _DOWNLOAD
