@@ -6,17 +6,14 @@ Both are the built-in example's, which is SYNTHETIC.  Some 60 contacts: ten seco
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import viscofric as vf
 from viscofric import report
 from viscofric.report.figures.saving import save_picture
 from viscofric.report.figures.style import new_figure
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLE = ROOT / "src" / "viscofric" / "example"

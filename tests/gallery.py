@@ -7,23 +7,19 @@ friction in a0/R and pressures in p0, all of the elastic contact at E0 under the
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.contact.reference import hertz_ball
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification.ball import BallReference as Row
 from viscofric.verification.ball import ball_references
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.contact.solution import ContactSolution
 
 RUBBER_MODULUS = 1e6  # Pa
 POISSON_RATIO = 0.5

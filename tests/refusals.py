@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 import pytest
 
 from viscofric.errors import InputError, ViscofricError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 
 @contextmanager

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 
 import viscofric as vf
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
 

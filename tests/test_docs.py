@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import ModuleType
 
 import click
 import pytest
@@ -15,10 +16,6 @@ import viscofric as vf
 from viscofric.cli import main
 from viscofric.lazy import full_names
 from viscofric.study.run_file import study as run_file
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from types import ModuleType
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"

@@ -9,7 +9,7 @@ import re
 import subprocess
 import sys
 import warnings
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,9 +26,6 @@ from viscofric.notes import codes, warned
 from viscofric.readers.topography import package
 from viscofric.rheology.cards.card_files import LARGEST_CARD
 from viscofric.study.running.store import CaseStore, Damaged, _sealed
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: Processor time of one small file, s: each takes a few hundredths; unguarded they took half a minute and more.
 LONGEST = 2.0

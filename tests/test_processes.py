@@ -8,7 +8,8 @@ import statistics
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -16,9 +17,6 @@ from refusals import refused
 from viscofric.errors import ViscofricError
 from viscofric.limited_process import LimitedProcess
 from viscofric.processes import Workers, call_all
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 ONES: list[dict[str, Any]] = [{"data": [1.0]}] * 4
 

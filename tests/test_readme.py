@@ -9,8 +9,9 @@ import shlex
 import subprocess
 import sys
 import traceback
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import click
 import matplotlib
@@ -20,9 +21,6 @@ from click.testing import CliRunner
 
 from viscofric.cli import main
 from viscofric.report.figures import saving
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 ROOT = Path(__file__).parents[1]
 #: What building the site leaves there.

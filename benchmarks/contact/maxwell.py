@@ -22,7 +22,7 @@ import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 os.environ.update(OPENBLAS_NUM_THREADS="1", VISCOFRIC_FFT_THREADS="1")
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -30,11 +30,9 @@ import measuring
 import numpy as np
 import others
 import problems
+from numpy.typing import ArrayLike, NDArray
 
 import viscofric as vf
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
 
 SPEED = 1.0
 ERROR = 0.01

@@ -8,17 +8,15 @@ import os
 import platform
 import time
 import tracemalloc
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 import scipy
 import scipy.fft
 
 import viscofric
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from pathlib import Path
 
 Result = TypeVar("Result")
 #: Heading of a column, its key in a row, its format.

@@ -12,18 +12,17 @@ from __future__ import annotations
 import argparse
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 os.environ.update(OPENBLAS_NUM_THREADS="1", VISCOFRIC_FFT_THREADS="1")
+from collections.abc import Sequence
+
 import measuring
 import numpy as np
 import problems  # noqa: F401  (where the tests' surfaces are found)
 
 import viscofric as vf
 from contact.made_surfaces import self_affine
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 COLUMNS = (
     ("contacts", "contacts", "d"),

@@ -16,7 +16,7 @@ import argparse
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 os.environ.update(OPENBLAS_NUM_THREADS="1", VISCOFRIC_FFT_THREADS="1")
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -25,11 +25,9 @@ import numpy as np
 import others
 import problems
 
+import viscofric as vf
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.transfer import SlidingSolid
-
-if TYPE_CHECKING:
-    import viscofric as vf
 
 COLUMNS = (
     ("CPU s", "seconds", ".3f"),

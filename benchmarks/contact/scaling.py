@@ -20,17 +20,16 @@ import math
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 os.environ.update(OPENBLAS_NUM_THREADS="1", VISCOFRIC_FFT_THREADS="1")
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+from collections.abc import Callable
+
 import measuring
 import problems
 
 from gallery import broad_spectrum_37
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 MEMORY_LENGTH = 1e4  # v τ_max/a0 of the ball
 LEAST_REPEATS, MOST_REPEATS, REPEATED = 3, 5, 4.0  # solutions of one size, and CPU s after which no more is added

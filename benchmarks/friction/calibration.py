@@ -14,7 +14,7 @@ import json
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 os.environ.update(OPENBLAS_NUM_THREADS="1", VISCOFRIC_FFT_THREADS="1")
 import numpy as np
@@ -26,13 +26,9 @@ from viscofric.friction.identification.drawn_materials import Posterior
 from viscofric.friction.identification.identify import problem_of, shifts_of
 from viscofric.friction.identification.iteration import identify, most_evident, weighed
 from viscofric.friction.identification.moduli import anchored
-from viscofric.friction.identification.points import usable_points
-from viscofric.friction.identification.problem import Problem
+from viscofric.friction.identification.points import Points, usable_points
+from viscofric.friction.identification.problem import Problem, Shifts
 from viscofric.friction.identification.solving import Contacts, spectrum_of
-
-if TYPE_CHECKING:
-    from viscofric.friction.identification.points import Points
-    from viscofric.friction.identification.problem import Shifts
 
 ACCURACY = 3e-3
 MODES = 30

@@ -13,15 +13,14 @@ import json
 import os
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 os.environ.update(OPENBLAS_NUM_THREADS="1", VISCOFRIC_FFT_THREADS="1")
+from collections.abc import Callable
+
 import numpy as np
 
 import viscofric as vf
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 BALL = vf.Ball("10 mm")
 

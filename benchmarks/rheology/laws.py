@@ -14,16 +14,13 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 import viscofric as vf
 from viscofric.errors import ViscofricError
 from viscofric.notes import codes
-
-if TYPE_CHECKING:
-    from viscofric.rheology.shifts.laws import ParametricLaw
+from viscofric.rheology.shifts.laws import ParametricLaw
 
 COUNTS = (3, 4, 5, 6, 8)
 KINDS = ("wlf", "arrhenius")

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import click
 from page_parts import cell, table
 
 from viscofric.cli import main
 from viscofric.cli.overview import GROUPS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 
 def commands() -> Iterator[tuple[str, list[tuple[str, click.Command]]]]:

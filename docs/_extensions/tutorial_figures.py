@@ -8,8 +8,8 @@ import io
 import os
 import re
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -17,9 +17,6 @@ from click.testing import CliRunner
 from page_parts import DOCS, digest, is_made_of, made_of, write
 
 from viscofric.cli import main
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 PAGES = tuple(sorted((DOCS / "tutorial").glob("*.md")))
 _DEPENDS_ON = ("contact", "example", "friction", "heat", "readers", "report", "rheology", "roughness")

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
 import numpy as np
+from matplotlib.axes import Axes
 
+from viscofric.arrays import Array
 from viscofric.report.figures.style import BLUE, GREY, INK, decade_ticks, legend_above, looks
 from viscofric.units import shown_number
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from matplotlib.axes import Axes
-
-    from viscofric.arrays import Array
-    from viscofric.verification.refinement import Refinement
-    from viscofric.verification.windows import Windows
-
+from viscofric.verification.refinement import Refinement
+from viscofric.verification.windows import Windows
 
 _LEAST_SHOWN = 1e-8
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import io
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 import matplotlib
 import numpy as np
+from matplotlib.figure import Figure
 from page_parts import digest, is_made_of, made_of, table, write
 from verification_figures import (
     plot_deviations,
@@ -26,11 +27,6 @@ from viscofric.verification.published import PUBLISHED
 from viscofric.verification.published.contacts import BALL_POINTS, sliding_ball
 from viscofric.verification.refinement import REFINEMENTS, Refinement
 from viscofric.verification.windows import Windows, windows
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from matplotlib.figure import Figure
 
 #: Errors below this are called round-off: their digits differ from machine to machine.
 ROUND_OFF = 1e-9

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import viscofric as vf
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 COULOMB, ZERO_FORCE = 0.05, 0.3
 

@@ -7,9 +7,11 @@ import re
 import shlex
 import shutil
 import signal
+from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from pathlib import Path
+from types import FrameType
 
 import click
 import numpy as np
@@ -20,11 +22,6 @@ import viscofric as vf
 from cli.friction_files import curves, runs
 from cli.refusals import refusal_of
 from viscofric.cli import main
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
-    from types import FrameType
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a timer of the system")
 

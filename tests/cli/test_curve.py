@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,9 +14,6 @@ import viscofric as vf
 from cli.refusals import refusal
 from viscofric.cli import main
 from viscofric.cli.speed_options import chosen_speeds
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DMA = str(files("viscofric") / "example" / "dma.csv")
 RUBBER = ("--material", "synthetic fluoroelastomer")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
@@ -12,9 +12,6 @@ from cli.refusals import refusal
 from refusals import refused
 from study.sweeps import made_results, made_sweep
 from viscofric.cli import main
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def call(*words: object) -> Result:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -11,9 +11,6 @@ from click.testing import CliRunner
 import viscofric as vf
 from viscofric.cli import main
 from viscofric.thermal import FILLED_RUBBER, STEEL
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 RUBBER = ["--material", "synthetic fluoroelastomer"]
 LINE = [*RUBBER, "--cylinder", "10 mm", "--load", "500 N/m", "--accuracy", "0.1"]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,9 +14,6 @@ import viscofric as vf
 from cli.refusals import refusal
 from viscofric.cli import main
 from viscofric.notes import note_of
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 RUBBER = vf.Material.standard_linear_solid("2 MPa", "6 MPa", "10 ms")
 ANCHOR = ("--anchor-modulus", "2.287 MPa", "--anchor-frequency", "60 rad/s", "--anchor-temperature", "300 K")

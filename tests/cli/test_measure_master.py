@@ -6,7 +6,8 @@ import json
 import re
 from dataclasses import replace
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,9 +17,6 @@ import viscofric as vf
 from cli.friction_files import COULOMB, LAW, TEMPERATURES, ZERO_FORCE, curves, runs, viscoelastic
 from cli.refusals import refusal
 from viscofric.cli import main
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def call(*words: object) -> Result:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 import shutil
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -15,9 +15,6 @@ from cli.refusals import refusal
 from study.sweeps import made_results, made_sweep
 from viscofric.cli import main
 from viscofric.cli.new import template_text
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 SOLID = "--E0 '1 MPa' --E-inf '10 MPa' --tau '1 ms'"
 RUBBER = "--material 'synthetic fluoroelastomer'"

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import signal
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,10 +18,6 @@ from click.testing import CliRunner, Result
 import viscofric as vf
 from cli.refusals import refusal
 from viscofric.cli import main, progress
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
 
 RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "10 ms")
 BALL = ("--ball", "10 mm")

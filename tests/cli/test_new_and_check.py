@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
@@ -14,9 +14,6 @@ from viscofric.cli import main
 from viscofric.cli.check import duration
 from viscofric.cli.new import SCHEMA, TEMPLATES, template_text
 from viscofric.report.texts.checks import all_checks
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def call(*arguments: str | Path, given: str | bytes | None = None) -> Result:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import shutil
+from collections.abc import Iterator
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import click
 import pytest
@@ -15,10 +17,6 @@ from cli.friction_files import curves, runs
 from cli.refusals import refusal
 from study.sweeps import made_results
 from viscofric.cli import main, run
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 SOLID = ["--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms"]
 CATALOGUE = ["--material", "synthetic fluoroelastomer"]

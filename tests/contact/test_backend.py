@@ -7,10 +7,10 @@ import pickle
 import sys
 from functools import cache
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import viscofric as vf
 from contact.made_surfaces import self_affine
@@ -25,9 +25,6 @@ from viscofric.contact.periodic.splitting import split_steps
 from viscofric.errors import InputError
 from viscofric.processes import Workers, call_all
 from viscofric.threads import THREADS_VARIABLE, in_parts, threads_for, usable_threads
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 OTHERS = ("array_api_strict", "ducc0", "pyfftw", "torch:cpu", "torch:cuda", "cupy")
 # The solver's own error at this tolerance, which another rounding may shift; pressures are well conditioned here.

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import pytest
 
@@ -16,13 +14,11 @@ from viscofric.contact.free.geometry import LINE, POINT, Geometry
 from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.free.nested import find_window, refine
 from viscofric.contact.free.problem import Control, Problem
+from viscofric.contact.free.stage import Stage
 from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.contact.operators.convolution import SteadyMaterial, bent_share, second_difference
 from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.reference import hunter_line
-
-if TYPE_CHECKING:
-    from viscofric.contact.free.stage import Stage
 
 INDENTERS = {POINT.name: Ball(radius=1.0), LINE.name: Cylinder(radius=1.0)}
 

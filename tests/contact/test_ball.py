@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -39,15 +39,13 @@ from viscofric.contact.indenters.shapes import Ball
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.reference import hertz_ball
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import ConvergenceError
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-if TYPE_CHECKING:
-    from viscofric.contact.solution import ContactSolution
 
 SLS = standard_linear_solid(10.0, 1.0)
 

@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 from refusals import refused
 from viscofric.contact.indenters.height_map import HeightMap, Profile
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.contact.reference import hertz_ellipse
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.rheology.material import Material
-
-if TYPE_CHECKING:
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.solution import ContactSolution
 
 RUBBER = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
 LONG = Ellipsoid(radius_x=30e-3, radius_y=10e-3)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -30,12 +29,10 @@ from viscofric.contact.influence.line import line_memory_influence, scaled_expon
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import LineOperator
 from viscofric.contact.reference import HunterContact, high_speed_line_friction, hunter_line
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-if TYPE_CHECKING:
-    from viscofric.contact.solution import ContactSolution
 
 SLS = cylinder_on_standard_linear_solid(10.0, 1.0)
 SLOPE = HERTZ_RADIUS / BALL_RADIUS  # a0/R

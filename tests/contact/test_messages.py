@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 
 import viscofric as vf
 from viscofric.contact.coupling import ShearedContact, coupling_notes
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 BALL, CYLINDER = vf.Ball("10 mm"), vf.Cylinder("10 mm")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -19,12 +18,10 @@ from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.free.nested import find_window, refine
 from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.proximal import proximal_points
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.errors import ConvergenceError
-
-if TYPE_CHECKING:
-    from viscofric.contact.indenters.indenter import Indenter
 
 # A standard linear solid in units of the Hertz contact at E0, and indenters whose radius is one there.
 SOLID = SteadyMaterial(0.1, np.array([0.9]), np.array([1.0]))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -13,15 +12,13 @@ from marks import slow
 from refusals import refused
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.height_map import HeightMap, Profile
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid, FlatPunch
 from viscofric.contact.reference import flat_punch, hertz_ellipse, sneddon_cone
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
-if TYPE_CHECKING:
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.solution import ContactSolution
 
 RUBBER = standard_linear_solid(10.0, 1.0).material
 SPECTRUM = RUBBER.spectrum

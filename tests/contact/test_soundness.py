@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import viscofric as vf
 from gallery import (
     HERTZ_RADIUS,
     LOAD,
@@ -28,9 +28,6 @@ from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.contact.reference import hunter_line
 from viscofric.errors import ConvergenceError
-
-if TYPE_CHECKING:
-    import viscofric as vf
 
 MODES = st.lists(st.tuples(st.floats(0.05, 1.0), st.floats(-2.5, 0.0)), min_size=1, max_size=5)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,9 +22,6 @@ from viscofric.errors import DataFileError
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, Remedy, codes, note_of
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 FOREIGN = "speed (mm/s);temperature (degC);load (N);viscoelastic friction (%)\n20;30;25;3,1\n200;60;25;2,5\n"
 #: Columns that a table has to have.

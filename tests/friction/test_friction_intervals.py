@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -17,9 +16,7 @@ from viscofric.friction.identification.points import relative_errors
 from viscofric.friction.measurement.errors import Pool, Scatter
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import codes
-
-if TYPE_CHECKING:
-    from viscofric.traction import TractionRuns
+from viscofric.traction import TractionRuns
 
 SPEEDS = np.geomspace(0.02, 0.2, 10)
 TEMPERATURES = 273.15 + np.array([30.0, 35.0, 40.0, 46.0, 52.0, 60.0, 68.0, 78.0, 90.0])

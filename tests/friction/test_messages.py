@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -20,11 +20,7 @@ from viscofric.friction.identification.conclusions import _anchor_notes
 from viscofric.friction.identification.points import usable_points
 from viscofric.friction.identification.result import with_origin
 from viscofric.friction.shifting.collapse import Collapse
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.notes import Reader
+from viscofric.notes import Reader
 
 LAW = vf.WLF(C1=8.86, C2=101.6, reference="50 degC")
 SPEEDS = np.geomspace(0.02, 0.2, 10)

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import viscofric as vf
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @pytest.mark.slow

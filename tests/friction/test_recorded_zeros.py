@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -18,11 +18,7 @@ from viscofric.friction.measurement.fit import Entry
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.friction.measurement.zeros import Zeros, wanders
 from viscofric.notes import codes
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.traction import TractionRuns
+from viscofric.traction import TractionRuns
 
 # The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
 ROUNDING = 1e-12

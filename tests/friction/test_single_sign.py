@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -15,9 +14,7 @@ from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
 from refusals import refused
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import codes
-
-if TYPE_CHECKING:
-    from viscofric.traction import TractionRuns
+from viscofric.traction import TractionRuns
 
 ROUNDING = 1e-12
 SPEEDS = (0.02, 0.1, 0.2)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -11,9 +10,7 @@ import pytest
 from friction.made_runs import exported_runs, rows_of, runs_from, traction_runs
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import codes
-
-if TYPE_CHECKING:
-    from viscofric.traction import TractionRuns
+from viscofric.traction import TractionRuns
 
 # The fit is linear and well conditioned; a thousand roundings of forces of some 10 N over 25 N.
 ROUNDING = 1e-12

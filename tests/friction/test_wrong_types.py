@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,10 +12,6 @@ import pytest
 import viscofric as vf
 from friction.made_runs import traction_runs
 from refusals import refused
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 _SPEED, _KELVIN = np.tile(np.geomspace(0.02, 0.2, 6), 3), np.repeat([303.15, 308.15, 313.15], 6)
 _LAW = vf.WLF(C1=9.0, C2=100.0, reference=303.15)

@@ -8,14 +8,11 @@ Fourier transforms in the motion.  Between the steps the pressure on a point of 
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
+from viscofric.arrays import Array
 
 _NODES, _WEIGHTS = (
     0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(8), (1, 0), strict=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,9 +11,6 @@ import viscofric as vf
 from readers.samples import workbook
 from refusals import refused
 from viscofric.errors import DataFileError
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 WIPER = """# start of a wiper
 time (ms);Fn (mN/mm);sliding distance (mm);T (degC)

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import pytest
 
 import viscofric as vf
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
 BALL = vf.Ball("10 mm")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,14 +14,12 @@ import viscofric as vf
 from motion.dense_wave import displacement_matrix, marched
 from viscofric.contact.reference import westergaard
 from viscofric.motion.memory import Modes
+from viscofric.motion.mover import Observation
 from viscofric.motion.periodic import PeriodicMover
 from viscofric.motion.problem import Problem
 from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, stored_energy
 from viscofric.notes import note_of
 from viscofric.rheology.spectra.quality import SpectrumFit
-
-if TYPE_CHECKING:
-    from viscofric.motion.mover import Observation
 
 LENGTH = 1e-3
 SLS = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")

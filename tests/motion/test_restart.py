@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,9 +10,6 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import DataFileError
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 RUBBER = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [3e-7, 3e-7, 3e-7], [1e-3, 1e-2, 1.0]))
 BALL = vf.Ball("10 mm")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,9 +13,6 @@ from marks import apart, slow
 from refusals import refused
 from viscofric.errors import DataFileError
 from viscofric.notes import codes
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 RUBBER = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [3e-7, 3e-7, 3e-7], [1e-3, 1e-2, 1.0]))
 BALL, CYLINDER = vf.Ball("10 mm"), vf.Cylinder("10 mm")

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 import pytest
 
 from viscofric.errors import InputError
 from viscofric.notes import Note, note_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 
 def refused(code: str, row: int | None = None, *names: str, file: str = "") -> pytest.RaisesExc[InputError]:

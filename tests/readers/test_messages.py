@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -12,10 +13,6 @@ from viscofric.errors import DataFileError
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.topography.read import read_scan
 from viscofric.readers.topography.scan import ScanOptions
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 DMA = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"
 SWEEP = [f"{T},{f},{5 + f},0.5" for T in (20, 40) for f in (1, 2, 5)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,9 +11,6 @@ import viscofric as vf
 from refusals import refused
 from viscofric.notes import codes
 from viscofric.readers.dma.ramps import legs
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HEADER = "temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)\n"
 

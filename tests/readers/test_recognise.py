@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,9 +14,6 @@ from refusals import refused
 from viscofric.cli import main
 from viscofric.errors import DataFileError
 from viscofric.readers.recognise import by_kind, kind_of_test
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DMA = "T (degC),f (Hz),E' (MPa),E'' (MPa)"
 SWEEP = [f"{T},{f},5,0.5" for T in (20, 30) for f in (0.1, 1, 10)]

@@ -6,7 +6,7 @@ import contextlib
 import importlib.util
 import sys
 import warnings
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,9 +17,6 @@ import viscofric as vf
 from readers.refusal import refused
 from viscofric.notes import codes
 from viscofric.readers.topography import package
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 RANDOM = np.random.default_rng(5)
 HEIGHTS = RANDOM.normal(size=(6, 4)).round(4)

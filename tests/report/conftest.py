@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.collections import PathCollection
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
@@ -17,12 +20,6 @@ from viscofric.report.figures import saving
 from viscofric.report.figures import study as drawing
 from viscofric.rheology.cards.native import plain
 from viscofric.rheology.shifts.laws import WLF
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from matplotlib.figure import Figure
 
 REFERENCE = 303.15  # K
 C1, C2 = 10.04, 89.6  # WLF at the reference; K

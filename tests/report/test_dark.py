@@ -7,7 +7,7 @@ import re
 import xml.etree.ElementTree as ET
 from base64 import b64encode
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from matplotlib.colors import to_rgb
@@ -15,9 +15,6 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 from viscofric.report.figures.saving import adaptive
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def drawn(colour: str) -> bytes:

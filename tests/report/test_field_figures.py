@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,9 +16,6 @@ from viscofric.report.figures.contacts import contacts_figure, trail_figure
 from viscofric.report.figures.convergence import convergence_figure
 from viscofric.report.figures.stored_contacts import shown_contacts, trails
 from viscofric.report.sweeps import cases_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 RUBBER = vf.Material.standard_linear_solid("3 MPa", "30 MPa", "1 ms")
 SPEEDS = (1e-3, 1.0, 1e3)  # m/s: slow, about the maximum, fast

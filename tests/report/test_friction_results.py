@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
 from viscofric.report.figures import saving
 from viscofric.report.figures import study as drawing
 from viscofric.report.texts.checks import all_checks
 from viscofric.report.texts.friction_tables import detail_tables
 from viscofric.report.texts.study import key_numbers
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 ZERO = 273.15
 

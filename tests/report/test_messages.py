@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -15,9 +15,6 @@ from viscofric.notes import Note, records
 from viscofric.report.captions import captions
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
 from viscofric.report.texts.study import grouped_failures, key_numbers, scope
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 def test_failures_of_one_code_are_one_line() -> None:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
 from PIL import Image
 
 import viscofric as vf
@@ -16,11 +18,6 @@ from viscofric.motion.mover import Field
 from viscofric.report.figures.motion import distance, returns
 from viscofric.report.figures.pressures import frames_of, spread_times
 from viscofric.report.figures.style import new_figure
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from matplotlib.axes import Axes
 
 TIME = np.array([0.0, 0.1, 0.1, 0.2, 0.3])
 ACROSS = np.array([0.0, 1e-3, 1e-3, 5e-3, 1e-3])  # there and back, along y

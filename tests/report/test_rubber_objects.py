@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
@@ -20,11 +22,6 @@ from viscofric.report.data import moduli_of_sweeps
 from viscofric.report.figures import rubber, shift_factors, style, superposition
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
 from viscofric.rheology.superposition.result import check_superposition
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from matplotlib.axes import Axes
 
 REFERENCE = 303.15
 LEVEL_95 = 1.959963984540054

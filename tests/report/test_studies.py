@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,10 +25,6 @@ from viscofric.report.texts import friction_tables
 from viscofric.report.texts.checks import all_checks, counted, friction_checks
 from viscofric.report.texts.friction_tables import detail_tables, friction_at_a_glance
 from viscofric.report.texts.study import inputs, scope
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 SPEEDS, TEMPERATURES = np.geomspace(1e-3, 1.0, 7), np.linspace(303.15, 363.15, 4)
 CURVES = {"temperature": TEMPERATURES, "speed": SPEEDS}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,9 +11,6 @@ import viscofric as vf
 from viscofric.report.figures import rough as figures
 from viscofric.report.figures.saving import save_picture
 from viscofric.report.figures.style import new_figure
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 RUBBER = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
 ROAD = vf.roughness.PowerSpectrum.self_affine(0.8, longest="1 mm", shortest="100 um", rms_slope=0.2)

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 import viscofric as vf
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.step_tests import StepTest, StepTests
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 #: Steps of 4 K below 0 °C, where α falls by more than a decade in them, of 10 K above: all 26 overlap.
 PROGRAMME = (*np.arange(-20.0, 0.0, 4.0), *np.arange(0.0, 201.0, 10.0))  # °C

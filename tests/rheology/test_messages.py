@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,9 +15,6 @@ from rheology.test_cards_foreign import ABAQUS, ANSYS, COMSOL, LS_DYNA
 from rheology.test_cards_round_trip import rubber
 from viscofric.rheology.cards import open_card
 from viscofric.rheology.spectra.quality import FROM_FRICTION, SpectrumFit
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 KELVIN = np.arange(0.0, 121.0, 10.0) + 273.15
 WLF = vf.WLF(8.0, 120.0, "30 degC")

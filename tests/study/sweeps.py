@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray
@@ -18,10 +20,6 @@ from viscofric.study.cases.sweep import Axis, Sweep
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, provenance
 from viscofric.study.results.tree import field_groups, material_groups, prediction
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from pathlib import Path
 
 #: Any numbers that a ball's contact might have.
 RECORD = Record.of(

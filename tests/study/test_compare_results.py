@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,9 +17,6 @@ from study.sweeps import made_results, made_sweep
 from viscofric.errors import DataFileError
 from viscofric.notes import codes
 from viscofric.study.results.results import StudyResults
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: Comparisons need no files.
 made = partial(made_results, stored=False)

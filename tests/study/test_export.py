@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import sys
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,9 +18,6 @@ from study.sweeps import friction_of, made_results, made_sweep
 from viscofric.errors import DataFileError
 from viscofric.study.results import export
 from viscofric.study.results.export import FORMS
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: Exports need no results file.
 made = partial(made_results, stored=False)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -25,9 +26,6 @@ from viscofric.study.histories import Histories, material_notes
 from viscofric.study.results.columns import columns_of
 from viscofric.study.run_file.study import parse_study
 from viscofric.thermal import FILLED_RUBBER, PTFE, STEEL
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 BASE = """
 [material]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,9 +18,6 @@ from viscofric.report.figures.histories import histories_figure, impacts_figure
 from viscofric.study.cases import history as cases
 from viscofric.study.checking import check_study
 from viscofric.study.run_file.study import parse_study
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 BASE = """
 [material]

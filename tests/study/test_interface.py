@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,9 +14,6 @@ from viscofric.report.captions import captions
 from viscofric.report.figures.interface import parts_figure, stress_figure
 from viscofric.report.texts.study import scope
 from viscofric.study.run_file.study import parse_study
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 BASE = """
 data_origin = "synthetic"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,9 +15,6 @@ from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.study import validated
 from viscofric.study.study_rubber import FrictionBands
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 LAW = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "tension")
 

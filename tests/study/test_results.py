@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import os
 from functools import partial
+from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,9 +24,6 @@ from viscofric.study.cases.sweep import place, place_in
 from viscofric.study.contacts import Solved
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import input_hashes
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @pytest.mark.slow

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,9 +19,6 @@ from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.rubber_results import run_material
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.study import validated
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 REFERENCE = {"reference_temperature": "30 degC"}
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -12,21 +12,17 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric import open_results, run_study
+from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import solve
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import MadeSurface
 from viscofric.friction.planning.plan import plan_cases
 from viscofric.notes import codes
+from viscofric.study import StudyResults
 from viscofric.study.checking import check_study
 from viscofric.study.run_file.study import parse_study
 from viscofric.study.running.store import CaseStore
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.friction.cases.case import Case
-    from viscofric.study import StudyResults
 
 STUDY = """
 [material]

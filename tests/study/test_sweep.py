@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import given
@@ -13,12 +12,9 @@ from hypothesis import strategies as st
 
 import viscofric as vf
 from viscofric.errors import StudyError
+from viscofric.friction.cases.indenter_case import IndenterCase as Case
 from viscofric.study.cases.sweep import axes_of, count_cases
-from viscofric.study.run_file.study import parse_study
-
-if TYPE_CHECKING:
-    from viscofric.friction.cases.indenter_case import IndenterCase as Case
-    from viscofric.study.run_file.study import Study
+from viscofric.study.run_file.study import Study, parse_study
 
 MATERIAL = '[material]\ncatalogue = "synthetic fluoroelastomer"\n'
 TWO = (

@@ -6,7 +6,7 @@ import importlib.util
 import sys
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -14,9 +14,6 @@ import pytest
 import viscofric as vf
 from contact.dense_reference import dense_friction
 from marks import apart
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = Path(str(files("viscofric")))

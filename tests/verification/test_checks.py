@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
+from numpy.typing import NDArray
 
 from marks import apart
 from refusals import refused
@@ -20,15 +22,9 @@ from viscofric.contact.periodic.transfer import SlidingSolid
 from viscofric.errors import ConvergenceError
 from viscofric.motion import bounce, memory, normal
 from viscofric.rheology import material
+from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification import CHECKS, Check, Comparison, run_checks, select
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from viscofric.rheology.spectra.modulus_table import ModulusTable
 
 NAMES = [check.name for check in CHECKS]
 

@@ -6,7 +6,7 @@ import re
 import sys
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import ModuleType
 
 import pytest
 
@@ -14,9 +14,6 @@ from viscofric.verification import CHECKS, Check, Comparison, Outcome, select
 from viscofric.verification.ball import QUANTITIES, ball_references
 from viscofric.verification.line import ACCURACY, MEMORY_LENGTHS, MODULUS_RATIOS
 from viscofric.verification.model_problems import InHertzUnits, one_time, solve_cylinder
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "verification.md").read_text(encoding="utf-8")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -15,10 +17,6 @@ from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification import CHECKS, select
 from viscofric.verification.published import PUBLISHED, cards, closed_forms, persson
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from types import ModuleType
 
 DOCS = Path(__file__).parents[2] / "docs"
 NAMES = [check.name for check in PUBLISHED]

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 from viscofric.web.jobs.context import Context
 from web.figure_columns import drawn
-
-if TYPE_CHECKING:
-    from pathlib import Path
-    from types import ModuleType
 
 CONDITIONS = {
     "load": "25 N",

@@ -5,17 +5,14 @@ from __future__ import annotations
 import os
 import signal
 import time
-from typing import TYPE_CHECKING, Any, Literal
+from collections.abc import Callable
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.errors import InputError
 from viscofric.processes import Workers, call_all
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.web.jobs.context import Context
+from viscofric.web.jobs.context import Context
 
 
 class Options(BaseModel):

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 
 import viscofric as vf
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 _DMA = "T (degC),f (Hz),E' (MPa),E'' (MPa)"
 

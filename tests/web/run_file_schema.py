@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from viscofric.study.run_file.json_schema import json_schema
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _SCHEMA = json_schema()
 

@@ -8,8 +8,10 @@ import os
 import signal
 import time
 from collections import deque
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
 from contextlib import aclosing, contextmanager
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,10 +20,6 @@ from viscofric.web.children import Children
 from viscofric.web.jobs import Kind
 from web.own_loop import run_apart
 from web.processes_left import alive, ended, started_by
-
-if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
-    from pathlib import Path
 
 MB = 2**20
 LONG = 20.0  # s, on a machine that does other work; what is waited for takes two at most on one that does not

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import threading
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -20,9 +20,6 @@ from viscofric import load_study
 from viscofric.cli import main
 from web.processes_left import ended, started_by
 from web.served_page import STUDY, started
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def left_in(folder: Path) -> list[str]:

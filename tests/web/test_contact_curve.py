@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import shutil
 from importlib.resources import as_file, files
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,9 +17,6 @@ from viscofric.friction.cases.record import SURFACE_NUMBERS
 from viscofric.web.jobs import curve
 from viscofric.web.study_text import study_text
 from web.contact_studies import BALL, ROUGH, Desk
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: Numbers have six digits.
 ROUNDING = 1e-5

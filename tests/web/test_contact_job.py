@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from shutil import copyfile
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,9 +16,6 @@ from viscofric.errors import ViscofricError
 from viscofric.web.jobs import contact, curve
 from web.contact_studies import BALL, CYLINDER, ROUGH, Desk
 from web.rubber_workspace import EXAMPLE, SWEEPS
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 LIGHT = 200_000  # bytes of an answer, so that a slider can ask for many
 #: Numbers have six digits.

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_args
+from typing import Any, get_args
 
 import numpy as np
 
@@ -15,9 +16,6 @@ from viscofric.errors import DataFileError, StudyError
 from viscofric.study.run_file.study import TABLES, Study
 from viscofric.web.jobs.context import Context
 from viscofric.web.study_files import FILE_KEYS, check_confined, opened_study
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 EXAMPLE = Path(__import__("viscofric").__file__).parent / "example"
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import shutil
 import tomllib
 import zipfile
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,10 +20,6 @@ from viscofric.web.jobs.rubbers import made_rubber
 from viscofric.web.study_text import DocumentError
 from web.contact_studies import BALL, Desk
 from web.rubber_workspace import EXAMPLE
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
 
 #: Numbers of the page have six digits.
 ROUNDING = 1e-5

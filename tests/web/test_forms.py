@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -11,9 +12,6 @@ from viscofric.web.forms.contact import SHAPES
 from viscofric.web.jobs import export_card, export_study, identify, master, motion
 from viscofric.web.study_text import study_of
 from web.run_file_schema import found
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 _FIELDS = [
     pytest.param(field, id=f"{form}:{field['path']}")

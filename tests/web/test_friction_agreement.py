@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,10 +11,8 @@ import viscofric as vf
 from friction.synthetic_curves import planted_law, synthetic_curves
 from refusals import refused
 from viscofric.errors import StudyError, SuperpositionError
+from viscofric.web.jobs.context import Context
 from web.friction_workspace import NOISE, STUDY, column, done, workspace
-
-if TYPE_CHECKING:
-    from viscofric.web.jobs.context import Context
 
 CURVES = {**STUDY, "measurement": {"curves": "curves.csv"}}
 APART = {**STUDY, "measurement": {"curves": "apart.csv"}}

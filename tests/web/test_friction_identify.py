@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import shutil
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 
 import viscofric as vf
 from refusals import refused
-from viscofric.web.jobs.context import JobError
+from viscofric.web.jobs.context import Context, JobError
 from web.friction_workspace import STUDY, done, workspace
-
-if TYPE_CHECKING:
-    from viscofric.web.jobs.context import Context
 
 CURVES = {**STUDY, "measurement": {"curves": "curves.csv"}}
 ANCHOR = {"of": "rubber", "frequency": "1 Hz", "temperature": "40 degC"}

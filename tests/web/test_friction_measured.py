@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,12 +13,8 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import InputError, StudyError
+from viscofric.web.jobs.context import Context
 from web.friction_workspace import STUDY, column, curves, done, workspace
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from viscofric.web.jobs.context import Context
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,9 +11,6 @@ import pytest
 from viscofric.errors import ViscofricError
 from viscofric.web.jobs import history
 from web.contact_studies import BALL, CONDITIONS, ROUGH, Desk
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: At one load and one speed, which a table of its own needs.
 STUDY = {**BALL, "conditions": {**CONDITIONS, "speed": "0.1 m/s"}}

@@ -8,15 +8,12 @@ import random
 import signal
 import socket
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from web.processes_left import PROC, ended, started_by
 from web.served_page import STUDY, Server, started
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 SPEEDS = {"from": "1 mm/s", "to": "10 m/s", "points": 200, "spacing": "log"}
 #: A study of many contacts.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,9 +12,6 @@ import viscofric as vf
 from viscofric.errors import ViscofricError
 from viscofric.web.jobs import motion
 from web.contact_studies import BALL, ROUGH, Desk
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: Numbers have seven digits.
 ROUNDING = 1e-6

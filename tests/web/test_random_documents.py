@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import random
-from typing import TYPE_CHECKING, Any, NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import pytest
 
 import viscofric as vf
 from viscofric.web.jobs import contact, curve
 from web.contact_studies import Desk
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: Numbers have six digits.
 ROUNDING = 1e-5

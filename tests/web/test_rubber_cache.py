@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,12 +13,8 @@ from viscofric.errors import StudyError
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.study import validated
 from viscofric.web.jobs import rubbers
+from viscofric.web.jobs.context import Context
 from web.rubber_workspace import EXAMPLE, SWEEPS, workspace_with
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from viscofric.web.jobs.context import Context
 
 
 @pytest.fixture

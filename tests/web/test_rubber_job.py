@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, Literal
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -14,9 +15,6 @@ from viscofric.rheology.catalogue import catalogue_material
 from viscofric.web.jobs.context import Context, JobError
 from web.figure_columns import value_at
 from web.rubber_workspace import EXAMPLE, SWEEPS, done, workspace_with
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 DRAWS = {"draws": 40}
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import openpyxl
@@ -13,9 +14,6 @@ from refusals import refused
 from viscofric import read_dma
 from viscofric.web.jobs.context import Context, JobError
 from web.rubber_workspace import EXAMPLE, SWEEPS, done, workspace_with
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HERTZ = np.geomspace(0.1, 10.0, 9)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import tomllib
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -13,9 +14,6 @@ from refusals import refused
 from viscofric.study.run_file.study import load_study
 from viscofric.web.start import FIRST_STUDY, start
 from viscofric.web.study_text import RUN_FILE, DocumentError, study_of, study_text
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 _WORDS = st.text(st.characters(codec="utf-8"), max_size=20)
 _SCALARS = st.booleans() | st.integers(-(10**12), 10**12) | st.floats(allow_nan=False) | _WORDS

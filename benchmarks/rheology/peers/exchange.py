@@ -10,13 +10,11 @@ import csv
 import json
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 #: Work that takes less than this is repeated, and the quickest time counts: the machine may be shared.
 QUICK = 1.0  # CPU seconds

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from exchange import Sweep, main, master_curve, sweeps, timed
@@ -11,9 +12,6 @@ from hermes_rheo.transforms.automated_mastercurve import AutomatedMasterCurve
 from hermes_rheo.transforms.fit_model import MultiModeMaxwellModel
 from piblin.data import Measurement, MeasurementSet
 from piblin.data.datasets.abc.split_datasets.one_dimensional_composite_dataset import OneDimensionalCompositeDataset
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def _measurement(sweep: Sweep) -> Measurement:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from exchange import main, sweeps, timed
 from mastercurves import MasterCurve
 from mastercurves.transforms import Multiply
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def shift_factors(path: Path) -> dict[str, Any]:

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import io
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from exchange import main, master_curve, sweeps, timed
 from pyvisco import load, master, opt, prony, shift
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 PASCAL = 1e-6  # its files are in MPa
 

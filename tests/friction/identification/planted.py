@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 import viscofric as vf
 from friction.synthetic_curves import curves_of
+from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.friction.identification.solving import friction_response
-
-if TYPE_CHECKING:
-    from viscofric.friction.curves import FrictionCurves
 
 BALL = vf.Ball(radius=10e-3)
 LOAD = 5.0

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import viscofric as vf
 from friction.identification.planted import (
@@ -26,11 +27,6 @@ from viscofric.friction.curve_files import read_friction_curves, write_friction_
 from viscofric.friction.identification.solving import Contacts
 from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
 from viscofric.notes import Note, codes
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from numpy.typing import NDArray
 
 SETTINGS = {"indenter": BALL, "accuracy": 1e-2, "samples": 40, "modes": 15}
 FEW = SETTINGS | {"samples": 20}

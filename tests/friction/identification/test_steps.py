@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -14,10 +13,8 @@ from refusals import refused
 from viscofric.errors import ConvergenceError
 from viscofric.friction.identification import iteration
 from viscofric.friction.identification.forward import CorrectedFriction, Solved
+from viscofric.friction.identification.problem import Problem
 from viscofric.friction.identification.solving import Contacts
-
-if TYPE_CHECKING:
-    from viscofric.friction.identification.problem import Problem
 
 SETTINGS = {"indenter": BALL, "samples": 20, "modes": 15, "shift": RUBBER.shift, "anchor": planted_anchor(1e8)}
 #: How steeply friction changes with the relaxed compliance about that of the planted rubber.

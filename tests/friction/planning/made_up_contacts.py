@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
 
 import viscofric as vf
 from viscofric.contact.free.scale import Scale
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import Task, solve
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy as np
-
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.friction.planning.plan import Outcome, Plan
+from viscofric.friction.planning.plan import Outcome, Plan
 
 BALL = vf.Ball(0.01)
 SLS = vf.Material(

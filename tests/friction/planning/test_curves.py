@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -12,13 +11,10 @@ import pytest
 import viscofric as vf
 from friction.planning.made_up_contacts import SLS, carry_out, case_of, made_up
 from viscofric.friction.cases.case import Rubbers, Settings
-from viscofric.friction.cases.indenter_case import ERRORS, NAMES, units_of
+from viscofric.friction.cases.indenter_case import ERRORS, NAMES, IndenterCase, units_of
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import Task, solve
 from viscofric.friction.planning.plan import Outcome, plan_cases
-
-if TYPE_CHECKING:
-    from viscofric.friction.cases.indenter_case import IndenterCase
 
 TEMPERATURES = np.linspace(283.15, 383.15, 8).tolist()
 SPEEDS = np.geomspace(1e-3, 1.0, 30).tolist()

@@ -7,12 +7,9 @@ write one file into a folder and return its path.
 from __future__ import annotations
 
 import pkgutil
+from collections.abc import Callable
 from importlib import import_module
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
+from pathlib import Path
 
 #: Name of the sample -> function that writes it into a folder and returns its path.
 SAMPLES: dict[str, Callable[[Path], Path]] = {

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
 
 from readers.samples.rubber import FREQUENCIES, TEMPERATURES, points
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
-    from pathlib import Path
 
 #: log10 aT of the isotherms; 1.5 is a whole number of the programme's steps, as may happen by chance.
 SHIFTS = dict(zip(TEMPERATURES, (1.5, 0.0, -1.26), strict=True))

@@ -6,13 +6,10 @@ The layouts were learned from public repositories; the numbers are of the synthe
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from readers.samples.rubber import FREQUENCIES, TEMPERATURES, moduli
 from readers.samples.workbook import write as write_workbook
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def sheared() -> list[tuple[float, float, float, float]]:

@@ -5,13 +5,10 @@ They follow O + F_N [μ_c sgn(u_disc − u_ball) + μ_v sgn(u_disc)] with the nu
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-    from pathlib import Path
 
 #: None of these files is one of a dynamic mechanical analyser.
 SAMPLES: dict = {}

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import struct
 from datetime import datetime
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from pathlib import Path
+from pathlib import Path
 
 #: Time, lube, pot, load, wear, (ECR,) ball 1 and 2, disc 1 and 2, rolling, sliding, SRR, TF1, TF2, force, coefficient.
 PAIRS = [

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from readers.samples.rubber import FREQUENCIES, moduli
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def sweep(folder: Path) -> Path:

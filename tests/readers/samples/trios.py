@@ -5,12 +5,9 @@ from __future__ import annotations
 import json
 import math
 from itertools import groupby
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from .rubber import points
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: Name, unit, and the number from temperature (°C), frequency (Hz), storage and loss modulus (Pa).
 COLUMNS = {

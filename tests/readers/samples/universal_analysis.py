@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 
 from .rubber import points
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 #: Signals of a Q800 in the order that its software prints them by default.
 SIGNALS = (

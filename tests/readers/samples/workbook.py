@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 from readers.samples.rubber import points
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HEADER = ["Temperature (°C)", "Frequency (Hz)", "E' (MPa)", "E'' (MPa)"]
 

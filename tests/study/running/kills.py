@@ -14,12 +14,9 @@ import subprocess
 import sys
 import time
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from pathlib import Path
-    from types import TracebackType
-    from typing import Self
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
 
 STUDY = """
 [material]

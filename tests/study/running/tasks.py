@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -14,9 +14,6 @@ from viscofric.friction.cases.case import Settings
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import Task, solve
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 RUBBER = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3, poisson_ratio=0.5)
 

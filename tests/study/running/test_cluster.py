@@ -6,7 +6,7 @@ import logging
 import shutil
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -18,9 +18,6 @@ from viscofric.study.running.cluster import BatchJobs, Dask
 from viscofric.study.running.executors import Serial
 from viscofric.study.running.running import Event, choose_executor, run_plan
 from viscofric.study.running.store import CaseStore
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 TABLE = ClusterTable.model_validate(
     {

@@ -8,7 +8,8 @@ import platform
 import shutil
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -16,10 +17,6 @@ from refusals import refused
 from viscofric.errors import DataFileError, StudyError
 from viscofric.friction.cases.record import Failure
 from viscofric.study.running.folder import _holder_is_alive, study_folder
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
 
 HOLD = """
 import sys, pathlib

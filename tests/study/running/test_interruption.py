@@ -9,7 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,12 +20,7 @@ from study.running.kills import STUDY
 from viscofric import open_results, run_study
 from viscofric.errors import DataFileError
 from viscofric.study.running.folder import check_results
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from viscofric.study.running.running import Event
-
+from viscofric.study.running.running import Event
 
 SLOW = pytest.mark.slow
 

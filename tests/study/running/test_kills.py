@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 import xarray
 
 from study.running.kills import STUDY, Runs, killed_and_resumed
 from viscofric import open_results
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @pytest.mark.slow

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import subprocess
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -16,10 +18,6 @@ from viscofric.friction.cases.solving import solve
 from viscofric.study.running.executors import Processes, Serial, take
 from viscofric.study.running.running import Event, run_plan
 from viscofric.study.running.store import CaseStore, Damaged
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 
 @pytest.fixture(scope="module")
