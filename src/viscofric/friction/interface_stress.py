@@ -357,13 +357,11 @@ def _shifted(stress: ShearStress, reference: float | None) -> ShearStress:
     if len(isotherms) < 2:
         return stress
     try:
-        result = found_shifts(isotherms, reference, stress.level_error)
+        factors, _ = found_shifts(isotherms, reference, stress.level_error)
     except SuperpositionError as error:
         said = Note("no-shift-factors", f"Shift factors of the interface were not found from shear stress: {error}")
         return replace(stress, notes=(*stress.notes, said))
-    return replace(
-        stress, shift=result.factors, reference=result.factors.reference, notes=(*stress.notes, *result.factors.notes)
-    )
+    return replace(stress, shift=factors, reference=factors.reference, notes=(*stress.notes, *factors.notes))
 
 
 def _with_overlap(stress: ShearStress) -> ShearStress:

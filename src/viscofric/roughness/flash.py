@@ -28,7 +28,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -50,16 +49,6 @@ _SETTLED = 1e-5
 _PER_DECADE = 12  # wave numbers k of the temperature field
 
 
-class Settled(NamedTuple):
-    """P(q) and dissipation; the rise of temperature, its part by Coulomb friction, and that of the surface, K."""
-
-    area: Array
-    dissipated: Array
-    rise: Array
-    by_coulomb: Array
-    face: float
-
-
 @dataclass(frozen=True)
 class Flash:
     """Parameters of hot spots."""
@@ -73,8 +62,8 @@ class Flash:
 
     def settled(
         self, q: Array, log_weights: Array, at: tuple[float, float], heated: Callable[[Array], tuple[Array, Array]]
-    ) -> Settled:
-        """Return P(q), the dissipation and the rise of temperature that are consistent with one another.
+    ) -> tuple[Array, Array, Array, Array, float]:
+        """Return P(q), dissipation, and the rise, its part by Coulomb friction and that of the surface, K, that agree.
 
         `q` (n,) in rad/m; `log_weights` (n,) are those of a quadrature over ln q; `at` are the speed, m/s, and the
         temperature, K; `heated` returns P(q) and q³ C S ∫dφ cos φ Im E/(1−ν²), Pa m, at a rise of temperature.  Raises
@@ -88,7 +77,7 @@ class Flash:
             change = (by_loss + by_coulomb)[:-1] - rise
             largest = float(np.abs(change).max())
             if largest <= _SETTLED * (1.0 + float(rise.max())):
-                return Settled(area, dissipated, rise, by_coulomb[:-1], float(by_loss[-1] + by_coulomb[-1]))
+                return area, dissipated, rise, by_coulomb[:-1], float(by_loss[-1] + by_coulomb[-1])
             # From a hot start down in small steps, so as not to pass a hot state, until one may be near.
             descending = descending and largest > _NEAR * float(rise.max())
             difference = change - before

@@ -91,18 +91,13 @@ def widened(covariance: Array, factors: Array, at_reference: Array) -> Array:
     return wider
 
 
-@dataclass(frozen=True, eq=False)
-class FoundShifts:
-    """Shift factors found from friction curves."""
-
-    factors: ShiftFactors  # of the temperatures whose curves overlap, with notes on those left out
-    members: tuple[int, ...]  # their indices among all temperatures
-
-
 def found_shifts(
     isotherms: Sequence[FrictionIsotherm], reference: float | None, level_error: float = 0.0
-) -> FoundShifts:
+) -> tuple[ShiftFactors, list[int]]:
     """Find the shift factors that bring friction curves, in ascending temperature, onto one smooth curve.
+
+    They are those of the temperatures whose curves overlap, with notes on those left out; the second value are their
+    indices among all temperatures.
 
     Pairs of temperatures are scanned for steps at which their curves coincide, overlapping curves are arranged roughly
     (both in `placement`), and all are brought onto one penalised spline at once, as moduli are
@@ -145,7 +140,7 @@ def found_shifts(
     covariance = widened(covariance, factors, _at_reference(chosen, kelvin)[1])
     temperatures = np.array([isotherm.temperature for isotherm in chosen])
     notes = (*doubts.left_out(members), *_marginal(chosen, factors))
-    return FoundShifts(ShiftFactors(temperatures, values, kelvin, covariance, notes), tuple(members))
+    return ShiftFactors(temperatures, values, kelvin, covariance, notes), members
 
 
 def _check(isotherms: Sequence[FrictionIsotherm], reference: float | None) -> None:

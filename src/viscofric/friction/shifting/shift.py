@@ -125,10 +125,10 @@ def shift_friction(
     if shift is None:
         # Whatever the reference of the vertical shift is, it moves all curves together.
         points = _at_one_load(curves, rule, at_load, vertical_shift)
-        result = found_shifts(friction_isotherms(points), kelvin, shared)
-        shift, notes = result.factors, (*error_freedom(points)[1], *result.factors.notes)
+        shift, members = found_shifts(friction_isotherms(points), kelvin, shared)
+        notes = (*error_freedom(points)[1], *shift.notes)
         rows = nominal_rows(curves.temperature)
-        curves = curves.select(np.sort(np.concatenate([rows[place] for place in result.members])))
+        curves = curves.select(np.sort(np.concatenate([rows[place] for place in members])))
     elif kelvin is not None:
         shift = shift.at_reference(kelvin)
     vertical = None if vertical_shift is None else vertical_shift.at_reference(shift.reference)
