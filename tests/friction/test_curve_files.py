@@ -370,12 +370,22 @@ def test_a_value_of_all_rows_is_a_number_with_its_unit(tmp_path: Path, said: str
         vf.read_friction_curves(path, columns={"load": said})
 
 
-def test_a_value_of_all_rows_replaces_the_column_of_the_file(tmp_path: Path) -> None:
+def test_a_value_of_all_rows_does_not_replace_a_column(tmp_path: Path) -> None:
     path = tmp_path / "curves.csv"
     path.write_text(FOREIGN, encoding="utf-8")
-    curves = vf.read_friction_curves(path, columns={"load": "= 0.03 kN"})
-    assert curves.load == pytest.approx(30.0)
-    assert "unused-columns" in codes(curves.notes)
+    with refused("value-not-needed", naming="'load (N)'"):
+        vf.read_friction_curves(path, columns={"load": "= 0.03 kN"})
+
+
+def test_gaps_and_named_columns_of_curves_beside_each_other(tmp_path: Path) -> None:
+    path = tmp_path / "curves.csv"
+    path.write_text("v1;mu 25 °C;mu 40 °C\n1;0.1;-\n10;n/a;0.2\n", encoding="utf-8")
+    curves = vf.read_friction_curves(path, columns={"speed": "v1 (mm/s)", "load": "= 20 N"})
+    assert curves.speed == pytest.approx([1e-3, 1e-2])
+    assert curves.temperature == pytest.approx([298.15, 313.15])
+    path.write_text("v (mm/s);mu - 10 °C\n1;0.1\n", encoding="utf-8")  # a dash or a minus
+    with refused("missing-columns"):
+        vf.read_friction_curves(path, columns={"load": "= 20 N"})
 
 
 def test_curves_of_two_compounds_below_each_other_are_refused(tmp_path: Path) -> None:

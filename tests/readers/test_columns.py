@@ -339,6 +339,16 @@ def test_the_user_gives_a_value_of_all_rows(tmp_path):
     assert runs.temperature == pytest.approx([313.15, 313.15])
 
 
+@pytest.mark.parametrize(("said", "kelvin"), [("= −10 °C", 263.15), ("= 1,000 K", None), ("=", None)])
+def test_minus_signs_and_thousands_of_a_value_of_all_rows(tmp_path, said, kelvin):
+    path = write(tmp_path, "E'", "f (Hz);E' (MPa);E'' (MPa)", "1;5;0,5", "10;6;0,7")
+    if kelvin is None:
+        with refused("wrong-columns"):
+            read_dma(path, columns={"temperature": said})
+    else:
+        assert read_dma(path, columns={"temperature": said}).temperatures == pytest.approx([kelvin])
+
+
 def test_a_header_in_a_remark(tmp_path):
     path = write(tmp_path, "# by numpy.savetxt", "# T_C f_Hz E'_MPa E''_MPa", *[row.replace(",", " ") for row in ROWS])
     assert_is_the_table(read_dma(path))

@@ -545,6 +545,10 @@ def test_a_line_above_each_table_gives_its_temperature(tmp_path, titles, extra):
         (("T = 20 °C", "T = 30 °C"), False),
         (("Operator: X", ""), False),  # a header on each page
         (("Rubber 7", "Rubber 7"), False),
+        (("Frequency sweep - 1", "Frequency sweep - 2"), False),
+        (("Step 1: 20 °C", "Step 2: 30 °C"), False),
+        (("Temperature;20", "Temperature;30"), False),
+        (("Page 1 of 2; 2026-11-29 10:15", "Page 2 of 2; 2026-11-29 10:16"), False),
     ],
 )
 def test_tables_with_other_words_above_them_may_be_of_other_specimens(tmp_path, titles, joined):
@@ -577,7 +581,17 @@ def test_sweeps_beside_each_other_have_their_temperature_above(tmp_path, above, 
 
 @pytest.mark.parametrize(
     "heading",
-    ["{} {} °C (MPa)", "{} [MPa], {} °C", "{}({}°C) [MPa]", "{}_{}C_MPa", "{} @ {} degC (MPa)", "{} T={}°C (MPa)"],
+    [
+        *(
+            "{} {} °C (MPa)",
+            "{} [MPa], {} °C",
+            "{}({}°C) [MPa]",
+            "{}_{}C_MPa",
+            "{} @ {} degC (MPa)",
+            "{}(T={}°C) [MPa]",
+        ),
+        *("{1} °C: {0} (MPa)", "{} {}°C/MPa"),
+    ],
 )
 @pytest.mark.parametrize("order", [(0, 1, 2, 3), (0, 2, 1, 3), (2, 3, 0, 1)])
 def test_headings_give_the_temperatures_of_sweeps_beside_each_other(tmp_path, heading, order):
@@ -612,7 +626,7 @@ def test_what_differs_beside_each_other_is_not_taken_apart(tmp_path, above, head
     assert caught.value.code in {"ambiguous-columns", "deformation-contradicts"}
 
 
-@pytest.mark.parametrize("words", ["at 3 K/min", "2K-PUR", "(1 and 25 °C)"])
+@pytest.mark.parametrize("words", ["at 3 K/min", "2K-PUR", "(1 and 25 °C)", "- 50 °C"])
 def test_headings_with_other_numbers_are_not_understood(tmp_path, words):
     with refused("missing-columns"):
         read_dma(write(tmp_path, f"f (Hz);E' {words} (MPa);E'' {words} (MPa)", "1;5;0.5", "10;6;0.7"))
@@ -621,6 +635,26 @@ def test_headings_with_other_numbers_are_not_understood(tmp_path, words):
 def test_a_file_of_two_components_is_not_as_cold_as_two_kelvin(tmp_path):
     with refused("no-temperature"):
         read_dma(write(tmp_path, "f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "10;6;0.7", name="PUR_2K.csv"))
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["f (Hz);E' 20 °C (MPa);E'' 20 °C (MPa);E' 30 °C (MPa);E'' 30 °C (MPa)", "1;5;0.5;4;0.4", "10;6;0.7;5;0.6"],
+        ["T = 20 °C", "f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "T = 30 °C", "f (Hz);E' (MPa);E'' (MPa)", "1;4;0.4"],
+    ],
+)
+def test_a_given_temperature_does_not_replace_those_of_the_file(tmp_path, lines):
+    with refused("temperature-not-needed"):
+        read_dma(write(tmp_path, *lines), temperature="25 degC")
+
+
+def test_titled_columns_beside_plain_ones_are_not_read(tmp_path):
+    header = "f (Hz);E' (MPa);E'' (MPa);E' 40 °C (MPa);E'' 40 °C (MPa)"
+    sweeps = read_dma(write(tmp_path, header, "1;5;0.5;4;0.4", "10;6;0.7;5;0.6"), temperature="25 degC")
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6])
+    side = write(tmp_path, "f (Hz);E' (MPa);E'' (MPa);strain 25 °C (%)", "1;5;0.5;1", "10;6;0.7;1", name="x_40C.csv")
+    assert read_dma(side).temperatures - 273.15 == pytest.approx([40.0])
 
 
 def test_a_temperature_in_a_heading_does_not_count_beside_a_column_of_temperatures(tmp_path):

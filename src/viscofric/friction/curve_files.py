@@ -218,7 +218,7 @@ def _with_temperatures(table: Table) -> tuple[Table, list[str]]:
             FROM_TITLES,
             *joined_tables(table),
         ]
-    if any(cell.strip() for title in table.titles[1:] for cell in title):
+    if joined_tables(table):
         problem = "holds several tables below each other, which may differ in more than temperature; give each a file "
         raise DataFileError(table.path, problem + "of its own.", code="several-tables")
     return table, []

@@ -46,6 +46,9 @@ def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
     if words.user_columns:
         return _header_with(rows, words)
     second_best = None
+    if words.constants:  # less is needed, so that a word above the table may do: the row that names most counts
+        counts = [len(named(cells, words)) for _, cells in rows[:DEEPEST_HEADER]]
+        return Found(list(rows), counts.index(max(counts))) if any(counts) else None
     for place, (_, cells) in enumerate(rows[:DEEPEST_HEADER]):
         found = named(cells, words)
         if found and not words.missing(found):

@@ -42,24 +42,31 @@ _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
 #: "#3": the third column of a table, whatever its heading.
 _PLACE = re.compile(r"#\s*(?P<number>\d{1,4})")
 #: "= 20 N": what the user gives in place of a heading where all rows have the same value.
-CONSTANT = re.compile(r"=\s*(?P<number>[+-]?(\d+[.,]?\d*|[.,]\d+)([eE][+-]?\d+)?)\s*(?P<unit>.*)")
+CONSTANT = re.compile(r"=\s*(?P<number>[+−-]?(\d+[.,]?\d*|[.,]\d+)([eE][+−-]?\d+)?)\s*(?P<unit>.*)")
+#: "1,000": a thousand or one.
+_THOUSANDS = re.compile(r"[+−-]?\d{1,3},\d{3}")
 #: A longer heading is not parsed.
 _LONGEST_HEADING = 200
 #: A column of means, such as "E' mean", is one of the quantity where there is no other.
 _MEAN = re.compile(r"\b(mean|average|avg)\b\.?", re.IGNORECASE)
-# "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.
+# "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.  A minus sign stands before the
+# number, and follows no letter or digit: in "foam-25C" and "E' - 25 °C" it may be a dash.
+_OF_A_RATE = r"(?![^\W_]|\s*/\s*(?:min|s|h)\b)"
 TEMPERATURE_IN_NAME = re.compile(
-    r"(?:(?P<mark>^|[\s_=(,;@[])(?P<sign>[+−-]?)|(?P<dash>-))(?P<number>\d+(?:[.,]\d+)?)\s?_?"
-    r"(?P<unit>°C|degC|deg_C|C|K)(?![^\W_]|/)"  # but not 3 K/min
+    r"(?:(?P<mark>^|[\s_=(,;@[])(?P<sign>[+−–-]?)|(?P<dash>[-−–]\s*))(?P<number>\d+(?:[.,]\d+)?)\s?_?"
+    rf"(?P<unit>°C|degC|deg_C|C|K|°F|degF){_OF_A_RATE}"
 )
 #: Likewise "E' 10 Hz", "E'_0.1Hz".
 FREQUENCY_IN_NAME = re.compile(
-    r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<number>\d+(?:[.,]\d+)?)\s?_?(?P<unit>[mk]?Hz|rad/s)(?![^\W_]|/)"
+    r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<dash>)(?P<number>\d+(?:[.,]\d+)?)\s?_?"
+    rf"(?P<unit>[mk]?Hz|rad/s){_OF_A_RATE}"
 )
 #: Heading of the column of frequencies that stood in the headings of others.
 FREQUENCIES_OF_HEADINGS = "frequencies of headings"
 #: What a temperature or frequency that is cut from a heading leaves behind.
-_LEFT_BEHIND = re.compile(r"[(\[]\s*[)\]]|(\b(at|bei|à|[Tf]\s*=)|[@,;=_])\s*(?=$|[(\[/])|_(?=_)", re.IGNORECASE)
+_LEFT_BEHIND = re.compile(
+    r"[(\[]\s*[)\]]|(\b(at|bei|à|[Tf]\s*=)|[@,;=_])\s*(?=$|[()\[\]/])|_(?=_)|^\s*[:;,=]", re.IGNORECASE
+)
 #: Names are the same with and without these: "a_T", "a(T)", "aT".
 _MARKS = re.compile(r"[\s_().·\[\]-]")
 
@@ -158,8 +165,10 @@ class Vocabulary:
                 problem = f"columns: {what} = {brief(said)}: must be a heading as text."
                 raise InputError(problem, code="wrong-columns", field=self.key)
             named[what] = " ".join(said.split())
-            if said.lstrip().startswith("=") and not CONSTANT.fullmatch(named[what]):
-                problem = f"columns: {what} = {brief(said)}: after '=' must be a number with its unit, as in '= 20 N'."
+            value = CONSTANT.fullmatch(named[what])
+            if said.lstrip().startswith("=") and (not value or _THOUSANDS.fullmatch(value["number"])):
+                right = "must be a number with its unit, as in '= 20 N', without a mark for thousands"
+                problem = f"columns: {what} = {brief(said)}: after '=' {right}."
                 raise InputError(problem, code="wrong-columns", field=self.key)
         return named
 
@@ -195,21 +204,36 @@ class Vocabulary:
             what = "" if column.quantity else self.quantity(_MEAN.sub("", column.name).strip())
             if what in self.means and what not in held:
                 found[n] = replace(column, quantity=what, is_mean=True)
-        if self.several == "titled" and not self.user_columns:
-            lacks = [
-                pattern
-                for pattern, has in ((TEMPERATURE_IN_NAME, "temperature"), (FREQUENCY_IN_NAME, "frequency"))
-                if has in self.quantities and not any(has in what for what in held)
-            ]
-            found = [self._titled(column, lacks) for column in found]
+        if self.several == "titled":
+            found = self._with_titles(found, held)
         for what, said in self.user_columns.items():
             place, unit = place_of(said, cells)
             if place is not None:
                 column = found[place]
                 if _SAID_LOGARITHM.match(column.heading) and not _OF_LOGARITHMS.fullmatch(what):
                     column = _logarithm(column.heading) or column
-                found[place] = replace(column, quantity=what, unit=unit or column.unit, given=True)
+                found[place] = replace(column, quantity=what, unit=unit or column.unit, given=True, title="")
         return tuple(found)
+
+    def _with_titles(self, columns: list[Column], held: set[str]) -> list[Column]:
+        """Return columns with the temperatures or frequencies of their headings, where no column holds these.
+
+        All are left as they are unless each temperature has a quantity that a header needs, which no other column has.
+        """
+        lacks = [
+            pattern
+            for pattern, has in ((TEMPERATURE_IN_NAME, "temperature"), (FREQUENCY_IN_NAME, "frequency"))
+            if has in self.quantities and not any(has in what for what in held)
+        ]
+        found = [self._titled(column, lacks) for column in columns]
+        single = {column.quantity for column in found if not column.title} | {*self.user_columns}
+        of_titles: dict[str, set[str]] = {}
+        for column in found:
+            if column.title:
+                of_titles.setdefault(column.title, set()).add(column.quantity)
+        needed = {what for some in self.needed for what in some}
+        own = all(own & needed and not own & single for own in of_titles.values())
+        return found if own else columns
 
     def _titled(self, column: Column, patterns: Sequence[re.Pattern[str]]) -> Column:
         """Return the column with the temperature or frequency that its heading states as its title, or as it is."""
@@ -217,7 +241,7 @@ class Vocabulary:
         if len(found) != 1 or (column.quantity and column.unit != found[0][0].strip("( [")):
             return column
         rest = column.heading[: found[0].start("sign")] + column.heading[found[0].end() :]
-        of = self.column(_LEFT_BEHIND.sub("", rest))
+        of = self.column(_LEFT_BEHIND.sub("", _LEFT_BEHIND.sub("", rest)))  # what is left of brackets is removed last
         if not of.quantity or any(what in of.quantity for what in ("temperature", "isotherm", "frequency")):
             return column
         return replace(of, heading=column.heading, title=found[0][0].strip("_=(,;@[ "))

@@ -67,13 +67,18 @@ class Table:
     def with_column(self, column: Column, cells: Sequence[str]) -> Table:
         """Return the table with one more column, of numbers as text with a decimal point or comma."""
         marks = (".", ",") if self.decimal_comma else (",", ".")
-        rows = tuple((*row, cell.replace(*marks)) for row, cell in zip(self.rows, cells, strict=True))
+        plain = (cell.replace("−", "-").replace(*marks) for cell in cells)
+        rows = tuple((*row, cell) for row, cell in zip(self.rows, plain, strict=True))
         return replace(self, columns=(*self.columns, column), rows=rows)
 
     def with_constants(self) -> Table:
-        """Return the table with a column of each value that the user gives for all rows."""
-        table = self
+        """Return the table with a column of each value that the user gives for all rows; none may be there already."""
+        table, words = self, self.vocabulary.with_columns({})
         for what, said in self.vocabulary.constants.items():
+            own = [one.heading for one in self.columns if not one.given and words.column(one.heading).quantity == what]
+            if own:
+                problem = f"column {own[0]!r} holds the {what}; leave out {said!r}, or delete the column."
+                raise self.refused("value-not-needed", problem)
             if match := CONSTANT.fullmatch(said):
                 column = Column(said, what, match["unit"], what, given=True)
                 table = table.with_column(column, [match["number"]] * len(self.rows))

@@ -196,8 +196,12 @@ def _below_each_other(table: Table) -> Table:
     kinds = [[(c.quantity, c.unit, c.base, deformation_of(c.name)) for c in one] for one in columns]
     if None in values or len(set(values)) < len(titles) or any(one != kinds[0] for one in kinds):
         return table
-    kept = [(number, row, one) for number, one in enumerate(sets, start=1) for row in range(len(table.rows))]
-    kept = [(number, row, one) for number, row, one in kept if any(table.rows[row][place].strip() for place in one)]
+    kept = [
+        (number, row, one)
+        for number, one in enumerate(sets, start=1)
+        for row, cells in enumerate(table.rows)
+        if any(cells[place].strip().lower() not in MISSING for place in one)
+    ]
     below = replace(
         table,
         columns=tuple(columns[0]),

@@ -10,10 +10,11 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.data import Deformation
+from viscofric.errors import not_needed
 from viscofric.notes import Note, setting
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.headings import FREQUENCY_IN_NAME, TEMPERATURE_IN_NAME, Vocabulary, heading, with_primes
-from viscofric.readers.source import to_rad_per_second
+from viscofric.readers.source import Source, to_rad_per_second
 from viscofric.readers.table import Table
 from viscofric.units import CELSIUS_ZERO
 
@@ -178,6 +179,7 @@ DMA = Vocabulary(
 
 #: No rubber is measured as cold as this, K: "2K" is two components.
 _COLDEST = 50.0
+_SAME_TEMPERATURE = 0.01  # K
 _AS_PRINTED = {"C": "°C", "DEGC": "°C", "K": "K"}
 
 
@@ -189,13 +191,14 @@ def quantity(name: str) -> str | None:
 def temperature_in_name(name: str) -> float | None:
     """Return the temperature in the name of a file or sheet, such as ``"foam_dma_-25C"``, K, or None.
 
-    A minus sign must follow a space or an underscore: in ``"foam-25C"`` it may be a dash.
+    A minus sign must follow a space or an underscore: in ``"foam-25C"`` and ``"foam - 25C"`` it may be a dash.
     """
     found = list(TEMPERATURE_IN_NAME.finditer(name))
     if len(found) != 1 or found[0]["dash"]:
         return None
     one = found[0]
-    number = float(one["number"].replace(",", ".")) * (-1.0 if one["sign"] in ("-", "−") else 1.0)
+    number = float(one["number"].replace(",", ".")) * (-1.0 if one["sign"] in ("-", "−", "–") else 1.0)
+    number = (number - 32.0) / 1.8 if one["unit"].endswith("F") else number
     kelvin = number if one["unit"] == "K" else number + CELSIUS_ZERO
     return kelvin if kelvin > _COLDEST else None
 
@@ -207,10 +210,19 @@ FROM_TITLES = Note(
 )
 
 
-def temperatures_of_titles(table: Table) -> Array | None:
-    """Return the temperature of each row, K, by the lines above several tables; None if one of them gives none."""
+def temperatures_of_titles(table: Table, source: Source | None = None) -> Array | None:
+    """Return the temperature of each row, K, by the headings or lines above tables; None if one of them gives none.
+
+    Raises `DataFileError` where the user gives another one with the source.
+    """
     found = [temperature_of_title(title) for title in table.titles]
-    return None if table.block is None or None in found else np.array(found)[table.block - 1]
+    if table.block is None or None in found:
+        return None
+    given = None if source is None else source.temperature
+    if given is not None and any(abs(kelvin - given) > _SAME_TEMPERATURE for kelvin in filter(None, found)):
+        problem = "the headings, or the lines above its tables, state the temperatures"
+        raise not_needed(table.path, "temperature", "temperature-not-needed", problem, " for this file")
+    return np.array(found)[table.block - 1]
 
 
 def joined_tables(table: Table) -> list[Note]:
@@ -224,9 +236,21 @@ def joined_tables(table: Table) -> list[Note]:
     return [Note("tables-joined", said, values={"titles": [*titles]})]
 
 
+#: What tells nothing of the specimen: numbers of steps and pages, dates and times, and what is left around them.
+_COUNTED = re.compile(
+    r"\b(sweep|step|interval|segment|page|run|action|part|set|schritt|abschnitt|intervall|seite|étape|intervalle|paso)"
+    r"[\s:.#-]*\d+(\s*(of|von|de|/)\s*\d+)?|\d{1,4}[-./]\d{1,2}[-./]\d{1,4}|\d{1,2}:\d{2}(:\d{2})?",
+    re.IGNORECASE,
+)
+
+
 def _without_temperature(cells: Sequence[str]) -> str:
+    """Return the words above a table that may name its specimen."""
     filled = _as_one_cell([cell.strip() for cell in cells if cell.strip()])
-    return " ".join(TEMPERATURE_IN_NAME.sub(" ", " ".join(filled)).split()).strip(":;,=@ ")
+    if filled and DMA.quantity(heading(filled[0].rstrip(":= ")).name) in ("temperature", "set temperature"):
+        return ""
+    left = _COUNTED.sub(" ", TEMPERATURE_IN_NAME.sub(" ", " ".join(filled)))
+    return " ".join(left.split()).strip(" :;,=@()[]-–") if re.search(r"[^\W\d_]", left) else ""
 
 
 def temperature_of_title(cells: Sequence[str]) -> float | None:

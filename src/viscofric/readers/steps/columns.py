@@ -182,9 +182,9 @@ def temperature_of(table: Table, source: Source, name: str, count: int, notes: l
             raise not_needed(table.path, "temperature", "temperature-not-needed", problem)
         factor, offset = table.conversion(table.columns[place], "K")
         return factor * table.numbers_or_missing(place) + offset
+    titled = temperatures_of_titles(table, source)
     if source.temperature is not None:
         return np.full(count, source.temperature)
-    titled = temperatures_of_titles(table)
     if titled is not None:
         notes += [FROM_TITLES, *joined_tables(table)]
         return titled

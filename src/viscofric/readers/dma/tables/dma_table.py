@@ -302,10 +302,10 @@ def _temperature(
         if cold.size:
             raise table.wrong_cell(int(cold[0]), places["temperature"], "above absolute zero")
         return kelvin
+    titled = temperatures_of_titles(table, source)
     if source.temperature is not None:
         notes.append(Note("temperature-given", "No column holds a temperature; it was given by the user."))
         return np.full(len(angular), source.temperature)
-    titled = temperatures_of_titles(table)
     if titled is not None:
         notes.append(names.FROM_TITLES)
         return titled

@@ -20,7 +20,7 @@ function columnsOf(form, { headings, known, offered }) {
   for (const [at, [quantity]] of offered.entries()) {
     const [column, unit] = ["column", "unit"].map((part) => form.elements[`${part}-${at}`].value.trim());
     if (column === SAME) {
-      if (unit) columns[words(quantity)] = `= ${unit}`;
+      columns[words(quantity)] = `= ${unit.replace(/^=\s*/, "")}`;
       continue;
     }
     if (column === "" || (Number(column) === headings.indexOf(known[quantity]) && !unit)) continue;
