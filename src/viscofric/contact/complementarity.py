@@ -268,11 +268,10 @@ def solve_on_contact(
     """
     backend, xp = operator.backend, operator.backend.xp
 
-    def projected(field: AnyArray) -> AnyArray:
-        found = contact.gathered(field)
+    def levelled(values: AnyArray) -> AnyArray:
         if fixed_load:
-            found -= backend.total(found) / len(contact)
-        return found
+            values -= backend.total(values) / len(contact)
+        return values
 
     unit = float(backend.largest(xp.abs(gap)))
     if unit == 0.0:
@@ -288,10 +287,11 @@ def solve_on_contact(
     kept: list[AnyArray] = []
     images: list[AnyArray] = []
     extended = contact.scattered if extension is None else extension.on(contact)
+    collected = contact.gathered if extension is None else extension.collecting(contact)
     steps = 0
     while steps == 0 or (steps < _LINEAR_ITERATIONS and left > target and largest > floor):
-        direction = projected(operator.precondition(extended(residual)))
-        image = projected(operator(contact.scattered(direction)))
+        direction = levelled(collected(operator.precondition(extended(residual))))
+        image = levelled(contact.gathered(operator(contact.scattered(direction))))
         length = math.sqrt(float(image @ image))
         for _ in range(2):
             whole = length

@@ -31,7 +31,7 @@ _MANY_DIRECTIONS = 40
 _FEW_PRODUCTS = 300  # enough for most contacts, without the following methods
 # Residual, in rms heights, from which on the active set continues for as long as it halves it: its set is nearly right.
 _NEARLY = 1e-5
-_FIRST_STEPS = (3, 5)  # of the splitting on each grid, likewise
+_FIRST_STEPS = (3, 4)  # of the splitting on each grid, likewise
 _DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
 _MORE_STEPS = 40  # of the splitting where the contact set does not converge; then twice as many, and so on
 # In turn, with more directions: oblique motions in particular may not converge with the whole of it.
@@ -127,7 +127,7 @@ class OneGrid:
         """Return the extension of residuals, with a part of the lag behind moving edges."""
         stage = self.stage
         late = share * lag(stage.transfer, self.shape[1], stage.toward)
-        return Extension(self.backend, self.shape, self.single.dtype, stage.toward, late)
+        return Extension(self.backend, self.shape, self.single.dtype, stage.toward, late, inverse=self.single.inverse)
 
     @property
     def quick_rho(self) -> float:
