@@ -17,6 +17,7 @@ from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid, 
 from viscofric.contact.reference import flat_punch, hertz_ellipse, sneddon_cone
 from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
+from viscofric.notes import codes, note_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
@@ -238,6 +239,25 @@ def test_height_map_of_a_ball_is_a_ball() -> None:
     # Off centre, from another level, every other point across.
     part = HeightMap(z[8:, 2::2] - 3.0, spacing=(MAP_STEP, "0.1 mm"))
     same(solve_steady(RUBBER, part, speed=SPEED, load=LOAD), ball, 1e-6)  # and the rounding of 3 m
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-9, 3e-7])
+def test_noise_that_bends_a_measured_surface_is_noted(noise: float) -> None:
+    """Between points 50 µm apart a ball rises by 0.1 µm; noise of 0.3 µm bends it several times as much."""
+    x, y = map_points()
+    z = (x**2 + y**2) / (2.0 * BALL_RADIUS) + noise * np.random.default_rng(1).normal(size=(len(x), len(y)))
+    for indenter, load in ((HeightMap(z, MAP_STEP), LOAD), (Profile(z[:, len(y) // 2], MAP_STEP), 100.0)):
+        found = solve_steady(RUBBER, indenter, speed=SPEED, load=load, accuracy=0.05)
+        ratios = [note.values["ratio"] for note in map(note_of, found.warnings) if note.code == "heights-unresolved"]
+        assert len(ratios) == (noise > 1e-8)
+        assert all(1.6 < ratio < 4.5 for ratio in ratios)  # 4 for noise alone
+
+
+@pytest.mark.parametrize("surface", [CONE, Ball(BALL_RADIUS)], ids=lambda one: one.noun)
+def test_smooth_surfaces_and_kinks_are_resolved(surface: Indenter) -> None:
+    x, y = map_points()
+    found = solve_steady(RUBBER, HeightMap(surface.height(x, y), MAP_STEP), speed=SPEED, load=LOAD, accuracy=0.05)
+    assert "heights-unresolved" not in codes(found.warnings)
 
 
 @pytest.mark.parametrize("indenter", [Ball(BALL_RADIUS), ELLIPSOID, CONE], ids=lambda one: one.noun)

@@ -296,7 +296,7 @@ class _Solved(NamedTuple):
         found = assemble(self.stages, self.scale, self.velocity, self.settings.toward, self.temperature)
         # What was given comes back as it was given, free of the rounding of sums and units.
         found = replace(found, **self.given, coulomb=float(self.settings.coulomb))
-        notes = [self.indenter.strain_warning(self.contact, found.indentation)]
+        notes: list[Note | None] = [*self.indenter.warnings(self.contact, found.indentation)]
         if self.settings.layer is not None:
             notes.append(self.settings.layer.strain_warning(found.indentation))
         extrapolated = _beyond_measured(found, self.material.spectrum, self.spectrum)

@@ -414,7 +414,7 @@ def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]], co
     load = max(one.seen.load for one in moments)
     indenter.check(widest, f"under {load:g} {indenter.geometry.load_unit}", control)
     deepest = max(one.seen.depth for one in moments)
-    return tuple(filter(None, [indenter.strain_warning(widest, deepest)]))
+    return tuple(indenter.warnings(widest, deepest))
 
 
 def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:

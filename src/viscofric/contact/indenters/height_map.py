@@ -11,7 +11,7 @@ import numpy as np
 from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.indenters.indenter import Indenter, too_steep
 from viscofric.errors import InputError
-from viscofric.notes import Remedy
+from viscofric.notes import Note, Remedy
 from viscofric.units import Quantity, in_si, positive
 
 if TYPE_CHECKING:
@@ -20,11 +20,15 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, Mask
     from viscofric.contact.free.grids import Extent
-    from viscofric.notes import Note
     from viscofric.showing import Rows
 
 
 _FEWEST = 4  # points that a cubic spline needs
+# Rms curvature between neighbouring points over that between every second one: 1 of smooth surfaces, 1.2 with eight
+# points in the shortest wave, 1.4 at a kink, 4 of noise.  On a ball of 10 mm measured every 0.1 mm, noise of 0.5 µm
+# (1.5) makes the friction 2 % too large at E∞/E0 = 10, noise of 1 µm (2.2) 5 %, and up to 50 % at larger ratios.
+_UNRESOLVED = 1.6
+_BENT = 5  # points along a line in contact from which on curvatures are compared
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +114,12 @@ class HeightMap(Indenter):
         within = np.ix_((x >= -contact.rear) & (x <= contact.front), np.abs(y) <= contact.side)
         steepness = np.hypot(*np.gradient(np.asarray(self.z), *self._steps))[within]
         return too_steep(float(steepness.max(initial=0.0)))
+
+    def resolution_warning(self, contact: Extent) -> Note | None:
+        """Return a note where noise, or roughness that the points do not resolve, bends the surface."""
+        x, y = self._points
+        z = np.asarray(self.z)[np.ix_((x >= -contact.rear) & (x <= contact.front), np.abs(y) <= contact.side)]
+        return _unresolved(max(_sharpening(z), _sharpening(z.T)), self.noun)
 
     @property
     def _steps(self) -> tuple[float, float]:
@@ -220,6 +230,11 @@ class Profile(Indenter):
         within = (self._points >= -contact.rear) & (self._points <= contact.front)
         return too_steep(float(np.abs(self._spline(self._points[within], 1)).max(initial=0.0)))
 
+    def resolution_warning(self, contact: Extent) -> Note | None:
+        """Return a note where noise, or roughness that the points do not resolve, bends the surface."""
+        within = (self._points >= -contact.rear) & (self._points <= contact.front)
+        return _unresolved(_sharpening(np.asarray(self.z)[within, None]), self.noun)
+
     @cached_property
     def _points(self) -> Array:
         z = np.asarray(self.z)
@@ -234,6 +249,26 @@ class Profile(Indenter):
 
     def _inside(self, x: Array) -> Mask:
         return np.asarray((x >= self._points[0]) & (x <= self._points[-1]))
+
+
+def _sharpening(z: Array) -> float:
+    """Return the rms curvature along the first axis between neighbouring points over that between every second one."""
+    if len(z) < _BENT:
+        return 1.0
+    near, far = (float(np.sqrt(np.mean(np.square(np.diff(z[::step], 2, axis=0))))) / step**2 for step in (1, 2))
+    return near / far if far > 0.0 else 1.0
+
+
+def _unresolved(ratio: float, noun: str) -> Note | None:
+    if ratio <= _UNRESOLVED:
+        return None
+    return Note(
+        "heights-unresolved",
+        f"The {noun} is {ratio:.1f} times as strongly curved between neighbouring points as between every second one: "
+        "noise, or roughness that its points do not resolve, which friction and pressure depend on and their errors do "
+        "not include. Smooth the heights, or measure them at a smaller spacing.",
+        values={"ratio": ratio, "limit": _UNRESOLVED},
+    )
 
 
 def _heights(z: ArrayLike, dimensions: int) -> Array:

@@ -61,6 +61,14 @@ class Indenter(Shown, ABC):
         `contact` is along x and y of the indenter, m; `indentation` in m.
         """
 
+    def resolution_warning(self, contact: Extent) -> Note | None:
+        """Return a note where the points that the surface is given by do not resolve it."""
+        return None
+
+    def warnings(self, contact: Extent, indentation: float) -> list[Note]:
+        """Return all notes on a contact, as for `strain_warning`."""
+        return [*filter(None, (self.strain_warning(contact, indentation), self.resolution_warning(contact)))]
+
     @property
     def reach(self) -> float:
         """Half the largest width that a contact can have, m."""

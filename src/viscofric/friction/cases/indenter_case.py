@@ -242,7 +242,7 @@ def _extent(numbers: dict[str, float]) -> Extent:
 def _doubts(case: IndenterCase, contact: Extent, indentation: float) -> tuple[Note, ...]:
     """Return the warnings that `solve_steady` would give; raise `InputError` if it is wider than the indenter."""
     case.indenter.check(contact, f"under {case.load:g} {case.indenter.geometry.load_unit}")
-    doubts = [case.indenter.strain_warning(contact, indentation)]
+    doubts: list[Note | None] = [*case.indenter.warnings(contact, indentation)]
     if case.layer is not None:
         doubts.append(case.layer.strain_warning(indentation))
     return tuple(note_of(doubt) for doubt in doubts if doubt)
