@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -33,6 +34,12 @@ _ROUNDING = 1e-9
 _NEIGHBOURS = 5
 # Abscissae closer than this part of the bandwidth count as one.
 _COINCIDENT = 1e-6
+# Least part of a point's own variance in its distance from the curve, for a distance that is more than rounding.
+_LEAST_FREEDOM = 1e-6
+# Squared distances from the curve count up to this many times their median; of normal scatter that leaves the part
+# E[min(z², 9 m)] = 0.924, m = 0.455 the median of z².  Few points, whose distances depend on each other, are cut less:
+# their errors are up to 4 % too large.
+_CLIPPED, _UNCLIPPED = 9.0, 0.924
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,38 +62,67 @@ class SmoothedPoints:
         inside = [(decades >= low - _ROUNDING) & (decades <= high + _ROUNDING) for low, high in self.stretches]
         return np.asarray(np.any(inside, axis=0))
 
-    def read(self, decades: Array) -> tuple[Array, Array]:
-        """Return values and standard errors (m,) at places (m,) that lie in a stretch."""
-        value, error = np.empty(decades.shape), np.empty(decades.shape)
-        for low, high in self.stretches:
-            inside = (decades >= low - _ROUNDING) & (decades <= high + _ROUNDING)
-            rows, matrix = self._smoother(low, high, np.clip(decades[inside], low, high))
-            value[inside] = matrix @ self.friction[rows]
-            variance = np.where(matrix == 0.0, 0.0, self._variance[rows])
-            shared = (matrix * self.friction[rows]) @ self.sharing[:, rows].T
-            error[inside] = np.sqrt(np.sum(matrix**2 * variance, axis=1) + np.sum(shared**2, axis=1))
-        return value, error
+    def read(self, decades: Array) -> Array:
+        """Return values (m,) at places (m,) that lie in a stretch."""
+        value = np.empty(decades.shape)
+        for place, window, weights in self._smoothers(decades):
+            value[place] = weights @ self.friction[window]
+        return value
 
-    def _smoother(self, low: float, high: float, places: Array) -> tuple[Mask, Array]:
-        """Return which points lie in a stretch, and the weights of their friction at places in it."""
-        rows = (self.decades >= low) & (self.decades <= high)
-        return rows, smoothing_weights(self.decades[rows], _weights(self.error)[rows], places, BANDWIDTH)
+    def standard_error(self, decades: Array) -> Array:
+        """Return standard errors (m,) at places (m,) that lie in a stretch."""
+        square = np.empty(decades.shape)
+        for place, window, weights in self._smoothers(decades):
+            variance = np.where(weights == 0.0, 0.0, self._variance[window])
+            square[place] = weights**2 @ variance + self._shared(window, weights)
+        return np.sqrt(square)
+
+    def _shared(self, window: slice, weights: Array) -> float:
+        """Return the variance that errors which points share give to a weighted sum of their friction."""
+        return float(np.sum((self.sharing[:, window] @ (weights * self.friction[window])) ** 2))
+
+    def _smoothers(self, decades: Array) -> Iterator[tuple[int, slice, Array]]:
+        """Yield of each place that lies in a stretch its number, the points around it and the weights of these."""
+        statistical = _weights(self.error)
+        for low, high in self.stretches:
+            inside = np.flatnonzero((decades >= low - _ROUNDING) & (decades <= high + _ROUNDING))
+            if not inside.size:
+                continue
+            first, last = np.searchsorted(self.decades, low), np.searchsorted(self.decades, high, "right")
+            rows, at = slice(int(first), int(last)), np.clip(decades[inside], low, high)
+            found = smoothing_weights(self.decades[rows], statistical[rows], at, BANDWIDTH)
+            for place, (window, weights) in zip(inside.tolist(), found, strict=True):
+                yield place, slice(rows.start + window.start, rows.start + window.stop), weights
 
     @cached_property
     def _variance(self) -> Array:
-        """Variances of the points (n,), larger by one factor where they scatter about the curve by more than these."""
+        """Variances of the points (n,), larger by one factor where they scatter about the curve by more than these.
+
+        The scatter that errors which points share explain is not counted.
+        """
         finite = np.isfinite(self.error)
         known = bool(np.any(self.error[finite] > 0.0))
-        variance = np.square(self.error if known else np.where(finite, self.friction, np.inf))
-        squares = expected = 0.0
-        for low, high in self.stretches:
-            rows, matrix = self._smoother(low, high, self.decades[(self.decades >= low) & (self.decades <= high)])
-            used, weight = finite[rows], _weights(self.error)[rows]
-            away = np.eye(len(weight)) - matrix
-            squares += float(np.sum((weight * (away @ self.friction[rows]) ** 2)[used]))
-            expected += float(np.sum((weight[:, None] * away**2 * np.where(used, variance[rows], 0.0))[used]))
-        factor = max(squares / expected if expected > 0.0 else 0.0, 1.0 if known else 0.0)
-        return np.where(finite, np.where(finite, variance, 0.0) * factor, np.inf)
+        # Without stated errors, the scatter is taken to be a part of friction.
+        stated = self.error if known else np.where(finite, np.abs(self.friction), np.inf)
+        variance = np.where(finite, np.square(stated), 0.0)
+        squares, own, shared, freedom = np.zeros((4, len(self.decades)))
+        for row, window, weights in self._smoothers(self.decades):
+            away = -weights
+            away[row - window.start] += 1.0
+            squares[row] = (away @ self.friction[window]) ** 2
+            own[row] = away**2 @ variance[window]
+            shared[row] = self._shared(window, away)
+            freedom[row] = away @ away
+        # Where the curve goes through the points, what is left is rounding.
+        counted = finite & (freedom > _LEAST_FREEDOM) & (own > 0.0)
+        factor = 1.0 if known else 0.0
+        if np.any(counted):
+            squares, own, shared = squares[counted], own[counted], shared[counted]
+            weight, expected = _weights(stated)[counted], own + shared
+            # So that outliers, and their neighbours, do not stand for all.
+            squares = np.minimum(squares, _CLIPPED * np.median(squares / expected) * expected) / _UNCLIPPED
+            factor = max(factor, float(weight @ (squares - shared) / (weight @ own)))
+        return np.where(finite, variance * factor, np.inf)
 
 
 def _weights(error: Array) -> Array:
@@ -100,27 +136,25 @@ def _weights(error: Array) -> Array:
     return np.asarray(squared.min() / squared)
 
 
-def smoothing_weights(points: Array, weights: Array, at: Array, bandwidth: float) -> Array:
-    """Return the matrix (m, n), its rows of sum one, from ordinates at `points` (n,) to smoothed values at `at` (m,).
+def smoothing_weights(points: Array, weights: Array, at: Array, bandwidth: float) -> Iterator[tuple[slice, Array]]:
+    """Yield of each place in `at` (m,) which of `points` (n,), ascending, it depends on, and their weights of sum one.
 
     At each place, within the range of the points, a parabola is fitted by weighted least squares; its weights are those
     given (above zero) times the tricube kernel (1 − |d/h|³)³ (W. S. Cleveland, J. Am. Stat. Assoc. 74 (1979) 829), h
     the bandwidth or, where points are sparse, just beyond the fifth nearest one.  With fewer than four different points
     the parabola becomes a line or a constant.
     """
-    ascending = np.sort(points)
-    different = ascending[np.concatenate([[True], np.diff(ascending) > _COINCIDENT * bandwidth])]
+    different = points[np.concatenate([[True], np.diff(points) > _COINCIDENT * bandwidth])]
     degree = min(2, max(0, different.size - 2)) if different.size != 2 else 1
     reach = min(_NEIGHBOURS, different.size)
-    rows = np.empty((at.size, points.size))
-    for row, place in enumerate(at):
-        away = np.sort(np.abs(different - place))
+    for place, beside in zip(at, np.searchsorted(different, at), strict=True):
+        away = np.sort(np.abs(different[max(beside - reach, 0) : beside + reach] - place))
         h = max(bandwidth, 1.1 * away[reach - 1])
-        kernel = weights * np.maximum(0.0, 1.0 - np.abs((points - place) / h) ** 3) ** 3
-        powers = np.vander((points - place) / h, degree + 1, increasing=True)
-        root = np.sqrt(kernel)
-        rows[row] = np.linalg.pinv(powers * root[:, None])[0] * root
-    return rows
+        window = slice(int(np.searchsorted(points, place - h)), int(np.searchsorted(points, place + h, "right")))
+        relative = (points[window] - place) / h
+        root = np.sqrt(weights[window] * np.maximum(0.0, 1.0 - np.abs(relative) ** 3) ** 3)
+        powers = np.vander(relative, degree + 1, increasing=True)
+        yield window, np.linalg.pinv(powers * root[:, None])[0] * root
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,7 +288,7 @@ class FrictionMasterCurve(Plotted):
         """Lowest and highest reduced speed (m/s) of each stretch without a gap above half a decade."""
         return tuple((float(10.0**low), float(10.0**high)) for low, high in self._smoothed.stretches)
 
-    @property
+    @cached_property
     def _smoothed(self) -> SmoothedPoints:
         kelvin = nominal_temperatures(self.temperature)
         sharing = self.level_error * (np.unique(kelvin)[:, None] == kelvin)
@@ -309,17 +343,18 @@ class FrictionMasterCurve(Plotted):
             If the reduced speed lies outside the range that was measured, or in a gap; if α is not known at the
             temperature; or at another load without a load rule.
         """
-        return self._read(speed, temperature, load)[0]
+        return self._read(self._smoothed.read, speed, temperature, load)
 
     def standard_error(
         self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None
     ) -> Any:
         """Return the standard error of μ(v, T), without those of the shift factors; arguments as of a call.
 
-        It is that of the points' errors, or of their scatter about the curve where that is larger, with the
-        `level_error` of each temperature.
+        It is that of the points' errors, enlarged by one factor where the points scatter about the curve by more than
+        these and the `level_error` of each temperature explain, with this level error; that of the scatter alone where
+        all stated errors are zero.  Near points of unknown (infinite) error it is infinite.
         """
-        return self._read(speed, temperature, load)[1]
+        return self._read(self._smoothed.standard_error, speed, temperature, load)
 
     def covers(self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None) -> Any:
         """Return whether μ(v, T) is known: the reduced speed lies where there are points, and α is known at T.
@@ -378,15 +413,20 @@ class FrictionMasterCurve(Plotted):
         shape = velocity.shape if np.ndim(vertical) else ()
         return decades - np.log10(speed_factor.reshape(shape)), np.ones(decades.shape) * friction_factor.reshape(shape)
 
-    def _read(self, speed: Quantities, temperature: Quantities | None, load: Quantity | None) -> tuple[Any, Any]:
+    def _read(
+        self,
+        of: Callable[[Array], Array],
+        speed: Quantities,
+        temperature: Quantities | None,
+        load: Quantity | None,
+    ) -> Any:
         velocity, kelvin, single = self._arguments(speed, temperature)
         decades, factor = self._reduced(velocity, kelvin, self._relative_load(load))
         covered = self._smoothed.covers(decades)
         if not np.all(covered):
             self._refuse(10.0 ** float(decades[~covered][0]))
-        value, error = self._smoothed.read(decades.ravel())
-        value, error = value.reshape(velocity.shape) * factor, error.reshape(velocity.shape) * factor
-        return (float(value), float(error)) if single else (value, error)
+        found = of(decades.ravel()).reshape(velocity.shape) * factor
+        return float(found) if single else found
 
     def _refuse(self, reduced: float) -> None:
         there = " and ".join(f"{low:.3g} to {high:.3g} m/s" for low, high in self.stretches)
