@@ -247,8 +247,14 @@ def test_spectra_that_are_none_are_refused():
     for measure in (vf.roughness.power_spectrum, vf.roughness.line_spectrum):
         with refused("topography"):
             measure(np.zeros((8, 8)))
-    flat = vf.Topography(np.zeros((8, 8)), 1.0)
-    with refused("flat"):
-        vf.roughness.power_spectrum(flat)
+    plane = np.outer(np.arange(64), np.ones(64)) + 0.1 * np.arange(64)
+    for height in (np.zeros((8, 8)), np.full((8, 8), 0.1), plane, plane + 1e6, 1e-7 * plane):
+        for measure in (vf.roughness.power_spectrum, vf.roughness.line_spectrum):
+            with refused("flat"):
+                measure(vf.Topography(height, 1.0))
+    rough = vf.Topography(plane + 1e-6 * np.random.default_rng(1).standard_normal((64, 64)), 1.0)
+    assert vf.roughness.power_spectrum(rough).rms_height() == pytest.approx(1e-6, rel=0.2)
+    with refused("too-few-points"):
+        vf.roughness.power_spectrum(vf.Topography(np.random.default_rng(1).standard_normal((2, 2)), 1.0))
     with refused("line-scan"):
         vf.roughness.power_spectrum(vf.Topography(np.zeros(8), 1.0))

@@ -39,6 +39,14 @@ SENTENCES = [
         "power_spectrum needs a map of heights; line_spectrum takes line scans.",
     ),
     (
+        lambda: vf.roughness.power_spectrum(vf.Topography(np.diag([1.0, 1.0]), 1.0)),
+        "too-few-points",
+        (
+            "the surface has no waves of the lengths that its grid holds in all directions; a power spectrum needs "
+            "several: give more points."
+        ),
+    ),
+    (
         lambda: vf.self_affine(**MADE),
         "give-one",
         "rms_height and rms_slope: neither given; give exactly one of them.",

@@ -23,6 +23,9 @@ from viscofric.units import to_si
 _SMOOTHNESS = 0.03
 #: Least density, as a share of the median.
 _FLOOR = 1e-2
+# Mean square, relative to that of the heights as given, of what rounding leaves of an exact plane or level; it is up to
+# 0.8 ε squared for 1024 x 1024 points.
+_ROUNDING = (4.0 * np.finfo(np.float64).eps) ** 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +135,7 @@ def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpec
     Raises
     ------
     InputError
-        If it is a line scan or heights are missing.
+        If it is a line scan, flat or tilted only, has too few points, or heights are missing.
 
     Notes
     -----
@@ -182,7 +185,7 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     Raises
     ------
     InputError
-        If heights are missing, or there is one point only along the axis.
+        If heights are missing, all lines are flat or tilted only, or there are fewer than four points along the axis.
 
     Examples
     --------
@@ -218,15 +221,22 @@ def _insist(topography: object) -> None:
 
 
 def _windowed(topography: Topography, axes: tuple[int, ...]) -> Array:
-    """Return heights less their mean; if not periodic, less their tilt and under Hann's window of unit mean square."""
+    """Return heights less their mean; if not periodic, less their tilt and under Hann's window of unit mean square.
+
+    A surface that is flat but for rounding is refused.
+    """
     heights = topography.complete()
+    rounding = _ROUNDING * float(np.square(heights).mean())
     heights = np.asarray(heights - heights.mean(axis=axes, keepdims=True), dtype=np.float64)
+    if not topography.periodic:
+        for axis in axes:
+            # Each on its own: least squares of a plane on a full grid.
+            place = np.linspace(-1.0, 1.0, heights.shape[axis]).reshape((-1, 1) if axis == 0 else -1)
+            heights = heights - place * (heights * place).mean(axis=axes, keepdims=True) / np.square(place).mean()
+    if not float(np.square(heights - heights.mean(axis=axes, keepdims=True)).mean()) > rounding:
+        raise InputError("the surface is flat: its power spectrum is zero.", code="flat")
     if topography.periodic:
         return heights
-    places = [np.linspace(-1.0, 1.0, heights.shape[axis]).reshape((-1, 1) if axis == 0 else -1) for axis in axes]
-    for place in places:
-        # Each on its own: least squares of a plane on a full grid.
-        heights = heights - place * (heights * place).mean(axis=axes, keepdims=True) / np.square(place).mean()
     for axis in axes:
         points = heights.shape[axis]
         window = np.sqrt(8.0 / 3.0) * (0.5 - 0.5 * np.cos(2.0 * np.pi * (np.arange(points) + 0.5) / points))
@@ -247,7 +257,11 @@ def _rings(
     # Rounding in what a surface was made without is no roughness.
     loud = (q >= first * (1.0 - 1e-9)) & (q <= last * (1.0 + 1e-9)) & (density > 1e-24 * density.max(initial=0.0))
     if not loud.any():
-        raise InputError("the surface is flat: its power spectrum is zero.", code="flat")
+        raise InputError(
+            "the surface has no waves of the lengths that its grid holds in all directions; a power spectrum needs "
+            "several: give more points.",
+            code="too-few-points",
+        )
     q, density, counts = q[loud], density[loud], counts[loud]
     start = max(start, float(q.min()) - 0.5 * first)
     ring = np.floor(per_decade * np.log10(q / first) + 1e-6).astype(int)
