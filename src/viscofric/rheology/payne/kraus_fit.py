@@ -86,7 +86,7 @@ class PayneFit(Plotted):
     Parameters
     ----------
     law : KrausLaw
-        With the covariance of its constants.
+        With the covariance of its constants, of which ±1.96 standard errors hold 95 % (see `fit_kraus`).
     sweep : AmplitudeSweep
         What it was fitted to.
     linear_ranges : tuple of LinearRange
@@ -159,6 +159,10 @@ def fit_kraus(sweep: AmplitudeSweep) -> PayneFit:
     Least squares of log G' and log G'', each with the weight of its own scatter; G' and G'' share γc and m, as Kraus
     derived.  The loss modulus of many compounds is larger at small amplitudes than the law says (J. D. Ulmer, Rubber
     Chem. Technol. 69 (1996) 15); its greater scatter then gives it a smaller weight, and a note says so.
+
+    The covariance is that of the scatter times (t/1.96)², t the 97.5 % quantile of Student's distribution for the
+    degrees of freedom of the modulus that has fewer: ±1.96 standard errors hold 95 % as they are, and a factor t of
+    one's own would count the few points twice.
 
     The linear range is found from a smooth curve through log G' over log γ (a spline, smoothed by restricted maximum
     likelihood) relative to the smallest amplitude, without the law.
