@@ -9,6 +9,7 @@ import contextlib
 import shutil
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
@@ -77,6 +78,16 @@ def test_a_changed_byte_of_results_is_noticed(tmp_path: Path) -> None:
     path = tmp_path / "results" / "cases" / f"{KEY}.json"
     path.write_bytes(path.read_bytes().replace(b"0.02", b"0.03", 1))
     assert list(check_results(tmp_path / "results").damaged) == [path]
+
+
+def test_results_without_a_checksum_are_damaged(tmp_path: Path) -> None:
+    shutil.copytree(STORED / "results", tmp_path / "results")
+    path = tmp_path / "results" / "results.nc"
+    with h5py.File(path, "r+") as file:
+        del file.attrs[DIGEST]
+    assert list(check_results(tmp_path / "results").damaged) == [path]
+    with refused("damaged"):
+        vf.open_results(path)
 
 
 @pytest.mark.exhaustive

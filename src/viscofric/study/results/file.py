@@ -96,8 +96,9 @@ def open_tree(path: str | Path) -> tuple[DataTree, Path]:
             "of the study's results.",
             code="exported",
         )
-    if tree.attrs.get(DIGEST, found) != found:
-        raise DataFileError(file, f"is damaged: its contents have changed.{what_helps(file)}", code="damaged")
+    if tree.attrs.get(DIGEST) != found:
+        what = "its contents have changed" if DIGEST in tree.attrs else "its checksum is missing"
+        raise DataFileError(file, f"is damaged: {what}.{what_helps(file)}", code="damaged")
     return tree, file.parent
 
 
