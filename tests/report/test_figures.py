@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -210,3 +212,12 @@ def test_prediction_beyond_the_measured_frequencies_is_thin(axes: Axes, tree: xr
     assert np.isfinite(np.asarray(thin.get_ydata(), dtype=float)).all()
     assert np.isnan(np.asarray(full.get_ydata(), dtype=float)).sum() == 10
     assert legend_texts(axes) == ["predicted"]
+
+
+@pytest.mark.slow
+def test_plotting_is_imported_without_what_annotations_alone_name() -> None:
+    """The first plot does not wait for motion and identification."""
+    script = "import sys, viscofric.report.plotting; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    unused = ("viscofric.motion", "viscofric.friction.identification", "viscofric.friction.heating", "viscofric.study")
+    assert not [module for module in done.stdout.split() if module.startswith(unused)]

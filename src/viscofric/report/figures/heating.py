@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
-from viscofric.friction.heating import HeatedFrictionCurves
 from viscofric.report.data import as_dataset
 from viscofric.report.figures.interface import plot_friction_parts
 from viscofric.report.figures.style import (
@@ -36,6 +35,9 @@ from viscofric.report.figures.style import (
 from viscofric.report.results import group, nominal_temperatures, number, values
 from viscofric.report.sweeps import axis_of, best_estimate, thinned
 from viscofric.report.texts.numbers import short
+
+if TYPE_CHECKING:
+    from viscofric.friction.heating import HeatedFrictionCurves
 
 _MILLIMETRES = 1e3
 #: Curves that a study's figures show.
