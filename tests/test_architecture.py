@@ -21,7 +21,7 @@ import pytest
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
-from viscofric.lazy import full_names, public_names, renamed
+from viscofric.lazy import full_names, public_names
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -365,26 +365,6 @@ def test_a_name_that_is_not_where_it_is_asked_for_is_an_error_that_says_what_to_
     assert full != f"{package}.{name}"
     with pytest.raises(AttributeError, match=rf"write {re.escape(full)}$"):
         getattr(importlib.import_module(package), name)
-
-
-def test_renamed_attributes_and_arguments_say_what_to_write() -> None:
-    @renamed(width="half_width")
-    class Result:
-        half_width = 2.0
-
-    @renamed(probability="level")
-    def interval(level: float = 0.9) -> float:
-        return level
-
-    with pytest.warns(DeprecationWarning, match=r"^viscofric: Result\.width .* half_width\.$") as caught:
-        assert Result().width == 2.0  # type: ignore[attr-defined]
-    with pytest.warns(DeprecationWarning, match=r"^viscofric: probability= of interval\(\) .* level=\.$") as called:
-        assert interval(probability=0.5) == 0.5  # type: ignore[call-arg]
-    assert {one.filename for one in (*caught, *called)} == {__file__}
-    assert interval() == 0.9
-    with pytest.raises(TypeError, match="level"):
-        interval(level=0.5, probability=0.5)  # type: ignore[call-arg]
-    assert list(inspect.signature(interval).parameters) == ["level"]
 
 
 def test_unknown_public_name_is_an_attribute_error() -> None:

@@ -1,4 +1,4 @@
-"""Public names, imported at first use, so that importing one part does not load the rest; and renamed ones.
+"""Public names, imported at first use, so that importing one part does not load the rest.
 
 A package's public names are written once, as imports in its stub ``__init__.pyi``, which type checkers read, too.
 """
@@ -8,12 +8,10 @@ from __future__ import annotations
 import functools
 import importlib
 import sys
-import warnings
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any
 
 FRONT_DOOR = "viscofric"
-_Named = TypeVar("_Named", bound=Callable[..., Any])
 
 
 @functools.cache
@@ -52,38 +50,3 @@ def loaded_when_used(package: str) -> tuple[Callable[[str], Any], Callable[[], l
         raise AttributeError(text, name=name, obj=sys.modules[package])
 
     return fetch, lambda: sorted(names), names
-
-
-def renamed(**names: str) -> Callable[[_Named], _Named]:
-    """Return a decorator, ``old="new"``, for a class whose attributes or a function whose arguments had other names.
-
-    The old names still work, with a warning that says what to write.
-    """
-
-    def decorated(named: Any) -> Any:
-        if isinstance(named, type):
-            for old, new in names.items():
-                setattr(named, old, property(functools.partial(_attribute, old=old, new=new)))
-            return named
-
-        @functools.wraps(named)
-        def call(*arguments: Any, **settings: Any) -> Any:
-            for old, new in names.items():
-                if old not in settings:
-                    continue
-                if new in settings:
-                    raise TypeError(f"{named.__name__}() takes {new}= or its old name {old}=, not both")
-                text = f"viscofric: {old}= of {named.__name__}() is deprecated; write {new}=."
-                warnings.warn(text, DeprecationWarning, stacklevel=2)
-                settings[new] = settings.pop(old)
-            return named(*arguments, **settings)
-
-        return call
-
-    return decorated
-
-
-def _attribute(owner: Any, old: str, new: str) -> Any:
-    text = f"viscofric: {type(owner).__name__}.{old} is deprecated; write {new}."
-    warnings.warn(text, DeprecationWarning, stacklevel=2)
-    return getattr(owner, new)
