@@ -100,7 +100,6 @@ def start(study: dict[str, Any] | None = None) -> dict[str, Any]:
 
     from viscofric.web.forms import FORMS
     from viscofric.web.forms.contact import SHAPES
-    from viscofric.web.start import GLOSSARY
     from viscofric.web.workspace import LARGEST_UPLOAD, MOST_FILES
 
     return {
