@@ -5,7 +5,9 @@ from __future__ import annotations
 import functools
 import os
 import sys
+from collections import deque
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from viscofric.arguments import whole_number
@@ -77,18 +79,32 @@ def in_parts(function: Callable[..., _Result], *arrays: Any, threads: int | None
     if size < _LARGE:
         return [function(*arrays)]
     each = max(1, _PART * rows // size)
+    starts = range(0, rows, each)
     found: dict[int, _Result] = {}
-    waiting = iter(range(0, rows, each))
+    waiting = deque(starts)  # unlike an iterator, safe to share among threads without a global lock
 
     def work() -> None:
-        for start in waiting:
-            found[start] = function(*(array[start : start + each] for array in arrays))
+        while True:
+            try:
+                start = waiting.popleft()
+            except IndexError:
+                return
+            try:
+                found[start] = function(*(array[start : start + each] for array in arrays))
+            except BaseException:
+                waiting.clear()  # what is left is of no use
+                raise
 
     number = threads_for(size, threads)
     if number == 1:
         work()
     else:
-        with ThreadPoolExecutor(number) as pool:
-            for done in [pool.submit(work) for _ in range(number)]:
-                done.result()
-    return [found[start] for start in range(0, rows, each)]
+        with ThreadPoolExecutor(number - 1) as pool:
+            others = []
+            # Refused once the main thread has ended, and where there can be no more threads: fewer do the work then.
+            with suppress(RuntimeError):
+                others.extend(pool.submit(work) for _ in range(number - 1))
+            work()
+            for other in others:
+                other.result()
+    return [found[start] for start in starts]

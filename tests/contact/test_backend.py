@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 import pickle
+import subprocess
 import sys
+import time
 from functools import cache
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -309,6 +312,38 @@ def test_parts_cover_all_rows_in_their_order_with_any_threads() -> None:
     assert in_parts(len, values[:100]) == [100]
     with pytest.raises(ZeroDivisionError):
         in_parts(lambda _: 1 // 0, values, threads=2)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_parts_after_one_that_fails_are_left(threads: int) -> None:
+    values = np.ones((1000, 4000))  # 31 parts
+    done: list[int] = []
+    values[0] = 0.0
+
+    def reciprocal(part: NDArray[np.float64]) -> None:
+        if not part.all():
+            raise ZeroDivisionError
+        time.sleep(0.02)
+        done.append(len(part))
+
+    with pytest.raises(ZeroDivisionError):
+        in_parts(reciprocal, values, threads=threads)
+    assert len(done) < 15  # one, unless the thread of the first part is late
+
+
+def test_parts_are_done_once_the_main_thread_has_ended(tmp_path: Path) -> None:
+    """No further thread can be started then."""
+    script = """
+import threading
+import numpy as np
+from viscofric.threads import in_parts
+def work():
+    threading.main_thread().join()
+    print(sum(in_parts(np.size, np.zeros((1024, 1024)), threads=2)))
+threading.Thread(target=work).start()
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=tmp_path, check=True)
+    assert (done.stdout.strip(), done.stderr) == (str(1024**2), "")
 
 
 def test_threads_change_no_contact() -> None:
