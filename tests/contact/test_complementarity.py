@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -171,6 +173,15 @@ def test_single_precision_takes_the_steps_of_double_where_long_waves_yield_a_mil
         steps.append(taken)
     # Without freeing images of those before them twice, it did not come below 0.2 in a hundred steps.
     assert steps[1] <= 1.5 * steps[0]
+
+
+def test_pressures_that_are_not_numbers_do_not_converge() -> None:
+    window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+    operator = HalfSpaceOperator(window, MATERIALS["one mode"])
+    solution = solve_complementarity(operator, np.zeros(window.shape), 100.0, np.full(window.shape, math.nan))
+    assert not solution.converged
+    assert math.isnan(solution.indentation)
+    assert solution.set_changes == 1
 
 
 def test_failure_is_reported() -> None:

@@ -99,7 +99,12 @@ def test_first_size_is_that_of_the_hertz_contact(indenter: Indenter) -> None:
     soft = SteadyMaterial(1.0, np.empty(0), np.empty(0))
     hard = SteadyMaterial(1e-3, np.empty(0), np.empty(0))
     geometry = indenter.geometry
-    for solid, size in ((soft, 1.0), (hard, 1e-3 ** (1.0 / (geometry.dimension + 1.0)))):
+    power = 1.0 / (geometry.dimension + 1.0)
+    glass = SteadyMaterial(1e-90, np.array([1.0]), np.array([1e150]))
+    for solid, size in ((glass, 1e-90**power), (SteadyMaterial(0.0, np.empty(0), np.empty(0)), 1e-300**power)):
+        problem = Problem(geometry, solid, indenter, Control(load=geometry.parabolic_load), 1e-8)
+        assert problem.first_size == pytest.approx(size, rel=1e-9)
+    for solid, size in ((soft, 1.0), (hard, 1e-3**power)):
         problem = Problem(geometry, solid, indenter, Control(load=geometry.parabolic_load), 1e-8)
         assert problem.first_size == pytest.approx(size, rel=1e-9)  # a fixed point: round-off
         # On 32 cells the contact ends within a cell of its true edge.

@@ -228,12 +228,13 @@ def _look(
         gap -= indentation
         overlapping = ~chosen & (gap < -level)
         chosen[...] = chosen | overlapping
-        least, total, wrong = backend.floats(xp.min(gap), backend.total(pressure), xp.count_nonzero(overlapping))
+        count = xp.astype(xp.count_nonzero(overlapping), gap.dtype)
+        least, total, wrong = backend.floats(xp.min(gap), backend.total(pressure), count)
         return least, total, wrong
 
     under = xp.concat(backend.in_parts(opened, gap, chosen, pressure, displacement, height))
     if indentation is None:
-        indentation = float(backend.total(under)) / max(under.shape[0], 1)
+        indentation = float(backend.total(under)) / under.shape[0] if under.shape[0] else math.nan
     under -= indentation
     level = doubt * math.sqrt(float(under @ under) / max(under.shape[0], 1))
     least, total, wrong = zip(*backend.in_parts(settled, gap, chosen, pressure), strict=True)

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from viscofric.contact.operators.layer import ScaledLayer
 
 
-_LOG_SIZES = -50.0, 1.0  # between which the first guess of the contact's size lies
+# Between which the first guess of the contact's size lies, but for extreme solids; compliances below the last number
+# count as it.
+_LOG_SIZES, _LEAST_COMPLIANCE = (-50.0, 1.0), 1e-300
 COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
 
 
@@ -98,9 +100,12 @@ class Problem:
         def beyond(log_size: float) -> float:
             wave = np.array([math.exp(-log_size)])
             yielding = 1.0 if self.layer is None else self.layer.yielding(wave)
-            return log_size - power * math.log(abs(self.solid.symbol(wave, yielding)[0]))
+            return log_size - power * math.log(max(abs(self.solid.symbol(wave, yielding)[0]), _LEAST_COMPLIANCE))
 
-        return math.exp(brentq(beyond, *_LOG_SIZES, xtol=1e-11))
+        least, largest = _LOG_SIZES
+        while beyond(least) > 0.0:
+            least *= 2.0
+        return math.exp(brentq(beyond, least, largest, xtol=1e-11))
 
     def height_on(self, window: Grid, shift: float) -> Array:
         """Height of the indenter at the collocation points, `shift` cells behind the cell centres."""
