@@ -6,7 +6,7 @@ import functools
 import os
 import sys
 from collections import deque
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
@@ -100,7 +100,7 @@ def in_parts(function: Callable[..., _Result], *arrays: Any, threads: int | None
         work()
     else:
         with ThreadPoolExecutor(number - 1) as pool:
-            others = []
+            others: list[Future[None]] = []
             # Refused once the main thread has ended, and where there can be no more threads: fewer do the work then.
             with suppress(RuntimeError):
                 others.extend(pool.submit(work) for _ in range(number - 1))
