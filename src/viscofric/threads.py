@@ -7,13 +7,15 @@ import os
 import sys
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import suppress
+from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from viscofric.arguments import whole_number
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
+    from concurrent.futures import Future
 
     from threadpoolctl import ThreadpoolController
 
@@ -26,6 +28,8 @@ THREADS = "a whole number from 1, such as 2"
 _LARGE, _EACH = 2**19, 2**17
 #: Elements of a part of an array of which several stay in the processor's cache.
 _PART = 2**17
+
+_given: ContextVar[int | None] = ContextVar("threads of large arrays", default=None)
 
 _Parameters = ParamSpec("_Parameters")
 _Result = TypeVar("_Result")
@@ -50,11 +54,25 @@ def _libraries(modules: int) -> ThreadpoolController:
     return ThreadpoolController()
 
 
-def usable_threads() -> int:
-    """Return the number of threads of large FFTs.
+@contextmanager
+def so_many(threads: int | None) -> Iterator[None]:
+    """Let work on large arrays have so many threads, whatever the environment says; None leaves it as it is."""
+    before = _given.set(_given.get() if threads is None else threads)
+    try:
+        yield
+    finally:
+        _given.reset(before)
 
-    It is that of the environment variable, or one for each processor that this process may use, no more than OpenMP's.
+
+def usable_threads() -> int:
+    """Return the number of threads of work on large arrays.
+
+    It is that of `so_many` or of the environment variable, or one for each processor that this process may use, no more
+    than OpenMP's.
     """
+    given = _given.get()
+    if given is not None:
+        return given
     text = os.environ.get(THREADS_VARIABLE)
     if text is None:
         processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
@@ -65,14 +83,14 @@ def usable_threads() -> int:
 
 
 def threads_for(elements: int, threads: int | None = None) -> int:
-    """Return how many threads the FFT of so many real numbers is to have, of those given or usable."""
+    """Return how many threads work on so many real numbers is to have, of those given or usable."""
     return 1 if elements < _LARGE else min(threads or usable_threads(), elements // _EACH)
 
 
 def in_parts(function: Callable[..., _Result], *arrays: Any, threads: int | None = None) -> list[_Result]:
     """Call a function with the same rows of all arrays, part after part; return what it returns, in the order of rows.
 
-    Parts of large arrays are shared among so many threads as their FFTs have, and each stays in the processor's cache
+    Parts of large arrays are shared among so many threads as their FFTs have; each stays in the processor's cache
     from one operation of the function to the next.
     """
     rows, size = arrays[0].shape[0], arrays[0].size

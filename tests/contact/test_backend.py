@@ -27,7 +27,7 @@ from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
 from viscofric.errors import InputError
 from viscofric.processes import Workers, call_all
-from viscofric.threads import THREADS_VARIABLE, in_parts, threads_for, usable_threads
+from viscofric.threads import THREADS_VARIABLE, in_parts, so_many, threads_for, usable_threads
 
 OTHERS = ("array_api_strict", "ducc0", "pyfftw", "torch:cpu", "torch:cuda", "cupy")
 # The solver's own error at this tolerance, which another rounding may shift; pressures are well conditioned here.
@@ -346,16 +346,32 @@ threading.Thread(target=work).start()
     assert (done.stdout.strip(), done.stderr) == (str(1024**2), "")
 
 
-def test_threads_change_no_contact() -> None:
+def test_so_many_threads_hold_within_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(THREADS_VARIABLE, "5")
+    with so_many(3):
+        assert usable_threads() == 3
+        with so_many(None):
+            assert usable_threads() == 3
+        with so_many(1):
+            assert usable_threads() == 1
+    assert usable_threads() == 5
+
+
+@pytest.mark.parametrize("given", [{"pressure": "200 kPa"}, {"gap": "3 cm"}], ids=["pressure", "gap"])
+def test_threads_change_no_contact(given: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
     surface = vf.contact.PeriodicSurface(self_affine(1024), 1.0 / 1024)
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
-    found = [
-        vf.solve_periodic(
-            rubber, surface, speed="1 m/s", pressure="200 kPa", backend=Backend("scipy", threads), tolerance=1e-4
+
+    def solved(threads: int) -> vf.contact.PeriodicSolution:
+        return vf.solve_periodic(
+            rubber, surface, speed="1 m/s", **given, backend=Backend("scipy", threads), tolerance=1e-4
         )
-        for threads in (1, 2)
-    ]
-    np.testing.assert_array_equal(found[0].pressure, found[1].pressure)
+
+    two = solved(2)
+    monkeypatch.setattr("viscofric.threads.ThreadPoolExecutor", None)  # one thread is none besides the calling one
+    one = solved(1)
+    for name in ("pressure", "displacement", "gap", "friction_coefficient", "pressure_friction_coefficient"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(two, name), name)
 
 
 def test_backends_are_values() -> None:

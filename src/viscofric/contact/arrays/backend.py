@@ -86,7 +86,7 @@ class Backend(Shown):
             )
         if self.threads is not None and self._library not in _ON_NUMPY:
             raise InputError(
-                f"threads = {self.threads!r}: is for FFTs on NumPy arrays, not for {self._library}.", code="no-threads"
+                f"threads = {self.threads!r}: is for NumPy arrays, not for {self._library}.", code="no-threads"
             )
         if self.threads is not None:
             whole_number(self.threads, "threads", 1, right=THREADS)

@@ -29,7 +29,7 @@ from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSol
 from viscofric.contact.periodic.surface import PeriodicSurface, Topographic, wave_number
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, wrong_argument
-from viscofric.threads import in_parts, one_blas_thread, threads_for
+from viscofric.threads import in_parts, one_blas_thread, so_many, threads_for
 from viscofric.units import Quantity, checked_poisson_ratio, number, positive, to_si, velocity
 
 if TYPE_CHECKING:
@@ -190,25 +190,26 @@ def solve_periodic(
         half_space_coupling(indenter_poisson_ratio),
     )
     _insist_on_memory(surface.shape, BYTES_PER_POINT[not solid.is_symmetric], where)
-    given = _Given.of(surface, pressure, gap)
-    depth = surface.rms_height
-    finest = solid.transfer(surface.shape, surface.spacing)
-    # The unit of compliance, m/Pa: that of the most compliant wave.
-    unit = float(np.abs(finest).max())
-    finest /= unit
-    coarser = surface.coarser(coarser_shapes(surface.shape))
-    result, work = solve_on_levels(
-        _stages(surface, coarser, solid, _Units(depth, unit), finest),
-        mean_pressure=None if given.pressure is None else given.pressure * unit / depth,
-        offset=None if given.gap is None else given.gap / depth,
-        tolerance=tolerance,
-        most_products=most_products,
-        backend=where,
-    )
-    # The friction on the next coarser grid counts where that grid has all the waves of the surface.
-    same = coarser[0] if coarser and coarser[0].z.std() >= (1.0 - LIKENESS) * depth else None
-    motion = sliding, toward, kelvin
-    solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
+    with so_many(where.threads):
+        given = _Given.of(surface, pressure, gap)
+        depth = surface.rms_height
+        finest = solid.transfer(surface.shape, surface.spacing)
+        # The unit of compliance, m/Pa: that of the most compliant wave.
+        unit = float(np.abs(finest).max())
+        finest /= unit
+        coarser = surface.coarser(coarser_shapes(surface.shape))
+        result, work = solve_on_levels(
+            _stages(surface, coarser, solid, _Units(depth, unit), finest),
+            mean_pressure=None if given.pressure is None else given.pressure * unit / depth,
+            offset=None if given.gap is None else given.gap / depth,
+            tolerance=tolerance,
+            most_products=most_products,
+            backend=where,
+        )
+        # The friction on the next coarser grid counts where that grid has all the waves of the surface.
+        same = coarser[0] if coarser and coarser[0].z.std() >= (1.0 - LIKENESS) * depth else None
+        motion = sliding, toward, kelvin
+        solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
     strains = _large_strains(solution, steepness, layer)
     return replace(solution, coulomb=coulomb, warnings=(*solution.warnings, *strains))
 
