@@ -82,6 +82,19 @@ def test_lag_of_waves_left_out() -> None:
     assert lag(SteadyMaterial(1.0, np.empty(0), np.empty(0)), 1.0, 1.0) == 0.0
 
 
+@pytest.mark.parametrize(("modulus_ratio", "error"), [(10.0, 1e-9), (1e4, 1e-7), (1e8, 3e-7)])
+def test_lag_is_that_of_a_finer_rule(modulus_ratio: float, error: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    solids = [
+        SteadyMaterial(1.0 / modulus_ratio, np.array([1.0 - 1.0 / modulus_ratio]), np.array([length]))
+        for length in np.logspace(-8, 8, 33)
+    ]
+    found = [[lag(solid, 1.0, cut) for cut in LINE.cuts] for solid in solids]
+    places, weights = np.polynomial.legendre.leggauss(600)
+    monkeypatch.setattr("viscofric.contact.free.balance._PLACES", places)
+    monkeypatch.setattr("viscofric.contact.free.balance._WEIGHTS", weights)
+    np.testing.assert_allclose(found, [[lag(solid, 1.0, cut) for cut in LINE.cuts] for solid in solids], rtol=error)
+
+
 @pytest.mark.parametrize("length", [1e-5, 0.05, 0.5, 3.0])
 def test_both_ways_to_the_dissipation_agree_to_second_order(length: float) -> None:
     def difference(cells: int) -> float:

@@ -42,7 +42,8 @@ if TYPE_CHECKING:
     from viscofric.contact.operators.convolution import SteadyMaterial
 
 
-# Gauss's rule for the wavenumber's logarithm beyond the cut, right to 1e-9, and the range that it covers.
+# Gauss's rule for the wavenumber's logarithm beyond the cut, and the range that it covers; right to 1e-7 for E∞/E0 up
+# to 1e4, to 3e-7 up to 1e8.
 _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(80)
 _LONGEST = math.log(1e13)
 
