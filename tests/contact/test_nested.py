@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,15 +13,16 @@ import viscofric as vf
 from gallery import standard_linear_solid
 from marks import apart, slow
 from refusals import refused
-from viscofric.contact.free.estimates import FRICTION_FLOOR, Estimate, measured_fading, settled
+from viscofric.contact.free.estimates import FEWEST_GRIDS, FRICTION_FLOOR, Estimate, measured_fading, settled
 from viscofric.contact.free.geometry import LINE, POINT
-from viscofric.contact.free.grids import Strip, Window
-from viscofric.contact.free.nested import find_window, refine
+from viscofric.contact.free.grids import Extent, Strip, Window
+from viscofric.contact.free.nested import GivenGrid, find_window, refine
 from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.proximal import proximal_points
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.settings import ContactSettings
 from viscofric.errors import ConvergenceError
 
 # A standard linear solid in units of the Hertz contact at E0, and indenters whose radius is one there.
@@ -110,6 +112,22 @@ def test_first_size_is_that_of_the_hertz_contact(indenter: Indenter) -> None:
         # On 32 cells the contact ends within a cell of its true edge.
         stage = find_window(problem, problem.first_size)
         assert stage.footprint.front == pytest.approx(size, abs=stage.window.spacing)
+
+
+@pytest.mark.parametrize("given", [GivenGrid(), GivenGrid(window=Extent(2.0, 2.0, 2.0))], ids=["found", "given"])
+def test_first_two_grids_are_solved_less_tightly(given: GivenGrid) -> None:
+    problem = replace(PROBLEM, coarse_tolerance=1e-3)
+    stages = refine(find_window(problem, problem.first_size), 2e-4, 1024, given)
+    assert len(stages) > FEWEST_GRIDS
+    left = [stage.result.complementarity for stage in stages]
+    assert 1e-6 < max(left[:2]) <= 1e-3
+    assert max(left[2:]) <= problem.tolerance
+
+
+def test_given_cells_are_solved_to_the_tolerance_on_every_grid() -> None:
+    assert ContactSettings(accuracy=0.5).coarse_residual == 5e-4
+    assert ContactSettings(accuracy=0.5, tolerance=1e-9).coarse_residual == 5e-4
+    assert ContactSettings(accuracy=0.5, grid=512).coarse_residual == 1e-8
 
 
 def test_given_indentation_finds_the_load() -> None:

@@ -100,7 +100,8 @@ def solve_steady(
         E0): grids are refined until its changes from one to the next are small enough.
     tolerance : float or str, optional
         Of the complementarity: largest gap under pressure or overlap without it over the indentation; from 1e-13
-        to a thousandth of the accuracy.  1e-8, or less if the accuracy needs it, if not given.
+        to a thousandth of the accuracy.  1e-8, or less if the accuracy needs it, if not given.  The first grids, which
+        only start the others, are solved to a thousandth of the accuracy unless `grid` is given.
     finest : int, optional
         Most cells along the window's longer edge: 2048 if not given, 65536 for a line contact.
     window : three lengths, optional

@@ -60,7 +60,7 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
 
     `first` is in a window that fits the contact; `finest` is the largest number of cells along its longer edge; a
     `given` window is kept, and with given cells neither the accuracy nor `finest` counts.  Returns at least
-    `FEWEST_GRIDS` stages.
+    `FEWEST_GRIDS` stages; those before the last of them may be solved to `Problem.coarse_tolerance` only.
 
     Raises ConvergenceError if a grid does not converge, the accuracy is not reached with `finest` cells along the
     longer edge or, by the errors so far, cannot be, or the friction is not a number; InputError if the contact touches
