@@ -107,7 +107,8 @@ def least_error(stages: list[Stage], halvings: int) -> float:
     """
     last = stages[-1]
     uncertain = last.left_out_range(last.window.spacing / 2.0**halvings) / 2.0**halvings
-    pressure = settled(np.array([stage.pressure_friction for stage in stages])).error / _PRESSURE_ERROR_FALL**halvings
+    values = np.array([stage.pressure_friction for stage in stages])
+    pressure = settled(values, measured_fading(values)).error / _PRESSURE_ERROR_FALL**halvings
     scale = max(abs(last.balanced_friction), FRICTION_FLOOR)
     return last.problem.geometry.scatter * min(uncertain, pressure) / scale
 
