@@ -39,8 +39,8 @@ _SMOOTH = 18
 # cell: below 1e-11.
 _ROW_PANELS = np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0])
 _ROW_STARTS = -math.inf, 2.4, _SMOOTH - 0.6
-# Rows so near that the edge's logarithm needs panels that halve towards it: so many times as often as it takes to come
-# to the distance of the nearest place that is looked at, of which at least so much counts (in cells).
+# In rows so near, the edge's logarithm needs panels that halve towards it until they are 2^-_HALVINGS of the distance
+# of the nearest point at which L is evaluated, taken as at least _NEAREST cells.
 _GRADED_ROWS = 0.4
 _HALVINGS = 10
 _NEAREST = 1e-6
