@@ -100,7 +100,8 @@ class Extension:
         part = xp.clip((near / _ENOUGH) ** _POWER, max=1.0)
         near, far = part / near, (1.0 - part) / far
         trail = self._trail(contact)
-        found = xp.empty_like(contact.chosen, dtype=self.dtype)
+        (nx, ny), bx, by = self.shape, *(lines.shape[0] for lines in self._lines)
+        found = self.backend.empty((nx, bx, ny * by), self.dtype)
 
         def extended(values: AnyArray) -> AnyArray:
             close, wide = self._smoothed(contact.scattered(values))
@@ -179,23 +180,23 @@ class Extension:
         def average(field: AnyArray, means: AnyArray) -> None:
             means[...] = xp.reshape(xp.matmul(xp.reshape(xp.matmul(over_x, field), (-1, by)), over_y[0, :]), (-1, ny))
 
-        means = self.backend.zeros(self.shape, self.dtype)
+        means = self.backend.empty(self.shape, self.dtype)
         self.backend.in_parts(average, xp.reshape(field, (nx, bx, ny * by)), means)
         waves = transforms.forward(means)
         return [transforms.inverse(waves * weights, self.shape) for weights in self._weights]
 
     def _spread(self, values: AnyArray, field: AnyArray) -> AnyArray:
-        """Interpolate linearly between the centres of blocks, into a field."""
+        """Interpolate linearly between the centres of blocks, into a field by blocks along x (nx, bx, ny by)."""
         xp = self.backend.xp
         along_x, along_y = self._lines
-        (nx, ny), bx, by = self.shape, along_x.shape[0], along_y.shape[0]
+        nx, bx, across = field.shape
 
         def interpolate(field: AnyArray, values: AnyArray) -> None:
             field[...] = xp.matmul(along_x, values)
 
-        values = xp.reshape(xp.matmul(_with_neighbours(xp, values, 1), along_y.T), (nx, ny * by))
-        self.backend.in_parts(interpolate, xp.reshape(field, (nx, bx, ny * by)), _with_neighbours(xp, values, 0))
-        return field
+        values = xp.reshape(xp.matmul(_with_neighbours(xp, values, 1), along_y.T), (nx, across))
+        self.backend.in_parts(interpolate, field, _with_neighbours(xp, values, 0))
+        return xp.reshape(field, (nx * bx, across))
 
     def _array(self, values: Array) -> AnyArray:
         return self.backend.xp.astype(self.backend.asarray(values), self.dtype)

@@ -196,11 +196,16 @@ class Backend(Shown):
         """Array of zeros; of NumPy's, memory that is never written to costs nothing."""
         return self.xp.zeros(shape, dtype=dtype, device=self.device)
 
+    def empty(self, shape: tuple[int, ...], dtype: Any) -> AnyArray:
+        """Array of any values."""
+        return self.xp.empty(shape, dtype=dtype, device=self.device)
+
     def positive_part(self, values: AnyArray) -> AnyArray:
-        """max(x, 0) in place where the library can."""
+        """max(x, 0) in place."""
         if self.is_numpy:
             return np.maximum(values, 0.0, out=values)
-        return self.xp.clip(values, min=0.0)
+        values[...] = self.xp.clip(values, min=0.0)
+        return values
 
     def reciprocal(self, values: AnyArray) -> AnyArray:
         """1/x in place where the library can."""

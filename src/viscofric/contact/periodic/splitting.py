@@ -66,7 +66,7 @@ def split_steps(
 
     def begin(state: AnyArray, pressure: AnyArray, shifted: AnyArray, surface: AnyArray) -> None:
         state += surface - level
-        state[...] = backend.positive_part(state)
+        backend.positive_part(state)
         pressure *= rho
         state += pressure
         shifted[...] = state - surface
@@ -74,7 +74,7 @@ def split_steps(
     def step(state: AnyArray, flat: AnyArray, shifted: AnyArray, surface: AnyArray) -> None:
         state -= flat
         flat -= state
-        flat[...] = backend.positive_part(flat)
+        backend.positive_part(flat)
         state += flat
         shifted[...] = state - surface
 
