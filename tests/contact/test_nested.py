@@ -5,6 +5,8 @@ from __future__ import annotations
 import logging
 import math
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +15,14 @@ import viscofric as vf
 from gallery import standard_linear_solid
 from marks import apart, slow
 from refusals import refused
-from viscofric.contact.free.estimates import FEWEST_GRIDS, FRICTION_FLOOR, Estimate, measured_fading, settled
+from viscofric.contact.free.estimates import (
+    FEWEST_GRIDS,
+    FRICTION_FLOOR,
+    Estimate,
+    least_error,
+    measured_fading,
+    settled,
+)
 from viscofric.contact.free.geometry import LINE, POINT
 from viscofric.contact.free.grids import Extent, Strip, Window
 from viscofric.contact.free.nested import GivenGrid, find_window, refine
@@ -69,6 +78,23 @@ def test_changes_that_fall_fast_on_many_grids_count_less() -> None:
     # a number that jumps about the limit on fine grids
     jumping = 1.0 + np.array([0.1, 0.02, 4e-3, 1e-3, -1e-3, 1e-3, -1e-3])
     assert settled(jumping, measured_fading(jumping)).error >= 1e-3
+
+
+def test_least_error_after_no_halving_is_that_of_the_estimate() -> None:
+    values = 1.0 + 4.0 ** -np.arange(7.0)
+    stages: list[Any] = [
+        SimpleNamespace(
+            pressure_friction=value,
+            balanced_friction=1.0,
+            left_out_range=lambda spacing: math.inf,
+            window=SimpleNamespace(spacing=1.0),
+            problem=SimpleNamespace(geometry=SimpleNamespace(scatter=1.0)),
+        )
+        for value in values
+    ]
+    expected = settled(values, measured_fading(values)).error
+    assert expected < settled(values).error
+    assert least_error(stages, 0) == pytest.approx(expected, rel=1e-12)
 
 
 def test_relative_error_of_vanishing_friction_is_finite() -> None:
