@@ -54,10 +54,16 @@ def test_sharp_answer_has_the_numbers_of_a_solved_contact(desk: Desk) -> None:
 
 
 @pytest.mark.parametrize("study", [BALL, CYLINDER], ids=["ball", "cylinder"])
-def test_a_coarse_answer_that_counts_as_sharp_is_the_sharp_one(desk: Desk, study: dict[str, Any]) -> None:
+def test_a_coarse_answer_within_the_accuracy_of_the_sharp_one_counts_as_sharp(
+    desk: Desk, study: dict[str, Any]
+) -> None:
     coarse = desk.run(contact, study, speed=0.1, temperature=333.15, stages="coarse")
     assert coarse["stage"] == "sharp"  # the first grids promise 1 %
-    assert coarse == desk.run(contact, study, speed=0.1, temperature=333.15, stages="sharp")
+    sharp = desk.run(contact, study, speed=0.1, temperature=333.15, stages="sharp")
+    # on the same grids, of which the first two are solved to a thousandth of the accuracy
+    friction = "friction_coefficient"
+    assert value(coarse, friction) == pytest.approx(value(sharp, friction), rel=1e-4)
+    assert coarse["numbers"][friction]["error"] <= 0.01 * value(coarse, friction)
     assert coarse == desk.run(contact, study, speed=0.1, temperature=333.15)
     assert desk.parts == []  # nothing is told twice
 
