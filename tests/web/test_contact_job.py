@@ -54,9 +54,7 @@ def test_sharp_answer_has_the_numbers_of_a_solved_contact(desk: Desk) -> None:
 
 
 @pytest.mark.parametrize("study", [BALL, CYLINDER], ids=["ball", "cylinder"])
-def test_a_coarse_answer_within_the_accuracy_of_the_sharp_one_counts_as_sharp(
-    desk: Desk, study: dict[str, Any]
-) -> None:
+def test_a_coarse_answer_within_the_accuracy_asked_for_counts_as_sharp(desk: Desk, study: dict[str, Any]) -> None:
     coarse = desk.run(contact, study, speed=0.1, temperature=333.15, stages="coarse")
     assert coarse["stage"] == "sharp"  # the first grids promise 1 %
     sharp = desk.run(contact, study, speed=0.1, temperature=333.15, stages="sharp")
