@@ -41,6 +41,7 @@ def test_planted_constants_lie_within_their_errors():
     assert np.mean(inside) > 0.9
 
 
+@pytest.mark.apart
 def test_errors_of_few_amplitudes_hold():
     """Six amplitudes are twelve numbers for six constants and two scatters: intervals held 0.65 of γc, 0.72 of m."""
     strain, random = np.geomspace(1e-4, 0.5, 6), np.random.default_rng(1)

@@ -33,6 +33,7 @@ def test_a_planted_law_comes_back_within_its_errors(fit):
     np.testing.assert_allclose(fit.shift_factors.log10(kelvin), fit.shift.log10(kelvin), atol=2e-3)
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 @pytest.mark.parametrize("alike", [*apart(0.0), 0.7])
 def test_intervals_hold_what_they_promise(alike):

@@ -60,6 +60,7 @@ def from_points_alone(sweeps):
     return np.sqrt(np.diag(found.covariance))
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_few_points_leave_as_many_degrees_of_freedom_as_there_are_beyond_shifts_and_curves():
     """Eight sweeps of three points: 48 values less 6 coefficients less 7 shifts are 35, not 42."""
@@ -88,6 +89,7 @@ def along_sweeps(random, size, points, alike):
     return errors
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_errors_alike_along_a_sweep_widen_the_standard_errors():
     """Points whose errors are 0.7 alike count for (1 − 0.7)/(1 + 0.7) of as many independent ones.

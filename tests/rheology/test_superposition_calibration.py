@@ -17,6 +17,7 @@ POLYMER = {
 }
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 @pytest.mark.parametrize("seeds", SEEDS)
 @pytest.mark.parametrize(
@@ -49,6 +50,7 @@ def test_bands_hold_what_they_promise(reference, noise, programme, isotherms, se
     assert np.abs(np.mean(scores)) < max(0.33, 3 / np.sqrt(3 * seeds))
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 @pytest.mark.parametrize("seeds", SEEDS)
 def test_bands_with_a_vertical_shift_hold_what_they_promise(seeds):

@@ -112,6 +112,7 @@ def test_an_uncertain_shift_widens_the_band_where_its_isotherm_stands_alone():
     assert np.median(half_width(unsure.modulus_band(fast))[0] / expected) == pytest.approx(1.0, rel=0.3)
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_an_uncertain_shift_does_not_matter_where_its_isotherm_was_measured():
     # E at −10 °C and 0.1 to 10 Hz was measured there: what α is, and at what reduced frequency it was put, cancel.
@@ -124,6 +125,7 @@ def test_an_uncertain_shift_does_not_matter_where_its_isotherm_was_measured():
     assert np.median(at_reference / there[1]) > 3.0
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_shifts_are_drawn_from_their_covariance():
     root = np.tril(np.random.default_rng(0).standard_normal((KELVIN.size, KELVIN.size))) * 0.01
@@ -140,6 +142,7 @@ def test_shifts_are_drawn_from_their_covariance():
     assert found[keep] / product == pytest.approx(covariance[keep] / product, abs=0.25)
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_vertical_shifts_are_drawn_with_the_spectrum_they_belong_to():
     covariance = coldest_uncertain(0.02)
@@ -162,6 +165,7 @@ class ErringTogether(Superposition):
     cross_covariance: np.ndarray | None = None
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_horizontal_and_vertical_shifts_are_drawn_together():
     sizes = coldest_uncertain(0.05), coldest_uncertain(0.02)
@@ -176,6 +180,7 @@ def test_horizontal_and_vertical_shifts_are_drawn_together():
         assert np.corrcoef(moved, raised)[0, 1] == pytest.approx(expected, abs=0.21 if expected == 0.0 else 0.04)
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 @pytest.mark.parametrize("law", ["wlf", "wlf+arrhenius", "polynomial"])
 def test_laws_are_drawn_as_uncertain_as_they_were_fitted(law):
@@ -374,6 +379,7 @@ def test_draws_change_by_rounding_only_where_the_covariance_does():
     )
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_bands_hold_near_the_ends_of_what_was_measured(family):

@@ -36,6 +36,7 @@ def refusal(data: bytes) -> str | None:
     return None
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 @pytest.mark.timeout(600)
 def test_mutated_run_files_are_refused_in_sentences_or_taken() -> None:

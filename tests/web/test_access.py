@@ -285,6 +285,7 @@ def test_connections_whose_head_does_not_come_are_closed(monkeypatch: pytest.Mon
     assert run_apart(ended(b"GET / HTTP/1.1\r\n", b"Host: a\r\n\r\n"))[0].startswith(b"HTTP/1.1 204")
 
 
+@pytest.mark.apart
 @pytest.mark.parametrize("pieces", [1, 200])
 @pytest.mark.parametrize("taken", [0, 1, 400_000])
 def test_reader_who_does_not_take_the_reply_is_disconnected(

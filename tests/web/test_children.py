@@ -266,6 +266,7 @@ def test_workspace_comes_back_to_the_process_that_served_it(bench: Callable[...,
     bench(work)
 
 
+@pytest.mark.apart
 def test_processes_without_work_are_ended_after_a_while(
     bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:

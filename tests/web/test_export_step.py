@@ -7,6 +7,8 @@ import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import pytest
+
 import viscofric
 
 if TYPE_CHECKING:
@@ -36,6 +38,7 @@ def closing(tab: Tab) -> bool:
     return not tab.value("window.dispatchEvent(new Event('beforeunload', { cancelable: true }))")
 
 
+@pytest.mark.apart
 def test_study_is_cancelled_finished_and_downloaded_in_the_page(tab: Tab) -> None:
     page = tab.page
     page.get_by_role("button", name="Run the whole study").click()

@@ -93,6 +93,7 @@ def test_failed_cases_leave_the_others_alone(request: pytest.FixtureRequest, pro
     assert len(list(store.stored())) == 7
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_case_that_ends_one_process_after_the_other_is_lost_alone(pair: Processes, tmp_path: Path) -> None:
     plan, store = TwoWaves(), CaseStore(tmp_path)
