@@ -15,7 +15,6 @@ from viscofric.arguments import whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from concurrent.futures import Future
 
     from threadpoolctl import ThreadpoolController
 

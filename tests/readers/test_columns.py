@@ -329,6 +329,8 @@ def test_any_layout_gives_the_same_numbers_where_the_user_names_its_columns(tmp_
 
 
 def test_the_user_gives_a_value_of_all_rows(tmp_path):
+    path = write(tmp_path, "f (Hz);T (°C);E' (MPa);E'' (MPa)", "1;;5;0,5", "10;;6;0,7")  # none in its column
+    assert read_dma(path, columns={"temperature": "=25,5 degC"}).temperatures == pytest.approx([298.65], rel=1e-12)
     path = write(tmp_path, "f (Hz);E' (MPa);E'' (MPa)", "1;5;0,5", "10;6;0,7")
     sweeps = read_dma(path, columns={"temperature": "=25,5 degC"})
     assert sweeps.temperatures == pytest.approx([298.65], rel=1e-12)

@@ -647,6 +647,42 @@ def test_a_file_of_two_components_is_not_as_cold_as_two_kelvin(tmp_path):
 def test_a_given_temperature_does_not_replace_those_of_the_file(tmp_path, lines):
     with refused("temperature-not-needed"):
         read_dma(write(tmp_path, *lines), temperature="25 degC")
+    with pytest.raises(DataFileError) as caught:
+        read_dma(write(tmp_path, *lines), columns={"temperature": "= 25 degC"})
+    assert caught.value.code in {"value-not-needed", "missing-columns"}
+
+
+@pytest.mark.parametrize(
+    ("header", "celsius"),
+    [
+        ("f (Hz);-25 °C E' (MPa);-25 °C E'' (MPa);25 °C E' (MPa);25 °C E'' (MPa)", [-25.0, 25.0]),
+        (
+            "f (Hz);E' (T = - 25 °C) [MPa];E'' (T = - 25 °C) [MPa];E' (T = 25 °C) [MPa];E'' (T = 25 °C) [MPa]",
+            [-25.0, 25.0],
+        ),
+        ("f (Hz);E' 25 °C (MPa);E'' 25 °C (MPa);E' 40 °C (MPa);tan δ 60 °C", None),
+        ("f (Hz);E' 25 °C (MPa);E'' 25 °C (MPa);E' - 40 °C (MPa);E'' - 40 °C (MPa)", None),
+    ],
+)
+def test_no_temperature_of_a_heading_is_lost(tmp_path, header, celsius):
+    path = write(tmp_path, header, "1;5;0.5;4;0.4", "10;6;0.7;5;0.6")
+    if celsius is None:
+        with pytest.raises(DataFileError):
+            read_dma(path)
+    else:
+        assert read_dma(path).temperatures - 273.15 == pytest.approx(celsius)
+
+
+def test_a_side_column_of_another_temperature_is_not_read(tmp_path):
+    header = "f (Hz);E' 25 °C (MPa);tan d 25 °C;E' 40 °C (MPa);tan d 40 °C;tan d 60 °C"
+    sweeps = read_dma(write(tmp_path, header, "1;5;0.5;4;0.4;0.3", "10;6;0.7;5;0.6;0.3"))
+    assert sweeps.temperatures - 273.15 == pytest.approx([25.0, 40.0])
+
+
+def test_a_dash_between_blanks_is_no_minus_sign_above_a_table(tmp_path):
+    lines = [["NR - 25 °C", "NR – 40 °C"], "f (Hz);E' (MPa);E'' (MPa)"]
+    sweeps = read_dma(write(tmp_path, lines[0][0], lines[1], "1;5;0.5", lines[0][1], lines[1], "1;4;0.4"))
+    assert sweeps.temperatures - 273.15 == pytest.approx([25.0, 40.0])
 
 
 def test_titled_columns_beside_plain_ones_are_not_read(tmp_path):

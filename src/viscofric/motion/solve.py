@@ -400,7 +400,7 @@ def assemble(
 
 
 def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]], control: str) -> tuple[Note, ...]:
-    """Refuse a contact wider than the indenter; return notes on large strain."""
+    """Refuse a contact wider than the indenter; return notes on large strain and unresolved heights."""
     if not isinstance(indenter, Indenter) or not moments:
         return ()
 

@@ -49,20 +49,22 @@ _THOUSANDS = re.compile(r"[+−-]?\d{1,3},\d{3}")
 _LONGEST_HEADING = 200
 #: A column of means, such as "E' mean", is one of the quantity where there is no other.
 _MEAN = re.compile(r"\b(mean|average|avg)\b\.?", re.IGNORECASE)
-# "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.  A minus sign stands before the
-# number, and follows no letter or digit: in "foam-25C" and "E' - 25 °C" it may be a dash.
-_OF_A_RATE = r"(?![^\W_]|\s*/\s*(?:min|s|h)\b)"
+# "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.  A minus sign follows no letter
+# or digit: in "foam-25C" it may be a dash.  Between blanks it is one ("NR - 25 °C"), except in "T = - 25 °C".
+_OF_A_RATE = r"(?![^\W_]|\s*/\s*(?i:min\w*|s|sec\w*|h|hr|hours?|steps?)\b)"
 TEMPERATURE_IN_NAME = re.compile(
-    r"(?:(?P<mark>^|[\s_=(,;@[])(?P<sign>[+−–-]?)|(?P<dash>[-−–]\s*))(?P<number>\d+(?:[.,]\d+)?)\s?_?"
+    r"(?:(?P<mark>^|[\s_=(,;@[])(?P<sign>[+−–-]?)|[=:(](?P<minus>\s*[-−–]\s+)|(?P<dash>[-−–]))"
+    r"(?P<number>\d+(?:[.,]\d+)?)\s?_?"
     rf"(?P<unit>°C|degC|deg_C|C|K|°F|degF){_OF_A_RATE}"
 )
 #: Likewise "E' 10 Hz", "E'_0.1Hz".
 FREQUENCY_IN_NAME = re.compile(
-    r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<dash>)(?P<number>\d+(?:[.,]\d+)?)\s?_?"
+    r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<minus>)(?P<dash>)(?P<number>\d+(?:[.,]\d+)?)\s?_?"
     rf"(?P<unit>[mk]?Hz|rad/s){_OF_A_RATE}"
 )
 #: Heading of the column of frequencies that stood in the headings of others.
 FREQUENCIES_OF_HEADINGS = "frequencies of headings"
+_DASH_AT_END = re.compile(r"[-−–]\s*$")
 #: What a temperature or frequency that is cut from a heading leaves behind.
 _LEFT_BEHIND = re.compile(
     r"[(\[]\s*[)\]]|(\b(at|bei|à|[Tf]\s*=)|[@,;=_])\s*(?=$|[()\[\]/])|_(?=_)|^\s*[:;,=]", re.IGNORECASE
@@ -218,7 +220,8 @@ class Vocabulary:
     def _with_titles(self, columns: list[Column], held: set[str]) -> list[Column]:
         """Return columns with the temperatures or frequencies of their headings, where no column holds these.
 
-        All are left as they are unless each temperature has a quantity that a header needs, which no other column has.
+        Those of a temperature without any quantity that a header needs are left as they are, and all where another
+        column holds one of their quantities, or a temperature may be below or above zero.
         """
         lacks = [
             pattern
@@ -226,25 +229,41 @@ class Vocabulary:
             if has in self.quantities and not any(has in what for what in held)
         ]
         found = [self._titled(column, lacks) for column in columns]
+        if any(one.title for one in found) and any(_doubtful(one.heading, lacks) for one in found if not one.title):
+            return columns
         single = {column.quantity for column in found if not column.title} | {*self.user_columns}
         of_titles: dict[str, set[str]] = {}
         for column in found:
             if column.title:
                 of_titles.setdefault(column.title, set()).add(column.quantity)
         needed = {what for some in self.needed for what in some}
-        own = all(own & needed and not own & single for own in of_titles.values())
-        return found if own else columns
+        if any(own & single for own in of_titles.values()):
+            return columns
+        bare = {title for title, own in of_titles.items() if not own & needed}
+        return [before if one.title in bare else one for one, before in zip(found, columns, strict=True)]
 
     def _titled(self, column: Column, patterns: Sequence[re.Pattern[str]]) -> Column:
         """Return the column with the temperature or frequency that its heading states as its title, or as it is."""
-        found = [one for pattern in patterns for one in pattern.finditer(column.heading) if one[0][:1] != "-"]
+        found = [one for pattern in patterns for one in pattern.finditer(column.heading)]
         if len(found) != 1 or (column.quantity and column.unit != found[0][0].strip("( [")):
             return column
-        rest = column.heading[: found[0].start("sign")] + column.heading[found[0].end() :]
+        (one,) = found
+        start = one.start("minus" if one["minus"] else "dash" if one["dash"] else "sign")
+        if one["dash"] or _DASH_AT_END.search(column.heading[:start]):  # or a minus sign
+            return column
+        rest = column.heading[:start] + column.heading[one.end() :]
         of = self.column(_LEFT_BEHIND.sub("", _LEFT_BEHIND.sub("", rest)))  # what is left of brackets is removed last
         if not of.quantity or any(what in of.quantity for what in ("temperature", "isotherm", "frequency")):
             return column
-        return replace(of, heading=column.heading, title=found[0][0].strip("_=(,;@[ "))
+        below_zero = one["minus"] or one["sign"] in ("-", "−", "–")
+        title = f"{'-' if below_zero else ''}{one['number']} {one['unit'].strip('_')}"
+        return replace(of, heading=column.heading, title=title)
+
+
+def _doubtful(text: str, patterns: Sequence[re.Pattern[str]]) -> bool:
+    """Return whether a heading states a temperature behind a dash, which may be a minus sign."""
+    found = [one for pattern in patterns for one in pattern.finditer(text)]
+    return any(one["dash"] or _DASH_AT_END.search(text[: one.start("number")]) for one in found)
 
 
 def _logarithm(text: str) -> Column | None:

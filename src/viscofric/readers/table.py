@@ -75,10 +75,11 @@ class Table:
         """Return the table with a column of each value that the user gives for all rows; none may be there already."""
         table, words = self, self.vocabulary.with_columns({})
         for what, said in self.vocabulary.constants.items():
-            own = [one.heading for one in self.columns if not one.given and words.column(one.heading).quantity == what]
-            if own:
-                problem = f"column {own[0]!r} holds the {what}; leave out {said!r}, or delete the column."
-                raise self.refused("value-not-needed", problem)
+            for place, one in enumerate(self.columns):
+                held = any(row[place].strip().lower() not in MISSING for row in self.rows)
+                if held and not one.given and words.column(one.heading).quantity == what:
+                    problem = f"column {one.heading!r} holds the {what}; leave out {said!r}, or delete the column."
+                    raise self.refused("value-not-needed", problem)
             if match := CONSTANT.fullmatch(said):
                 column = Column(said, what, match["unit"], what, given=True)
                 table = table.with_column(column, [match["number"]] * len(self.rows))

@@ -176,6 +176,10 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
     if block is None and words.several == "titled":
         table = _below_each_other(table)
+    given = words.constants.get("temperature")
+    if given and any(temperature_of_title(title) is not None for title in table.titles):
+        problem = f"the headings, or the lines above its tables, state the temperatures; leave out {given!r}."
+        raise table.refused("value-not-needed", problem)
     return table.with_constants()
 
 

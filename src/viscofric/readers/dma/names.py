@@ -191,13 +191,13 @@ def quantity(name: str) -> str | None:
 def temperature_in_name(name: str) -> float | None:
     """Return the temperature in the name of a file or sheet, such as ``"foam_dma_-25C"``, K, or None.
 
-    A minus sign must follow a space or an underscore: in ``"foam-25C"`` and ``"foam - 25C"`` it may be a dash.
+    A minus sign must follow a space or an underscore: in ``"foam-25C"`` it may be a dash, and ``"foam - 25C"`` has one.
     """
     found = list(TEMPERATURE_IN_NAME.finditer(name))
     if len(found) != 1 or found[0]["dash"]:
         return None
     one = found[0]
-    number = float(one["number"].replace(",", ".")) * (-1.0 if one["sign"] in ("-", "−", "–") else 1.0)
+    number = float(one["number"].replace(",", ".")) * (-1.0 if one["minus"] or one["sign"] in ("-", "−", "–") else 1.0)
     number = (number - 32.0) / 1.8 if one["unit"].endswith("F") else number
     kelvin = number if one["unit"] == "K" else number + CELSIUS_ZERO
     return kelvin if kelvin > _COLDEST else None
