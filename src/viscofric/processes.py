@@ -115,6 +115,8 @@ def started(needed: str, memory: int = 0, **environment: str) -> Child:
             [sys.executable, "-P", "-c", program],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
+            # what libraries print as the memory of their process ends is said by the error of the call
+            stderr=subprocess.DEVNULL if memory else None,
             env={**os.environ, **environment, "PYTHONPATH": path},
             creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # no window under Windows
         )
