@@ -67,8 +67,9 @@ def test_resistances_between_knots_are_those_of_the_contacts(monkeypatch: pytest
     assert found.viscoelastic == pytest.approx(each.viscoelastic, rel=5e-3)
 
 
+@pytest.mark.apart
 @pytest.mark.slow
-@pytest.mark.parametrize("slip", [pytest.param(None, marks=pytest.mark.apart), "0.1 m/s"])
+@pytest.mark.parametrize("slip", [None, "0.1 m/s"])
 def test_resistances_between_knots_are_those_of_rough_contacts(
     slip: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:

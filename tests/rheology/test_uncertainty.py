@@ -69,6 +69,7 @@ def test_bands_hold_the_truth_and_are_narrower_than_the_noise():
     assert 0.001 < np.median(half_width(band)) < 0.015
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_bands_grow_with_the_noise():
     widths = []
@@ -94,6 +95,7 @@ def coldest_uncertain(error):
     return covariance
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_an_uncertain_shift_widens_the_band_where_its_isotherm_stands_alone():
     sure = sample_materials(known_superposition())

@@ -34,6 +34,7 @@ def ran(document: dict[str, Any], folder: Path) -> Any:
     return vf.run_study(path).dataset
 
 
+@pytest.mark.apart
 def test_curve_is_that_of_the_exported_run_file(desk: Desk, tmp_path: Path) -> None:
     study = {**BALL, "solver": {"accuracy": 0.1, "master_curve_points": 5}}
     answer = desk.run(curve, study)

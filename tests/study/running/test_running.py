@@ -35,6 +35,7 @@ def pair() -> Iterator[Processes]:
         yield executor
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_processes_find_the_same_bits_and_one_may_be_killed(
     alone: tuple[TwoWaves, CaseStore], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
