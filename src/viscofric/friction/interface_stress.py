@@ -124,6 +124,8 @@ class ShearStress(Plotted):
         -----
         Where the law misses the points by more than their errors, the least independent scatter that explains the
         misfit is added to them, and the covariance grows so that normal 95 % intervals are those of Student's t.
+        Errors that all points of a temperature share count only as `level_error` of `shear_stress` gives them; where
+        they are larger, the covariance is too small.
         """
         law = fit_stress(kind, self._table, *self._way).law
         return replace(law, fitted_pressures=(float(self.mean_pressure.min()), float(self.mean_pressure.max())))
