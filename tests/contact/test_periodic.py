@@ -420,6 +420,7 @@ def test_more_speed_opens_the_contact() -> None:
     assert areas[0] > 2.0 * areas[-1]
 
 
+@pytest.mark.apart
 @pytest.mark.parametrize("pressure", [1e-6, 0.02, 0.5, 5.0, 50.0])
 @pytest.mark.parametrize(
     ("modulus_ratio", "tau"),

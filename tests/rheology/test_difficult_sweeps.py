@@ -143,6 +143,7 @@ def test_what_neighbours_miss_alike_is_distinguished_from_noise():
     assert note.values["decades"] == found.size[:, 0].max()
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_a_band_holds_the_measurement_where_superposition_fails():
     made = planted_sweeps(0, 0.003)

@@ -139,6 +139,7 @@ def test_offsets_of_whole_isotherms_are_found_and_carried_into_the_errors(shared
     assert 2.0 < np.mean(errors) / np.median(points) < 8.0
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_offsets_beside_a_free_vertical_shift_keep_errors_where_they_are_found_too_small():
     """Sweeps fix the size of offsets badly there: where 1 % is found to be less, errors must not follow all the way."""
@@ -324,6 +325,7 @@ def test_a_law_fitted_to_bare_values_has_the_errors_of_a_regression_line():
     assert constant == pytest.approx(line.slope * np.log(10.0) * 8.314462618, rel=1e-6)
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_scatter_added_to_a_law_counts_its_two_constants():
     """WLF to six values: χ² is brought to 6 − 1 − 2 = 3, and the errors hold what they promise over many tables."""

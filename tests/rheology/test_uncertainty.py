@@ -81,6 +81,7 @@ def test_bands_grow_with_the_noise():
     assert widths[2] / widths[1] == pytest.approx(2.0, rel=0.2)
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_fewer_per_cent_are_narrower():
     samples = sample_materials(known_superposition())
@@ -200,6 +201,7 @@ def test_laws_are_drawn_as_uncertain_as_they_were_fitted(law):
         samples.materials[0].at("600 degC")
 
 
+@pytest.mark.apart
 @pytest.mark.parametrize("method", ["non-negative", "regularised", "sparse"])
 @pytest.mark.slow
 def test_every_method_is_refitted_its_own_way(method):
@@ -326,6 +328,7 @@ def test_what_a_fit_follows_is_missing_from_its_residuals():
     assert np.std(values) < 0.008
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
     sweeps = vf.read_dma(real_data / "dma" / "acrylic_468mp.csv", deformation="shear")

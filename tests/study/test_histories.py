@@ -223,6 +223,7 @@ speed = "1 m/s"
 """
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_samples_of_the_material_are_solved_over_time_and_fall(tmp_path: Path) -> None:
     sweeps = files("viscofric") / "example" / "dma.csv"

@@ -139,6 +139,7 @@ def test_stored_results_are_taken_up_and_exported(results: StudyResults) -> None
     assert "contact_area_fraction" in heading
 
 
+@pytest.mark.apart
 @pytest.mark.slow  # each of the processes imports everything
 def test_two_processes_find_the_same(results: StudyResults, tmp_path: Path) -> None:
     path = tmp_path / "study.toml"

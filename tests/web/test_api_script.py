@@ -50,6 +50,7 @@ def test_more_jobs_than_places_are_all_answered(tab: Page) -> None:
     assert [one["cases"] for one in script(tab, jobs, STUDY)] == [1] * 9
 
 
+@pytest.mark.apart
 def test_cancelled_jobs_free_their_processes(tab: Page, server: Server) -> None:
     begin = """
         const stop = new AbortController();
@@ -72,6 +73,7 @@ def test_cancelled_jobs_free_their_processes(tab: Page, server: Server) -> None:
     assert script(tab, "return api.runJob('check', {study: given[0]})", STUDY)["cases"] == 1
 
 
+@pytest.mark.apart
 def test_tab_that_is_closed_cancels_its_jobs(tab: Page, server: Server) -> None:
     begin = "await new Promise((go) => { api.runJob('export-study', {study: given[0]}, {onProgress: go}); })"
     script(tab, begin, LONG)

@@ -207,6 +207,7 @@ def test_job_cancelled_while_it_imports_ends_its_process(
     bench(work, most=1)
 
 
+@pytest.mark.apart
 def test_job_that_does_not_let_itself_be_cancelled_is_ended(bench: Callable[..., Any]) -> None:
     async def work(bench: Bench) -> None:
         for do, amount in [("insist", 50.0), ("hold", 2e9)]:

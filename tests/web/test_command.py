@@ -131,6 +131,7 @@ def test_taken_port_is_replaced_by_a_free_one(monkeypatch: pytest.MonkeyPatch) -
     assert f"page http://127.0.0.1:{free}/" in done.stdout
 
 
+@pytest.mark.apart
 def test_run_file_is_what_the_page_opens_with(tmp_path: Path) -> None:
     folder = tmp_path / "study"
     done = CliRunner().invoke(main, ["new", str(folder)])

@@ -55,6 +55,7 @@ def test_curve_is_that_of_the_exported_run_file(desk: Desk, tmp_path: Path) -> N
     assert answer["master"]["reduced_speed"][-1] == pytest.approx(max(answer["reduced_speed"]), rel=ROUNDING)
 
 
+@pytest.mark.apart
 def test_a_rubber_made_of_sweeps_has_the_bands_and_doubts_of_the_run_file(desk: Desk, tmp_path: Path) -> None:
     study = {
         **BALL,

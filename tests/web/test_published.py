@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from web.browser_tab import Tab
 
 
+@pytest.mark.apart
 def test_each_published_number_stands_beside_the_computed_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     desk = Desk(tmp_path)
     kept = [replace(check, compare=cache(lambda compare=check.compare: list(compare()))) for check in PUBLISHED]

@@ -197,6 +197,7 @@ def test_rubbers_of_the_catalogue_have_moduli_and_modes(workspace: Context, name
     assert len(found["spectrum"]["modes"]["retardation_time"]) == {"VHB 4910": 3, "PVB interlayer": 11}.get(name, 37)
 
 
+@pytest.mark.apart
 @pytest.mark.parametrize(
     ("more", "sparse"),
     [({"spectrum": "sparse", "modes": 8}, True), ({"spectrum": "regularised", "tau_ratio": 4}, False)],

@@ -34,6 +34,7 @@ def changed(**tables: Any) -> dict[str, Any]:
     return {**FIRST_STUDY, **tables}
 
 
+@pytest.mark.apart
 @settings(max_examples=30)
 @given(_DOCUMENTS)
 def test_text_says_the_same_as_the_document(document: dict[str, Any]) -> None:

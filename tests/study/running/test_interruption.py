@@ -107,6 +107,7 @@ def test_what_is_removed_in_mid_run_is_an_error(tmp_path: Path, what: str) -> No
     assert run_study(study, resume=True).failures == ()
 
 
+@pytest.mark.apart
 @pytest.mark.slow
 def test_a_changed_case_is_solved_again_and_said(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
