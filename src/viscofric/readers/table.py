@@ -76,8 +76,9 @@ class Table:
         table, words = self, self.vocabulary.with_columns({})
         for what, said in self.vocabulary.constants.items():
             for place, one in enumerate(self.columns):
-                held = any(row[place].strip().lower() not in MISSING for row in self.rows)
-                if held and not one.given and words.column(one.heading).quantity == what:
+                if one.given or words.column(one.heading).quantity != what:
+                    continue
+                if any(row[place].strip().lower() not in MISSING for row in self.rows):
                     problem = f"column {one.heading!r} holds the {what}; leave out {said!r}, or delete the column."
                     raise self.refused("value-not-needed", problem)
             if match := CONSTANT.fullmatch(said):
