@@ -17,7 +17,6 @@ from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.stage import Stage
 from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.contact.operators.convolution import SteadyMaterial, bent_share, second_difference
-from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.reference import hunter_line
 
 INDENTERS = {POINT.name: Ball(radius=1.0), LINE.name: Cylinder(radius=1.0)}
@@ -57,8 +56,9 @@ def test_short_memories_are_right_on_the_coarsest_grid(geometry: Geometry, modul
     stage = coarse_stage(contact(geometry, modulus_ratio, [3.0, 2.0, 1.0], lengths))
     law = float(stage.problem.solid.compliances @ np.asarray(lengths))  # (v/R) Σ C_k τ_k E0
     # The law's next term is about the longest memory over the contact; the dissipation alone is 4 % off.
-    assert stage.balanced_friction == pytest.approx(law, rel=5e-5)
-    assert stage.energy_friction != pytest.approx(law, rel=0.01)
+    assert stage.energy_friction == pytest.approx(law, rel=5e-5)
+    dissipated = stage.operator.dissipated_force(stage.result.pressure) / stage.load
+    assert dissipated != pytest.approx(law, rel=0.01)
 
 
 def test_opening_counts_gaps_beside_pressures() -> None:
@@ -93,18 +93,6 @@ def test_lag_is_that_of_a_finer_rule(modulus_ratio: float, error: float, monkeyp
     monkeypatch.setattr("viscofric.contact.free.balance._PLACES", places)
     monkeypatch.setattr("viscofric.contact.free.balance._WEIGHTS", weights)
     np.testing.assert_allclose(found, [[lag(solid, 1.0, cut) for cut in LINE.cuts] for solid in solids], rtol=error)
-
-
-@pytest.mark.parametrize("length", [1e-5, 0.05, 0.5, 3.0])
-def test_both_ways_to_the_dissipation_agree_to_second_order(length: float) -> None:
-    def difference(cells: int) -> float:
-        window = Window(3.2 / cells, cells, cells, cells)
-        pressure = np.exp(-2.0 * (window.x[:, None] ** 2 + window.y**2))
-        operator = HalfSpaceOperator(window, SteadyMaterial(0.1, np.array([0.9]), np.array([length])))
-        return operator.bent_dissipated_force(pressure) / operator.dissipated_force(pressure) - 1.0
-
-    # A quarter on half the cells, and the next order; more where the slopes take over.
-    assert abs(difference(32)) < 0.3 * abs(difference(16)) < 0.02
 
 
 def test_bent_share_fades_for_long_memories() -> None:

@@ -183,7 +183,7 @@ def friction(stage: Stage, way: str, **changed: float | Array) -> float:
     assert result.converged
     assert np.array_equal(result.pressure > 0.0, stage.result.pressure > 0.0)
     there = Stage(stage.problem, stage.window, operator, result)
-    return there.balanced_friction if way == "balance" else there.pressure_friction
+    return there.energy_friction if way == "balance" else there.pressure_friction
 
 
 @pytest.mark.parametrize("way", ["pressure", "balance"])
@@ -439,8 +439,8 @@ def test_transposed_operator_has_the_transposed_matrix() -> None:
         np.vdot(a, operator.precondition(b)), rel=1e-12
     )
     # A quadratic form: exact for any step.
-    slope = (operator.bent_dissipated_force(a + b) - operator.bent_dissipated_force(a - b)) / 2.0
-    assert np.vdot(operator.bent_dissipated_force_gradient(a), b) == pytest.approx(slope, rel=1e-10)
+    slope = (operator.dissipated_force(a + b) - operator.dissipated_force(a - b)) / 2.0
+    assert np.vdot(operator.dissipated_force_gradient(a), b) == pytest.approx(slope, rel=1e-10)
 
 
 def test_other_arrays_give_the_same_derivatives() -> None:

@@ -47,13 +47,11 @@ def test_broad_spectrum_at_low_speed() -> None:
     assert slow.solve(accuracy=5e-3).friction_coefficient == pytest.approx(low_speed_friction(slow), rel=6e-3)
 
 
-def test_friction_at_low_speed_is_better_than_the_energy_of_the_finest_grid() -> None:
-    """What is dissipated settles in the first order of the cell there, and is extrapolated."""
+def test_friction_at_low_speed_is_better_than_the_accuracy() -> None:
     slow = standard_linear_solid(10.0, 1e-5)
-    solution, law = slow.solve(accuracy=4e-3), low_speed_friction(slow)
-    assert abs(solution.energy_friction_coefficient / law - 1.0) > 1.5e-3
     # 2e-4 was found, on 256 cells; the law's next term is about 1e-5.
-    assert solution.friction_coefficient == pytest.approx(law, rel=1e-3)
+    found = slow.solve(accuracy=4e-3).friction_coefficient
+    assert found == pytest.approx(low_speed_friction(slow), rel=1e-3)
 
 
 def test_broad_spectrum_at_high_speed() -> None:

@@ -85,7 +85,7 @@ def test_least_error_after_no_halving_is_that_of_the_estimate() -> None:
     stages: list[Any] = [
         SimpleNamespace(
             pressure_friction=value,
-            balanced_friction=1.0,
+            energy_friction=1.0,
             left_out_range=lambda spacing: math.inf,
             window=SimpleNamespace(spacing=1.0),
             problem=SimpleNamespace(geometry=SimpleNamespace(scatter=1.0)),

@@ -9,7 +9,7 @@ import viscofric as vf
 from contact.dense_reference import displacement_coefficients, displacement_matrix
 from marks import apart, slow
 from viscofric.contact.free.grids import Window
-from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
+from viscofric.contact.operators.convolution import SteadyMaterial, bent_share, collocation_shift
 from viscofric.contact.operators.half_space import HalfSpaceOperator
 
 WINDOW = Window(spacing=0.25, behind=6, ahead=5, beside=4)
@@ -113,14 +113,13 @@ def graded_panels(end: float, smallest: float) -> tuple[np.ndarray, np.ndarray]:
     return (edges[:-1, None] + half * (1.0 + points)).ravel(), (half * weights).ravel()
 
 
-def loss_weight(material: SteadyMaterial, qx: np.ndarray, qy: np.ndarray) -> np.ndarray:
-    """2 q_x (−Im S(−q_x v)) of DESIGN's energy integral, with the passage from cells to their centres.
-
-    A cell's pressure is spread over its square and the answer looked up at its centre: sinc times sinc.
-    """
+def loss_weight(material: SteadyMaterial, qx: np.ndarray, spacing: float) -> np.ndarray:
+    """2 q_x (−Im S(−q_x v)) of the energy integral; on cells, with second differences for a part of each mode."""
+    bent = bent_share(material.memory_lengths / spacing) if spacing > 0.0 else np.zeros(len(material.compliances))
+    differences = np.sinc(qx * spacing / (2.0 * np.pi)) ** 2
     loss = sum(
-        c * qx * length / (1.0 + (qx * length) ** 2)
-        for c, length in zip(material.compliances, material.memory_lengths, strict=True)
+        (1.0 - share + share * differences) * c * qx * length / (1.0 + (qx * length) ** 2)
+        for c, length, share in zip(material.compliances, material.memory_lengths, bent, strict=True)
     )
     return 2.0 * qx * loss
 
@@ -140,7 +139,7 @@ def energy_integral(material: SteadyMaterial, spacing: float = 0.0) -> float:
     q, q_weight = q[:, None], q_weight[:, None]
     qx, qy = q * np.sin(theta), q * np.cos(theta)  # graded towards q_x = 0, where long memories act
     transform = 2.0 * np.pi * np.exp(-0.5 * q**2)
-    integrand = loss_weight(material, qx, qy) * transform**2 * spread(qx, qy, spacing)  # d²q/|q| = dq dθ
+    integrand = loss_weight(material, qx, spacing) * transform**2 * spread(qx, qy, spacing)  # d²q/|q| = dq dθ
     return 4.0 * float(np.sum(q_weight * theta_weight * integrand)) / (4.0 * np.pi**2)
 
 
@@ -157,7 +156,7 @@ def aliased_energy(material: SteadyMaterial, spacing: float, reach: int = 40) ->
                 continue
             qx, qy = (gx + k)[:, None], gy + k
             twice = 1.0 if gy == 0.0 else 2.0
-            density = loss_weight(material, qx, qy) / np.hypot(qx, qy) * spread(qx, qy, spacing)
+            density = loss_weight(material, qx, spacing) / np.hypot(qx, qy) * spread(qx, qy, spacing)
             total += twice * float(np.sum(density * transform))
     return total / (4.0 * np.pi**2)
 
@@ -194,9 +193,10 @@ def test_dissipated_energy_of_a_smooth_pressure_converges() -> None:
     exact = energy_integral(material)
     errors = [abs(gaussian_energy(material, spacing) / exact - 1.0) for spacing in (0.5, 0.25, 0.125)]
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
-    # A cell spreads its pressure over its square: (q h)²/24 of the result, second order.
+    # A cell spreads its pressure over its square, (q h)²/24 of the result, and bends are found from second differences,
+    # (q h)²/12: second order.
     assert np.all(orders > 1.5)
-    assert errors[-1] < 1e-3
+    assert errors[-1] < 2e-3
 
 
 def test_dissipated_energy_of_short_memories_is_proportional_to_them() -> None:
@@ -211,9 +211,8 @@ def test_dissipated_force_is_the_work_on_the_slopes() -> None:
     """From overlaps of the pressure, as from a product: a quadratic form is half of its gradient times its argument."""
     operator = HalfSpaceOperator(WINDOW, SIX_MODES)
     pressure = np.random.default_rng(6).random(WINDOW.shape)
-    overlaps = operator.overlaps(pressure)
-    by_product = 0.5 * float(np.vdot(operator.bent_dissipated_force_gradient(pressure), pressure))
-    assert operator.bent_dissipated_force(pressure, overlaps) == pytest.approx(by_product, rel=1e-12)
+    by_product = 0.5 * float(np.vdot(operator.dissipated_force_gradient(pressure), pressure))
+    assert operator.dissipated_force(pressure) == pytest.approx(by_product, rel=1e-12)
 
 
 def test_products_are_counted() -> None:
@@ -248,9 +247,10 @@ def test_dissipated_energy_of_a_smooth_pressure_is_the_same_on_rectangles(aspect
     spacing = 0.125 / max(1.0, aspect / 4.0)
     window = Window.around(8.0, 8.0, 8.0, round(16.0 / (spacing * min(1.0, aspect))), aspect)
     pressure = np.exp(-0.5 * (window.x[:, None] ** 2 + window.y**2))
-    # Cells spread the pressure over their length and width, at most 1/2 here: (q h)²/24 of the result each.
+    # Cells spread the pressure over their length and width, at most 1/2 here: (q h)²/24 of the result each; and bends
+    # along the motion are found from second differences, (q h)²/12.
     error = HalfSpaceOperator(window, material).dissipated_force(pressure) / energy_integral(material) - 1.0
-    assert abs(error) < 0.05 * max(window.spacing, window.width) ** 2 + 1e-4
+    assert abs(error) < 0.1 * max(window.spacing, window.width) ** 2 + 1e-4
 
 
 def test_corrections_in_single_precision_cost_no_digits(monkeypatch: pytest.MonkeyPatch) -> None:

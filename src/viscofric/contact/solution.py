@@ -209,12 +209,13 @@ class ContactSolution(Plotted):
         K, as given.
     friction_coefficient : float
         μ = F_t/F_N, with the sign of the speed: of the two below the one that has converged better on the nested
-        grids, the second with what the cells at the edge leave out (see `viscofric.contact.free.balance`).
+        grids.
     pressure_friction_coefficient : float
         From the asymmetry of the pressure on the indenter's slope, on the finest grid.
     energy_friction_coefficient : float
-        From the energy that the material dissipates, on the finest grid; with `coulomb` from the work of the pressure
-        on the material's displacement, part of which shear gives back.
+        From the energy that the material dissipates, with what the cells at the edge leave out (see
+        `viscofric.contact.free.balance`), on the finest grid; with `coulomb` from the work of the pressure on the
+        material's displacement, part of which shear gives back.
     indentation : float
         δ, m: depth of the indenter's lowest point below the undeformed surface.  In a line contact, where the surface
         far away is infinitely high above it (but for that of a layer under a rigid indenter), below the surface at the

@@ -62,7 +62,7 @@ def friction_on_its_cells(stage: Stage, way: str, scale: Scale, logarithms: Arra
     assert result.converged
     assert np.array_equal(result.pressure > 0.0, stage.result.pressure > 0.0)
     there = Stage(problem, stage.window, operator, result)
-    return scale.slope * (there.pressure_friction if way == "pressure" else there.balanced_friction)
+    return scale.slope * (there.pressure_friction if way == "pressure" else there.energy_friction)
 
 
 @pytest.mark.parametrize("seed", [*range(5), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(5, 20))])

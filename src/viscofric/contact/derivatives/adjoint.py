@@ -102,8 +102,8 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
         value = stage.pressure_friction
         by_pressure = stage.problem.shape.slope(window.x[:, None], window.y) / total
     else:
-        value = stage.balanced_friction
-        by_pressure = operator.bent_dissipated_force_gradient(pressure) / (window.cell_area * total)
+        value = stage.energy_friction
+        by_pressure = operator.dissipated_force_gradient(pressure) / (window.cell_area * total)
         scale = lag(material, window.spacing, stage.cuts[1]) / (window.spacing**2 * total)
         gap = free_gap(pressure, stage.gap)
         by_pressure += scale * neighbours(gap)

@@ -95,7 +95,7 @@ def _stretched(stage: Stage, way: Way, field: Array, gradient: Gradient) -> floa
     displacement = operator.backend.to_numpy(thicker(pressure)) - stage.result.displacement
     thickened = -float(np.vdot(field[known], displacement[known]))
     if way == "balance":
-        force = thicker.bent_dissipated_force(pressure) - operator.bent_dissipated_force(pressure)
+        force = thicker.dissipated_force(pressure) - operator.dissipated_force(pressure)
         thickened += force / (stage.window.cell_area * float(pressure.sum()))
     return change - thickened / _STEP
 

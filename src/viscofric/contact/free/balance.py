@@ -4,7 +4,7 @@ Within the contact the surface follows the indenter, u = δ − h, so that besid
 
     F_t = −∫ p ∂u/∂x dA = Σ_k l_k B_k,      B_k = −∫ p ∂²y_k/∂x² dA
 
-(y_k the displacement of mode k with its memory length l_k; see `ConvolutionOperator.bent_dissipated_force`) there is
+(y_k the displacement of mode k with its memory length l_k; see `ConvolutionOperator.dissipated_force`) there is
 a sum of the same terms that is known beforehand,
 
     ∫ p ∂²h/∂x² dA = −∫ p ∂²u/∂x² dA = Σ_k B_k + B_∞ :

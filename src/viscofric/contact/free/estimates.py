@@ -70,12 +70,12 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     """
     last = stages[-1]
     if len(stages) < FEWEST_GRIDS:
-        return Estimate(last.balanced_friction, math.inf)
+        return Estimate(last.energy_friction, math.inf)
     if len(last.operator.material.compliances) == 0 and last.operator.material.drag == 0.0:
         return Estimate(
             0.0, 0.0
         )  # an elastic contact dissipates nothing, even if its pressure is asymmetric on the grid
-    energy = np.array([stage.balanced_friction for stage in stages])
+    energy = np.array([stage.energy_friction for stage in stages])
     pressure = np.array([stage.pressure_friction for stage in stages])
     difference = abs(float(pressure[-1] - energy[-1]))
     shares = _SHIFTED_SHARES if last.operator.shift > 0.0 else _SHARES
@@ -109,7 +109,7 @@ def least_error(stages: list[Stage], halvings: int) -> float:
     uncertain = last.left_out_range(last.window.spacing / 2.0**halvings) / 2.0**halvings
     values = np.array([stage.pressure_friction for stage in stages])
     pressure = settled(values, measured_fading(values)).error / _PRESSURE_ERROR_FALL**halvings
-    scale = max(abs(last.balanced_friction), FRICTION_FLOOR)
+    scale = max(abs(last.energy_friction), FRICTION_FLOOR)
     return last.problem.geometry.scatter * min(uncertain, pressure) / scale
 
 

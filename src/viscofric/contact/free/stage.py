@@ -50,23 +50,11 @@ class Stage:
         slope = self.problem.shape.slope_across(self.window.x[:, None], self.window.y)
         return self.window.cell_area * float(np.vdot(self.result.pressure, slope)) / self.load
 
-    @property
+    @cached_property
     def energy_friction(self) -> float:
-        """Friction coefficient from the dissipated energy."""
-        return self._dissipated[0]
-
-    @cached_property
-    def _dissipated(self) -> tuple[float, float]:
-        """Friction coefficient from the dissipated energy, by slopes and by bends."""
-        pressure = self.result.pressure
-        overlaps = self.operator.overlaps(pressure)
-        straight = self.operator.dissipated_force(pressure, overlaps)
-        return straight / self.load, self.operator.bent_dissipated_force(pressure, overlaps) / self.load
-
-    @cached_property
-    def balanced_friction(self) -> float:
         """Friction coefficient from the dissipated energy, with the part that cells leave out."""
-        return self._dissipated[1] + lag(self.operator.material, self.window.spacing, self.cuts[1]) * self.opening
+        left_out = lag(self.operator.material, self.window.spacing, self.cuts[1]) * self.opening
+        return self.operator.dissipated_force(self.result.pressure) / self.load + left_out
 
     @property
     def cuts(self) -> tuple[float, float, float]:

@@ -32,7 +32,6 @@ from viscofric.contact.bodies import Layer, half_space_coupling
 from viscofric.contact.influence.line import strip_potential, strip_shear
 from viscofric.contact.influence.potentials import (
     cell_potential,
-    cell_potential_xx,
     shear_potential,
     shear_potential_slope,
 )
@@ -72,14 +71,6 @@ class _Table:
             result *= t
             result += row[piece]
         return result
-
-    def slope(self, distance: Array) -> Array:
-        """Return the derivative with respect to r/H."""
-        piece, t = self._locate(distance)
-        result = np.zeros_like(t)
-        for power in range(_COEFFICIENTS - 1, 0, -1):
-            result = result * t + power * self.coefficients[power][piece]
-        return result * (2.0 / _PIECE)
 
     def _locate(self, distance: Array) -> tuple[Indices, Array]:
         count = self.coefficients.shape[1]
@@ -219,10 +210,6 @@ class LayerCell:
             found += self._far * shear_potential_slope(x, y, self.aspect)
         return self.drag * found
 
-    def xx(self, x: Array, y: Array) -> Array:
-        """Second derivative along x (not on the lines x = ±1/2 through the cell's edges)."""
-        return self._within_reach(x, y, self._near_xx)
-
     def _near(self, x: Array, y: Array) -> Array:
         taken = np.zeros_like(x)
         for dx, dy, weight in self._points:
@@ -255,23 +242,6 @@ class LayerCell:
         found = self._table(distance) / self.thickness
         found[beyond] = -1.0 / r[beyond]
         return found
-
-    def _near_xx(self, x: Array, y: Array) -> Array:
-        # The derivative of the slope along x, integrated over the cell, is its difference from end to end.
-        taken = np.zeros_like(x)
-        for dy, weight in zip(*_cell_rule(self.aspect / self.thickness), strict=True):
-            for end, sign in ((0.5, 1.0), (-0.5, -1.0)):
-                taken += sign * weight * self._slope_along(x + end, y - self.aspect * dy)
-        return cell_potential_xx(x, y, self.aspect) + self.aspect * taken
-
-    def _slope_along(self, x: Array, y: Array) -> Array:
-        r = np.hypot(x, y)
-        distance = r / self.thickness
-        beyond = distance >= self._table.reach
-        # Even in r, the slope vanishes at r = 0 as the direction loses its meaning.
-        found = self._table.slope(distance) / self.thickness**2 * x / np.maximum(r, 1e-300)
-        found[beyond] = (x / r**3)[beyond]
-        return np.asarray(found)
 
     def _within_reach(self, x: Array, y: Array, function: Callable[[Array, Array], Array]) -> Array:
         x, y = np.broadcast_arrays(x, y)
@@ -346,15 +316,4 @@ class LayerStrip:
             taken[beyond] = np.log(distance[beyond])
             result += weight * taken
         result[np.abs(x) >= self._table.reach * self.thickness + 1.0] = 0.0
-        return result
-
-    def xx(self, x: Array, y: Array) -> Array:
-        """Second derivative along x (not for x = ±1/2)."""
-        x, _ = np.broadcast_arrays(x, y)
-        result = np.zeros(x.shape)
-        for end, sign in ((0.5, 1.0), (-0.5, -1.0)):
-            distance = np.abs(x + end) / self.thickness
-            within = distance < self._table.reach
-            slope = self._table.slope(distance[within]) * np.sign(x[within] + end) / self.thickness
-            result[within] += sign * (slope - 1.0 / (x[within] + end))
         return result

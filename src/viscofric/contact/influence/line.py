@@ -60,11 +60,6 @@ class HalfSpaceStrip:
         x = np.broadcast_arrays(x, y)[0]
         return np.where(np.abs(x) < 0.5, np.pi * self.drag, 0.0)
 
-    def xx(self, x: Array, y: Array) -> Array:
-        """Second derivative along x (not for x = ±1/2)."""
-        x = np.broadcast_arrays(x, y)[0]
-        return np.asarray(1.0 / (x - 0.5) - 1.0 / (x + 0.5))
-
 
 def strip_shear(x: Array) -> Array:
     """Integral of (π/2) sgn(x − x') over the unit cell around the origin."""

@@ -27,9 +27,6 @@ class CellPotential(Protocol):
     def __call__(self, x: Array, y: Array) -> Array:
         """Value at (x, y) from the cell's centre; even in y, and in x but for `drag`."""
 
-    def xx(self, x: Array, y: Array) -> Array:
-        """Second derivative along x of the even part (not on the lines x = ±1/2 through the cell's edges)."""
-
     @property
     def drag(self) -> float:
         """Factor of the part that is odd in x, by shear; zero without."""
@@ -95,24 +92,6 @@ def _corner_sum(corner: Callable[[Array, Array], Array], x: Array, y: Array, asp
     return corner(east, north) - corner(east, south) - corner(west, north) + corner(west, south)
 
 
-def cell_potential_xx(x: Array, y: Array, aspect: float = 1.0) -> Array:
-    """Second derivative along x of `cell_potential` (not on the lines x = ±1/2 through the cell's edges).
-
-    Far away by its multipole series, right to 1e-6 of it.
-    """
-    x, y = np.broadcast_arrays(x, y)
-    near, x2, y2, inverse2 = _from_afar(x, y, aspect)
-    moments = x2 * (x2 - 3.0 * y2) + 0.375 * y2 * y2 - aspect**2 * (0.5 * x2 * x2 - 3.375 * x2 * y2 + 0.5 * y2 * y2)
-    result = np.asarray(aspect * np.sqrt(inverse2) * inverse2 * (2.0 * x2 - y2 + inverse2 * moments))
-
-    def corner(a: Array, b: Array) -> Array:
-        return np.asarray(-b / (a * np.hypot(a, b)))
-
-    if near.any():
-        result[near] = _corner_sum(corner, x[near], y[near], aspect)
-    return result
-
-
 def shear_potential(x: Array, y: Array, aspect: float = 1.0) -> Array:
     """Integral of x/r² over the rectangle |x'| < 1/2, |y'| < aspect/2, seen from (x, y) in its plane."""
 
@@ -153,7 +132,3 @@ class HalfSpaceCell:
     def drag_slope(self, x: Array, y: Array) -> Array:
         """Return the derivative along x of the part by shear."""
         return self.drag * shear_potential_slope(x, y, self.aspect)
-
-    def xx(self, x: Array, y: Array) -> Array:
-        """Second derivative along x."""
-        return cell_potential_xx(x, y, self.aspect)

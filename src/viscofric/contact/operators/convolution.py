@@ -25,9 +25,6 @@ if TYPE_CHECKING:
     from viscofric.contact.influence.potentials import CellPotential
 
 
-# A mode with a memory shorter than this (in cells) dissipates by its leading term, λ² ∂²/∂x²: the next one
-# is λ² = 1e-6 smaller, while the difference of its two potentials would have lost that much to rounding.
-SHORT_MEMORY = 1e-3
 # Memory length, in cells, from which on a mode's dissipation follows from slopes instead of bends.
 _BEND_MEMORY = 10.0
 # Cells processed together: few enough for the cache.
@@ -78,15 +75,13 @@ class Influence(NamedTuple):
     """
 
     displacement: Array
-    dissipation: Array  # the part of its slope that dissipates
-    # the same, but of short memories from second differences; see `ConvolutionOperator.bent_dissipated_force`
-    bent_dissipation: Array
+    # the part of its slope that dissipates, of short memories from bends; see `ConvolutionOperator.dissipated_force`
+    dissipation: Array
 
     def times(self, unit: float, length: float) -> Influence:
         """Return displacements in a unit times a length, their slopes in that unit; in place, since they are large."""
         self.displacement[...] *= unit * length
         self.dissipation[...] *= unit
-        self.bent_dissipation[...] *= unit
         return self
 
 
@@ -109,7 +104,6 @@ class ConvolutionOperator(ABC):
     products: int = field(default=0, init=False)
     _transfer: AnyArray = field(init=False, repr=False)
     _dissipation: Array = field(init=False, repr=False)
-    _bent_dissipation: Array = field(init=False, repr=False)
     _inverse_symbol: AnyArray = field(init=False, repr=False)
     _padded: tuple[int, int] = field(init=False, repr=False)
     _is_damped: bool = field(default=False, init=False, repr=False)
@@ -121,7 +115,7 @@ class ConvolutionOperator(ABC):
             scipy.fft.next_fast_len(2 * ny - 1, real=True),
         )
         # The dissipation is evaluated once, after the solve: its spectra are not kept.
-        displacement, self._dissipation, self._bent_dissipation = self._influence()
+        displacement, self._dissipation = self._influence()
         self._transfer = self._spectrum(displacement)
         self._inverse_symbol = self.backend.asarray(_optimal_circulant_inverse(displacement))
 
@@ -198,28 +192,19 @@ class ConvolutionOperator(ABC):
         """Friction force from the energy that the material dissipates, per unit of distance slid.
 
         F_t = −∫ p ∂u/∂x dA, in which only the memory does work; in Fourier space the integral over q of
-        2 q_x |p̂|² (−Im S)/|q| (see docs/theory/numerics.md).  `overlaps` of the pressure are found if not given.
-        """
-        return self._resistance(self._dissipation, pressure, overlaps)
-
-    def bent_dissipated_force(self, pressure: Array, overlaps: Array | None = None) -> float:
-        """Friction force from the dissipated energy, that of short memories from the bends of the surface.
+        2 q_x |p̂|² (−Im S)/|q| (see docs/theory/numerics.md).
 
         The displacement of one mode, y_k − l_k ∂y_k/∂x = c_k L p, dissipates −∫ p ∂y_k/∂x dA = −l_k ∫ p ∂²y_k/∂x² dA,
         since the slope of c_k L p does no work.  With second differences in place of ∂²/∂x² the part that cells leave
         out follows from the bends of the gap; see `viscofric.contact.free.balance`.  For modes whose memory is long
         against the cell the slope is more accurate; `bent_share` is the part of each mode that is found from bends.
         """
-        return self._resistance(self._bent_dissipation, pressure, overlaps)
+        return -self.window.cell_area * float(np.vdot(self._dissipation, self.overlaps(pressure)))
 
-    def _resistance(self, influence: Array, pressure: Array, overlaps: Array | None) -> float:
-        overlaps = self.overlaps(pressure) if overlaps is None else overlaps
-        return -self.window.cell_area * float(np.vdot(influence, overlaps))
-
-    def bent_dissipated_force_gradient(self, pressure: Array) -> Array:
-        """Change of `bent_dissipated_force` with the pressure of each cell, (nx, ny)."""
+    def dissipated_force_gradient(self, pressure: Array) -> Array:
+        """Change of `dissipated_force` with the pressure of each cell, (nx, ny)."""
         # The force is a quadratic form, which has a symmetric matrix: that of the influence and its mirror image.
-        symmetric = self._spectrum(self._bent_dissipation + self._bent_dissipation[::-1])
+        symmetric = self._spectrum(self._dissipation + self._dissipation[::-1])
         slope = self._convolve(symmetric, self.backend.asarray(pressure))
         return -self.window.cell_area * self.backend.to_numpy(slope)
 
@@ -261,19 +246,17 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
     nx, ny = operator.window.shape
     compliances = operator.material.compliances
     lengths = operator.material.memory_lengths / operator.window.spacing
-    # ∂K/∂x = (K − L)/λ for each mode, and ∂L/∂x does no work on any pressure (it is odd).
-    long = lengths > SHORT_MEMORY
-    rates = np.zeros_like(compliances)
-    rates[long] = compliances[long] / lengths[long]
     bent = bent_share(lengths)
+    # ∂K/∂x = (K − L)/λ for each mode, and ∂L/∂x does no work on any pressure (it is odd).
     straight = (1.0 - bent) * compliances / lengths
-    mixtures = np.stack([compliances, rates, bent * compliances * lengths, straight])
-    without_memory = np.array([instant, -rates.sum(), 0.0, -straight.sum()])
+    mixtures = np.stack([compliances, bent * compliances * lengths, straight])
+    without_memory = np.array([instant, 0.0, -straight.sum()])
     even = cell.drag == 0.0
-    displacement, slope, bend, straight_slope = memory_influence(
+    displacement, bend, slope = memory_influence(
         (nx + 1, ny), mixtures, lengths, instant=without_memory, potential=cell, aspect=cell.aspect, even=even
     )
     displacement, slope = displacement[1:-1], slope[1:-1]
+    slope += second_difference(bend)
     if operator.shift > 0.0:
         (displacement,) = memory_influence(
             (nx, ny),
@@ -285,21 +268,11 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
             aspect=cell.aspect,
             even=even,
         )
-    short = float((compliances[~long] * lengths[~long]).sum())
-    if short > 0.0:
-        at_once = max(1, _CELLS_AT_ONCE // ny)
-        for start in range(0, nx, at_once):
-            i = np.arange(start, min(start + at_once, nx))
-            curvature = short * cell.xx(i[:, None].astype(float), cell.aspect * np.arange(float(ny)))
-            slope[nx - 1 + i] += curvature
-            slope[nx - 1 - i[i > 0]] += curvature[i > 0]
-    bent_slope = second_difference(bend) + straight_slope[1:-1]
     if not even:
         # ∂L/∂x has an even part, which works; it is in the differences of potentials of long memories only.
         instant_slope = cell.drag_slope(np.arange(-(nx - 1.0), nx)[:, None], cell.aspect * np.arange(float(ny)))
-        slope += (instant + float(compliances[~long].sum())) * instant_slope
-        bent_slope += (instant + float((bent * compliances).sum())) * instant_slope
-    return Influence(displacement, slope, bent_slope)
+        slope += (instant + float((bent * compliances).sum())) * instant_slope
+    return Influence(displacement, slope)
 
 
 def add_counterface(
@@ -314,9 +287,7 @@ def add_counterface(
     displacement = cell(x - operator.shift, y)
     found.displacement[...] += compliance * (displacement - below(displacement) if levelled else displacement)
     if cell.drag:
-        slope = compliance * cell.drag_slope(x, y)
-        found.dissipation[...] += slope
-        found.bent_dissipation[...] += slope
+        found.dissipation[...] += compliance * cell.drag_slope(x, y)
 
 
 def below(values: Array) -> float:

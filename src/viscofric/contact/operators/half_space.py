@@ -67,19 +67,17 @@ class LineOperator(ConvolutionOperator):
         lengths, none = material.memory_lengths / h, np.zeros(1)
         centred = material.glassy * cell(x, none)
         dissipation = material.glassy * cell.drag_slope(x, none)
-        bent_dissipation = dissipation.copy()
         for compliance, length, bent in zip(material.compliances, lengths, bent_share(lengths), strict=True):
             delayed, lost = line_memory_influence(wider, length)
             straight = lost[1:-1]
             if cell.drag:
                 sheared, slope = shear_memory_influence(wider, length)
                 delayed, straight = delayed + cell.drag * sheared, straight + cell.drag * slope[1:-1]
-                bent_dissipation += compliance * bent * cell.drag_slope(x, none)
+                dissipation += compliance * bent * cell.drag_slope(x, none)
             centred += compliance * delayed[1:-1]
-            dissipation += compliance * straight
-            bent_dissipation += compliance * (bent * length * second_difference(delayed) + (1.0 - bent) * straight)
+            dissipation += compliance * (bent * length * second_difference(delayed) + (1.0 - bent) * straight)
         displacement = (centred if self.shift == 0.0 else self._delayed(x - self.shift)) - below(centred)
-        found = Influence(displacement[:, None], dissipation[:, None], bent_dissipation[:, None])
+        found = Influence(displacement[:, None], dissipation[:, None])
         add_counterface(found, self, HalfSpaceStrip(self.material.counterface_drag), levelled=True)
         return found.times(self.unit, h)
 

@@ -107,7 +107,7 @@ class StepOperator(ConvolutionOperator):
 
     def _influence(self) -> Influence:
         whole = np.concatenate([self.quarter[:0:-1], self.quarter])
-        return Influence(whole, np.zeros(1), np.zeros(1))
+        return Influence(whole, np.zeros(1))
 
 
 def step_operator(window: object, response: Response, facing: Response | None, share: float) -> StepOperator:
