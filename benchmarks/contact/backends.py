@@ -35,7 +35,7 @@ from gallery import broad_spectrum_25  # noqa: E402
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-BACKENDS = ("scipy", "scipyx2", "ducc0", "ducc0x2", "pyfftw", "pyfftwx2", "torch:cpu", "torch:cuda", "cupy")
+BACKENDS = ("scipy", "scipyx2", "ducc0", "ducc0x2", "torch:cpu", "torch:cuda", "cupy")
 MODES = vf.RetardationSpectrum(1.0, 100.0, np.full(20, 0.99 / 20), np.logspace(-4, 1, 20))
 RUBBER = vf.Material(MODES, poisson_ratio=0.0)
 BALL_ACCURACY = 3e-4

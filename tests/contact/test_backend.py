@@ -29,7 +29,7 @@ from viscofric.errors import InputError
 from viscofric.processes import Workers, call_all
 from viscofric.threads import THREADS_VARIABLE, in_parts, so_many, threads_for, usable_threads
 
-OTHERS = ("array_api_strict", "ducc0", "pyfftw", "torch:cpu", "torch:cuda", "cupy")
+OTHERS = ("array_api_strict", "ducc0", "torch:cpu", "torch:cuda", "cupy")
 # The solver's own error at this tolerance, which another rounding may shift; pressures are well conditioned here.
 TOLERANCE, SAME = 1e-12, 1e-10
 
@@ -218,7 +218,6 @@ def test_unknown_backends_are_refused(name: str, code: str) -> None:
     ("name", "words"),
     [
         ("ducc0", "pip install ducc0"),
-        ("pyfftw", "pip install pyfftw"),
         ("torch", "pytorch.org"),
         ("torch:cuda", "pytorch.org"),
         ("cupy", "docs.cupy.dev"),
@@ -280,7 +279,7 @@ def test_processes_share_the_processors(monkeypatch: pytest.MonkeyPatch) -> None
         assert call_all(usable_threads, [{}, {}], workers=workers) == [2, 2]
 
 
-@pytest.mark.parametrize("name", ["scipy", "ducc0", "pyfftw"])
+@pytest.mark.parametrize("name", ["scipy", "ducc0"])
 def test_threads_change_no_digit(name: str) -> None:
     values = np.random.default_rng(1).normal(size=(900, 640))  # more than enough for several threads
     available(name)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import numpy as np
 
 from viscofric.arguments import whole_number
-from viscofric.contact.arrays.transforms import DuccTransforms, FftwTransforms, ScipyTransforms, StandardTransforms
+from viscofric.contact.arrays.transforms import DuccTransforms, ScipyTransforms, StandardTransforms
 from viscofric.errors import InputError, not_imported, wrong_argument
 from viscofric.showing import Shown
 from viscofric.threads import THREADS, in_parts, usable_threads
@@ -31,16 +31,15 @@ if TYPE_CHECKING:
 
 Result = TypeVar("Result")
 
-_ON_NUMPY = ("scipy", "ducc0", "pyfftw")
+_ON_NUMPY = ("scipy", "ducc0")
 _OTHERS = ("torch", "cupy", "array_api_strict")
 _HOW_TO_INSTALL = {
     "ducc0": "python -m pip install ducc0",
-    "pyfftw": "python -m pip install pyfftw",
     "torch": "PyTorch for your machine, see https://pytorch.org/get-started",
     "cupy": "CuPy for your CUDA, see https://docs.cupy.dev/en/stable/install.html",
     "array_api_strict": "python -m pip install array-api-strict",
 }
-_KNOWN = "'scipy', 'ducc0', 'pyfftw', 'cupy', or 'torch', which may name a device, as in 'torch:cuda'"
+_KNOWN = "'scipy', 'ducc0', 'cupy', or 'torch', which may name a device, as in 'torch:cuda'"
 
 
 @dataclass(frozen=True)
@@ -50,7 +49,7 @@ class Backend(Shown):
     Parameters
     ----------
     name : str
-        On NumPy arrays, with the FFTs of that library: "scipy", "ducc0" or "pyfftw".  On arrays of the library, and of
+        On NumPy arrays, with the FFTs of that library: "scipy" or "ducc0".  On arrays of the library, and of
         its FFTs: "cupy", or "torch", if need be with a device, as in "torch:cuda"; all in double precision.
         "array_api_strict" shows that the array standard is kept to, slowly.
     threads : int, optional
@@ -64,8 +63,7 @@ class Backend(Shown):
 
     Notes
     -----
-    The CPU threads of PyTorch are PyTorch's to set (``torch.set_num_threads``).  A backend on FFTW ("pyfftw") keeps its
-    plans, and is not to be shared by threads that solve at the same time.
+    The CPU threads of PyTorch are PyTorch's to set (``torch.set_num_threads``).
 
     Examples
     --------
@@ -132,8 +130,6 @@ class Backend(Shown):
             return ScipyTransforms(self._imported("scipy.fft"), threads)
         if self._library == "ducc0":
             return DuccTransforms(self._imported("ducc0.fft"), threads)
-        if self._library == "pyfftw":
-            return FftwTransforms(self._imported("pyfftw"), threads)
         return StandardTransforms(self.xp.fft)
 
     @cached_property
