@@ -111,21 +111,7 @@ class InversePolynomial(ParametricLaw):
         """
         return InversePolynomial(parameters, self.reference, self.fitted_range)
 
-    def at_reference(self, reference: Quantity) -> InversePolynomial:
-        """Return the same polynomial about another temperature of its range: powers of a shifted variable.
-
-        Parameters
-        ----------
-        reference : float, str or pint.Quantity
-            K if a plain number.
-
-        Raises
-        ------
-        InputError
-            If it is outside the range of the polynomial.
-        """
-        kelvin = positive(reference, "K", "reference")
-        self._refuse(np.array([kelvin]))
+    def _about(self, kelvin: float) -> InversePolynomial:
         moved = _moved(self.degree, 1.0 / kelvin - 1.0 / self.reference)
         covariance = None if self.covariance is None else moved @ self.covariance @ moved.T
         return InversePolynomial(moved @ self.parameters, kelvin, self.fitted_range, covariance)

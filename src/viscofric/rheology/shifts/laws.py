@@ -15,7 +15,7 @@ from viscofric.errors import InputError
 from viscofric.rheology.shifts.inverse_polynomial import InversePolynomial
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10, ShiftLaw
-from viscofric.units import CELSIUS_ZERO, Quantity, positive, shown_celsius
+from viscofric.units import CELSIUS_ZERO, Quantity, shown_celsius
 
 __all__ = [
     "GAS_CONSTANT",
@@ -103,21 +103,8 @@ class WLF(ParametricLaw):
         fraction = warmer / (self.C2 + warmer)
         return np.stack([-fraction, self.C1 * fraction / (self.C2 + warmer)], axis=-1)
 
-    def at_reference(self, reference: Quantity) -> WLF:
-        """Return the same law about another reference: C1 C2 and Tr − C2 are invariant (J. D. Ferry).
-
-        Parameters
-        ----------
-        reference : float, str or pint.Quantity
-            K if a plain number.
-
-        Raises
-        ------
-        InputError
-            If the law is not valid there.
-        """
-        kelvin = positive(reference, "K", "reference")
-        self._refuse(np.array([kelvin]))
+    def _about(self, kelvin: float) -> WLF:
+        # C1 C2 and Tr − C2 are invariant (J. D. Ferry).
         warmer = kelvin - self.reference
         C2 = self.C2 + warmer
         covariance = self._transformed([[self.C2 / C2, self.C1 * warmer / C2**2], [0.0, 1.0]])

@@ -15,7 +15,7 @@ from viscofric.datasets import plain
 from viscofric.errors import InputError, brief
 from viscofric.rheology.shifts.shift_law import ShiftLaw, as_record, checked_covariance, in_kelvin
 from viscofric.showing import Rows
-from viscofric.units import Quantity, kelvin_hint, positive, shown_celsius, shown_number, to_si_array
+from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si_array
 
 #: A law is extrapolated no farther than this beyond the hottest temperature of its fit.  WLF and Arrhenius laws fitted
 #: to the same hundred kelvin (C2 of 90 to 130 K) differ by 0.3 to 1.2 decades over the next fifty; and WLF is a law of
@@ -161,12 +161,6 @@ class ParametricLaw(ShiftLaw):
         if self.covariance is None:
             return None
         return tuple(float(error) for error in np.sqrt(np.diag(self.covariance)))
-
-    def at_reference(self, reference: Quantity) -> Self:
-        """Return the same law with α = 1 at another temperature."""
-        kelvin = positive(reference, "K", "reference")
-        self._refuse(np.array([kelvin]))
-        return replace(self, reference=kelvin)  # type: ignore[call-arg]
 
     # --- uncertainty -----------------------------------------------------------------------------------------
 

@@ -12,7 +12,7 @@ from typing import Any, Literal, overload
 import numpy as np
 
 from viscofric.arguments import sentences, whole_number
-from viscofric.arrays import Array, Mask
+from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.files import file_path, write_atomically
@@ -20,7 +20,7 @@ from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
-from viscofric.rheology.shifts.shift_law import NOMINAL, ShiftLaw
+from viscofric.rheology.shifts.shift_law import ShiftLaw, ShiftTable
 from viscofric.showing import Items, Rows, rows_of
 from viscofric.units import (
     CELSIUS_ZERO,
@@ -43,7 +43,7 @@ _ROUNDING = 1e-13  # decades
 
 
 @dataclass(frozen=True, eq=False)
-class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
+class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
     """A table of shift factors, read between its temperatures by monotone interpolation in 1/T.
 
     Up to half a kelvin beyond its ends, the difference of a nominal temperature from a measured one, it is continued
@@ -100,11 +100,6 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         )
 
     @property
-    def standard_errors(self) -> Array:
-        """Standard error of each log10 α, zero at a reference that was measured."""
-        return np.sqrt(np.diag(self.covariance))
-
-    @property
     def has_standard_error(self) -> bool:
         """True: a table without a covariance is treated as exact."""
         return True
@@ -126,10 +121,6 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         if temperatures is None:
             return self._dataset(self.temperatures, self.log10_values, self.standard_errors)
         return super().to_dataset(temperatures)
-
-    def _valid(self, kelvin: Array) -> Mask:
-        low, high = self.temperatures[0] - NOMINAL, self.temperatures[-1] + NOMINAL
-        return np.asarray((kelvin >= low) & (kelvin <= high))
 
     def _refuse(self, kelvin: Array) -> None:
         outside = ~self._valid(kelvin)
@@ -157,41 +148,13 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         inverse = np.clip(1.0 / kelvin, hottest, coldest)
         return np.asarray(curve(inverse) + curve(inverse, 1) * (1.0 / kelvin - inverse))
 
-    def _standard_error(self, kelvin: Array) -> Array:
-        """Return the standard error of linear interpolation in 1/T, without the error of the interpolation itself."""
-        weights = weights_between(self.temperatures, np.ravel(kelvin))
-        variance = np.einsum("ij,jk,ik->i", weights, self.covariance, weights)
-        return np.asarray(np.sqrt(np.maximum(variance, 0.0)).reshape(np.shape(kelvin)))
+    def _weights(self, kelvin: Array) -> Array:
+        return weights_between(self.temperatures, kelvin)
 
     def _covariance(self, kelvin: Array) -> Array:
         """Return the covariance by the same interpolation, relative to a reference between temperatures."""
-        weights = weights_between(self.temperatures, kelvin)
-        return np.asarray(
-            weights @ referenced_covariance(self.temperatures, self.covariance, self.reference) @ weights.T
-        )
-
-    def at_reference(self, reference: Quantity) -> ShiftFactors:
-        """Return the same factors with α = 1 at another temperature of their range.
-
-        Parameters
-        ----------
-        reference : float, str or pint.Quantity
-            K if a plain number.
-
-        Raises
-        ------
-        InputError
-            If it lies outside the range of the table.
-        """
-        kelvin = positive(reference, "K", "reference")
-        self._refuse(np.array([kelvin]))
-        return ShiftFactors(
-            self.temperatures,
-            self.log10_values,
-            kelvin,
-            referenced_covariance(self.temperatures, self.covariance, kelvin),
-            self.notes,
-        )
+        weights = self._weights(kelvin)
+        return np.asarray(weights @ self._referenced(self.covariance, self.reference) @ weights.T)
 
     def with_value(self, temperature: Quantity, log10: float, standard_error: float = 0.0) -> ShiftFactors:
         """Return the factors with the one at a measured temperature corrected by hand.
@@ -240,7 +203,7 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
         covariance = self.covariance.copy()
         covariance[place, :] = covariance[:, place] = 0.0
         covariance[place, place] = error**2
-        covariance = referenced_covariance(self.temperatures, covariance, self.reference)
+        covariance = self._referenced(covariance, self.reference)
         values = self.log10_values.copy()
         for _ in range(_CORRECTIONS):  # a reference between temperatures moves with its neighbours
             corrected = ShiftFactors(self.temperatures, values, self.reference, covariance)
@@ -360,12 +323,6 @@ class ShiftFactors(ShiftLaw, Items[tuple[float, float]]):
 def _in_celsius(kelvin: float) -> str:
     # The difference and its inverse are exact between half and double of 273.15 (Sterbenz).
     return repr(float(kelvin) - CELSIUS_ZERO)
-
-
-def referenced_covariance(temperatures: Array, covariance: Array, reference: float) -> Array:
-    """Return the covariance of log10 α(T) − log10 α(reference), the latter interpolated linearly in 1/T."""
-    change = np.eye(len(temperatures)) - weights_between(temperatures, np.array([reference]))
-    return np.asarray(change @ covariance @ change.T)
 
 
 def weights_between(temperatures: Array, kelvin: Array) -> Array:

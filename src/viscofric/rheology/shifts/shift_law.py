@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 from abc import ABC, abstractmethod
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any, Self, TypeAlias, overload
 
 import numpy as np
@@ -55,30 +55,6 @@ class Shift(Plotted, ABC):
 
     reference: float  # K
 
-    def _set_table(
-        self, what: str, temperatures: Quantities, log10_values: Any, reference: Quantity, covariance: Any
-    ) -> None:
-        """Set temperatures and values (n,), zero at the reference, and their covariance; `what` names the values."""
-        kelvin, values = to_si_array(temperatures, "K", "temperatures"), np.array(numbers(log10_values, what))
-        if kelvin.size < 2 or values.shape != kelvin.shape:
-            raise InputError(
-                f"{what} need at least two temperatures, and one finite value for each.", code="wrong-length"
-            )
-        if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
-            raise InputError(
-                f"temperatures of {what} must ascend without repeats, above absolute zero.", code="not-ascending"
-            )
-        spread = np.zeros((kelvin.size, kelvin.size))
-        if covariance is not None:
-            spread = checked_covariance(covariance, kelvin.size, what)
-        columns = {"temperatures": kelvin, "log10_values": values, "covariance": spread}
-        for name, column in {**columns, "reference": positive(reference, "K", "reference")}.items():
-            object.__setattr__(self, name, column)
-        self._refuse(np.array([self.reference]))
-        values -= float(self._log10(np.asarray(self.reference)))
-        for column in columns.values():
-            column.flags.writeable = False
-
     @abstractmethod
     def _log10(self, kelvin: Array) -> Array:
         """Return log10 of the shift at temperatures that `_refuse` accepts."""
@@ -86,7 +62,6 @@ class Shift(Plotted, ABC):
     def _refuse(self, kelvin: Array) -> None:
         """Raise `InputError` where the shift has no meaning, is not known, or must not be extrapolated."""
 
-    @abstractmethod
     def at_reference(self, reference: Quantity) -> Self:
         """Return the same shift, 1 at another temperature.
 
@@ -100,6 +75,13 @@ class Shift(Plotted, ABC):
         InputError
             If the shift is not valid there; see `log10`.
         """
+        kelvin = positive(reference, "K", "reference")
+        self._refuse(np.array([kelvin]))
+        return self._about(kelvin)
+
+    def _about(self, kelvin: float) -> Self:
+        """Return the same shift about a temperature that `_refuse` accepts."""
+        return replace(self, reference=kelvin)  # type: ignore[type-var]
 
     @overload
     def log10(self, temperature: Quantity) -> float: ...
@@ -143,6 +125,65 @@ class Shift(Plotted, ABC):
                 code="out-of-range",
             )
         return 10.0**decades
+
+
+class ShiftTable(Shift):
+    """A table of shifts with a covariance, interpolated by subclasses; valid up to half a kelvin beyond its ends."""
+
+    temperatures: Array
+    log10_values: Array
+    covariance: Array
+
+    def _set_table(
+        self, what: str, temperatures: Quantities, log10_values: Any, reference: Quantity, covariance: Any
+    ) -> None:
+        """Set temperatures and values (n,), zero at the reference, and their covariance; `what` names the values."""
+        kelvin, values = to_si_array(temperatures, "K", "temperatures"), np.array(numbers(log10_values, what))
+        if kelvin.size < 2 or values.shape != kelvin.shape:
+            raise InputError(
+                f"{what} need at least two temperatures, and one finite value for each.", code="wrong-length"
+            )
+        if np.any(np.diff(kelvin) <= 0.0) or kelvin[0] <= 0.0:
+            raise InputError(
+                f"temperatures of {what} must ascend without repeats, above absolute zero.", code="not-ascending"
+            )
+        spread = np.zeros((kelvin.size, kelvin.size))
+        if covariance is not None:
+            spread = checked_covariance(covariance, kelvin.size, what)
+        columns = {"temperatures": kelvin, "log10_values": values, "covariance": spread}
+        for name, column in {**columns, "reference": positive(reference, "K", "reference")}.items():
+            object.__setattr__(self, name, column)
+        self._refuse(np.array([self.reference]))
+        values -= float(self._log10(np.asarray(self.reference)))
+        for column in columns.values():
+            column.flags.writeable = False
+
+    @property
+    def standard_errors(self) -> Array:
+        """Standard error of each log10 value, zero at a reference that was measured."""
+        return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+
+    @abstractmethod
+    def _weights(self, kelvin: Array) -> Array:
+        """Return the weights (m, n) of the table's values in values at (m,) temperatures."""
+
+    def _valid(self, kelvin: Array) -> Mask:
+        low, high = self.temperatures[0] - NOMINAL, self.temperatures[-1] + NOMINAL
+        return np.asarray((kelvin >= low) & (kelvin <= high))
+
+    def _standard_error(self, kelvin: Array) -> Array:
+        """Return the standard error of linear interpolation, without the error of the interpolation itself."""
+        weights = self._weights(np.ravel(kelvin))
+        variance = np.einsum("ij,jk,ik->i", weights, self.covariance, weights)
+        return np.asarray(np.sqrt(np.maximum(variance, 0.0)).reshape(np.shape(kelvin)))
+
+    def _referenced(self, covariance: Array, kelvin: float) -> Array:
+        """Return the covariance of values less that at a temperature, from that of the values."""
+        change = np.eye(self.temperatures.size) - self._weights(np.array([kelvin]))
+        return np.asarray(change @ covariance @ change.T)
+
+    def _about(self, kelvin: float) -> Self:
+        return replace(self, reference=kelvin, covariance=self._referenced(self.covariance, kelvin))  # type: ignore[type-var]
 
 
 class ShiftLaw(Shift):

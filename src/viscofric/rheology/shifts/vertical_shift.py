@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset, plain
 from viscofric.errors import InputError
-from viscofric.rheology.shifts.shift_law import NOMINAL, Shift, as_record
+from viscofric.rheology.shifts.shift_law import Shift, ShiftTable, as_record
 from viscofric.showing import Rows
 from viscofric.units import Quantities, Quantity, kelvin_hint, positive, shown_celsius, to_si, to_si_array
 
@@ -117,24 +117,9 @@ class DensityShift(VerticalShift):
         warmer = kelvin - self.reference
         return np.asarray(np.log10(kelvin / self.reference) - self.expansion * warmer / math.log(10.0))
 
-    def at_reference(self, reference: Quantity) -> DensityShift:
-        """Return the same law with b = 1 at another temperature and the same expansivity.
-
-        Parameters
-        ----------
-        reference : float, str or pint.Quantity
-            K if a plain number.
-
-        Raises
-        ------
-        InputError
-            If it is not above absolute zero.
-        """
-        return DensityShift(positive(reference, "K", "reference"), self.expansion)
-
 
 @dataclass(frozen=True, eq=False)
-class VerticalShiftFactors(VerticalShift):
+class VerticalShiftFactors(ShiftTable, VerticalShift):
     """A table of vertical shifts, read between its temperatures by linear interpolation of log10 b in T.
 
     Up to half a kelvin beyond its ends it keeps the value there.
@@ -181,15 +166,10 @@ class VerticalShiftFactors(VerticalShift):
             ("standard error", self.standard_errors),
         )
 
-    @property
-    def standard_errors(self) -> Array:
-        """Standard error of each log10 b, zero at a reference that was measured."""
-        return np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
-
     def _refuse(self, kelvin: Array) -> None:
-        low, high = self.temperatures[0], self.temperatures[-1]
-        outside = (kelvin < low - NOMINAL) | (kelvin > high + NOMINAL)
+        outside = ~self._valid(kelvin)
         if np.any(outside):
+            low, high = self.temperatures[0], self.temperatures[-1]
             wanted = float(kelvin[outside][0])
             raise InputError(
                 f"temperature = {shown_celsius(wanted)} °C lies outside {shown_celsius(low)} to {shown_celsius(high)} "
@@ -206,30 +186,7 @@ class VerticalShiftFactors(VerticalShift):
         return np.asarray(np.interp(kelvin, self.temperatures, self.log10_values))
 
     def _weights(self, kelvin: Array) -> Array:
-        """Return the weights (m, n) of the table's values in values at (m,) temperatures."""
         return np.stack([np.interp(kelvin, self.temperatures, unit) for unit in np.eye(self.temperatures.size)], -1)
-
-    def _standard_error(self, kelvin: Array) -> Array:
-        weights = self._weights(kelvin)
-        return np.asarray(np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", weights, self.covariance, weights), 0.0)))
-
-    def at_reference(self, reference: Quantity) -> VerticalShiftFactors:
-        """Return the same table with b = 1 at another temperature.
-
-        Parameters
-        ----------
-        reference : float, str or pint.Quantity
-            K if a plain number.
-
-        Raises
-        ------
-        InputError
-            If it is outside the measured range.
-        """
-        kelvin = positive(reference, "K", "reference")
-        self._refuse(np.array([kelvin]))
-        change = np.eye(self.temperatures.size) - self._weights(np.array([kelvin]))
-        return VerticalShiftFactors(self.temperatures, self.log10_values, kelvin, change @ self.covariance @ change.T)
 
 
 def with_vertical_shift(factors: Dataset, vertical: VerticalShift | None, temperatures: Array) -> Dataset:
