@@ -1,5 +1,6 @@
-"""Names of NumPy's arrays for annotations, the line of a field through the axis, and a fit of numbers above zero."""
+"""Names of NumPy's arrays for annotations, the line of a field through the axis, and fits of numbers above zero."""
 
+from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
@@ -32,3 +33,37 @@ def non_negative_fit(matrix: Array, aim: Array) -> Array:
     except RuntimeError:
         found = np.maximum(0.0, lsq_linear(matrix / scale, aim, (0.0, np.inf), method="bvls").x)
     return np.asarray(found / scale)
+
+
+def descend(
+    residual: Callable[[Array], Array],
+    normal: Callable[[Array, Array], tuple[Array, Array]],
+    start: Array,
+    *,
+    iterations: int,
+    tolerance: float,
+) -> Array:
+    """Minimise a sum of squares over logarithms (n,) of parameters by Levenberg–Marquardt steps.
+
+    `residual` returns the residuals r at a point, infinite outside the domain; `normal`, at a point and its residuals,
+    JᵀJ and Jᵀr.  The search stops when the sum of squares falls by less than the relative `tolerance`.
+    D. W. Marquardt, J. Soc. Indust. Appl. Math. 11 (1963) 431.
+    """
+    point, now = start, residual(start)
+    damping = 1e-3
+    for _ in range(iterations):
+        matrix, gradient = normal(point, now)
+        scale = np.diag(matrix) + 1e-12 * float(np.max(np.diag(matrix)))
+        before = float(now @ now)
+        while damping < 1e9:
+            step = np.clip(np.linalg.solve(matrix + damping * np.diag(scale), gradient), -2.0, 2.0)
+            trial = residual(point + step)
+            if trial @ trial < before:
+                break
+            damping = 10.0 * damping
+        else:
+            break
+        point, now, damping = point + step, trial, 0.1 * damping
+        if before - float(now @ now) < tolerance * before:
+            break
+    return point

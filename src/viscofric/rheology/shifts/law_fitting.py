@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple, Protocol, overload
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, descend
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.law_families import LAWS, TITLES, family_of
 from viscofric.rheology.shifts.laws import WLF, ParametricLaw
@@ -218,7 +218,7 @@ def _linear(matrix: Array, target: Array) -> Solution:
 
 
 def _positive(family: Model, whiten: Array, target: Array, start: Array) -> Solution:
-    """Minimise by damped Gauss–Newton steps in the logarithms of the constants, which keep them positive."""
+    """Minimise in the logarithms of the constants, which keeps them positive."""
 
     def misfit(logarithm: Array) -> Array:
         try:
@@ -226,33 +226,12 @@ def _positive(family: Model, whiten: Array, target: Array, start: Array) -> Solu
         except InputError:  # beyond the law's pole: the step is rejected
             return np.full(len(target), np.inf)
 
-    point = np.log(start)
-    now = misfit(point)
-    damping = 1e-3
-    for _ in range(ITERATIONS):
-        parameters = np.exp(point)
+    def normal(logarithm: Array, now: Array) -> tuple[Array, Array]:
+        parameters = np.exp(logarithm)
         jacobian = whiten @ (family.gradient(parameters) * parameters)
-        normal = jacobian.T @ jacobian
-        while damping < 1e12:
-            damped = normal + damping * np.diag(np.diag(normal) + 1e-300)
-            step = np.linalg.lstsq(damped, jacobian.T @ now, rcond=None)[0]
-            trial = misfit(point + np.clip(step, -1.0, 1.0))
-            if trial @ trial <= now @ now:
-                break
-            damping *= 10.0
-        else:
-            break
-        fall = now @ now - trial @ trial
-        point, now, damping = point + np.clip(step, -1.0, 1.0), trial, damping * 0.1
-        if np.max(np.abs(step)) < 1e-8 or fall < CONVERGED * (now @ now):
-            break
-    parameters = np.exp(point)
-    return Solution(parameters, _inverse(normal) * np.outer(parameters, parameters), float(now @ now))
+        return jacobian.T @ jacobian, jacobian.T @ now
 
-
-def _inverse(normal: Array) -> Array:
-    """Invert, or return infinities where the data do not determine some combination of constants."""
-    try:
-        return np.asarray(np.linalg.inv(normal))
-    except np.linalg.LinAlgError:
-        return np.full(normal.shape, np.inf)
+    point = descend(misfit, normal, np.log(start), iterations=ITERATIONS, tolerance=CONVERGED)
+    parameters, now = np.exp(point), misfit(point)
+    inverse = np.linalg.inv(normal(point, now)[0])
+    return Solution(parameters, inverse * np.outer(parameters, parameters), float(now @ now))

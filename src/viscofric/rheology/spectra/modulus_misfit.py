@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -147,37 +146,3 @@ class ModulusMisfit(CurveMisfit):
         modulus = 1.0 / compliance
         moved = -(modulus**2)[:, None] * change
         return np.concatenate([moved.real / modulus.real[:, None], moved.imag / modulus.imag[:, None]])
-
-
-def descend(
-    residual: Callable[[Array], Array],
-    normal: Callable[[Array, Array], tuple[Array, Array]],
-    start: Array,
-    *,
-    iterations: int,
-    tolerance: float,
-) -> Array:
-    """Minimise a sum of squares over logarithms (n,) of parameters by Levenberg–Marquardt steps.
-
-    `residual` returns the residuals r at a point, infinite outside the domain; `normal`, at a point and its residuals,
-    JᵀJ and Jᵀr.  The search stops when the sum of squares falls by less than the relative `tolerance`.
-    D. W. Marquardt, J. Soc. Indust. Appl. Math. 11 (1963) 431.
-    """
-    point, now = start, residual(start)
-    damping = 1e-3
-    for _ in range(iterations):
-        matrix, gradient = normal(point, now)
-        scale = np.diag(matrix) + 1e-12 * float(np.max(np.diag(matrix)))
-        before = float(now @ now)
-        while damping < 1e9:
-            step = np.clip(np.linalg.solve(matrix + damping * np.diag(scale), gradient), -2.0, 2.0)
-            trial = residual(point + step)
-            if trial @ trial < before:
-                break
-            damping = 10.0 * damping
-        else:
-            break
-        point, now, damping = point + step, trial, 0.1 * damping
-        if before - float(now @ now) < tolerance * before:
-            break
-    return point

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscofric.arrays import Array
-from viscofric.rheology.spectra.modulus_misfit import STIFFEST, CurveMisfit, Misfit, Modes, descend
+from viscofric.arrays import Array, descend
+from viscofric.rheology.spectra.modulus_misfit import STIFFEST, CurveMisfit, Misfit, Modes
 
 #: Strengths tried, from too strong to too weak; each fit starts from the one before.
 STRENGTHS = np.geomspace(1.0, 1e-5, 26)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -24,8 +25,74 @@ from viscofric.units import Quantity, in_si, positive, to_si
 BALANCE = 1e-6
 
 
+class ModeSpectrum(FrequencyResponse, Items[tuple[float, float]]):
+    """What retardation and relaxation spectra have in common: modes with their times, and step responses."""
+
+    tau: Array
+
+    def _set_modes(self, name: str, strengths: ArrayLike, unit: str, tau: ArrayLike) -> None:
+        """Set the strengths, called `name`, and the times of the modes."""
+        values, times = mode_column(strengths, name, unit), mode_column(tau, "tau", "s")
+        if values.shape != times.shape:
+            raise InputError(
+                f"{name} and tau must be as many: there are {len(values)} and {len(times)}.", code="wrong-length"
+            )
+        if np.any(values < 0.0) or np.any(times <= 0.0):
+            raise InputError(
+                f"{name} must not be below zero and tau must be above zero in every mode.", code="not-positive"
+            )
+        object.__setattr__(self, name, values)
+        object.__setattr__(self, "tau", times)
+
+    @abstractmethod
+    def _creep(self, seconds: Array) -> Array: ...
+
+    @abstractmethod
+    def _relaxation(self, seconds: Array) -> Array: ...
+
+    def creep_compliance(self, time: ArrayLike) -> Array:
+        """Return J(t) after a step of stress, 1/Pa; not for a liquid.
+
+        Parameters
+        ----------
+        time : array_like
+            s, not below zero.
+
+        Returns
+        -------
+        array
+            In the shape of `time`.
+
+        Raises
+        ------
+        InputError
+            If a time is below zero, or E0 is zero.
+        """
+        return self._creep(checked_times(time, "creep compliance"))
+
+    def relaxation_modulus(self, time: ArrayLike) -> Array:
+        """Return E(t) after a step of strain, Pa.
+
+        Parameters
+        ----------
+        time : array_like
+            s, not below zero.
+
+        Returns
+        -------
+        array
+            In the shape of `time`.
+
+        Raises
+        ------
+        InputError
+            If a time is below zero.
+        """
+        return self._relaxation(checked_times(time, "relaxation modulus"))
+
+
 @dataclass(frozen=True, eq=False)
-class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
+class RetardationSpectrum(ModeSpectrum):
     """Retardation modes of a rubber at one temperature.
 
     Creep compliance and complex compliance are (Eqs. 5 and 3 of [1]_; convention e^{+iωt})::
@@ -77,16 +144,9 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
             raise InputError("E0 = 0: a liquid has no rubber plateau; a spectrum needs E0 above zero.", code="liquid")
         object.__setattr__(self, "E0", positive(E0, "Pa", "E0"))
         object.__setattr__(self, "E_inf", positive(E_inf, "Pa", "E_inf"))
-        object.__setattr__(self, "C", mode_column(C, "C", "1/Pa"))
-        object.__setattr__(self, "tau", mode_column(tau, "tau", "s"))
         insist_on(fit, "fit", SpectrumFit, type(None), right="a SpectrumFit or None")
         object.__setattr__(self, "fit", fit)
-        if self.C.shape != self.tau.shape:
-            raise InputError(
-                f"C and tau must be as many: there are {len(self.C)} and {len(self.tau)}.", code="wrong-length"
-            )
-        if np.any(self.C < 0.0) or np.any(self.tau <= 0.0):
-            raise InputError("C must not be below zero and tau must be above zero in every mode.", code="not-positive")
+        self._set_modes("C", C, "1/Pa", tau)
         glass = 1.0 / self.E0 - float(np.sum(self.C))
         if abs(glass - 1.0 / self.E_inf) > BALANCE / self.E0:
             raise InputError(
@@ -121,49 +181,14 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         """Return E(ω) = E' + iE'', Pa, in the shape of `angular_frequency` (rad/s)."""
         return np.asarray(1.0 / self.compliance(angular_frequency))
 
-    def creep_compliance(self, time: ArrayLike) -> Array:
-        """Return J(t) after a step of stress, 1/Pa.
-
-        Parameters
-        ----------
-        time : array_like
-            s, not below zero.
-
-        Returns
-        -------
-        array
-            In the shape of `time`.
-
-        Raises
-        ------
-        InputError
-            If a time is below zero.
-        """
-        seconds = checked_times(time, "creep compliance")
+    def _creep(self, seconds: Array) -> Array:
         total = np.full(seconds.shape, 1.0 / self.E_inf)
         for compliance, retardation in zip(self.C, self.tau, strict=True):
             total -= compliance * np.expm1(-seconds / retardation)
         return total
 
-    def relaxation_modulus(self, time: ArrayLike) -> Array:
-        """Return E(t) after a step of strain, Pa.
-
-        Parameters
-        ----------
-        time : array_like
-            s, not below zero.
-
-        Returns
-        -------
-        array
-            In the shape of `time`.
-
-        Raises
-        ------
-        InputError
-            If a time is below zero.
-        """
-        return self.to_relaxation().relaxation_modulus(time)
+    def _relaxation(self, seconds: Array) -> Array:
+        return self.to_relaxation()._relaxation(seconds)
 
     def to_relaxation(self) -> RelaxationSpectrum:
         """Return the same material as a Prony series, exactly; see `viscofric.rheology.spectra.interconversion`.
@@ -257,7 +282,7 @@ class RetardationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
 
 
 @dataclass(frozen=True, eq=False)
-class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
+class RelaxationSpectrum(ModeSpectrum):
     """Relaxation modes of a rubber, or of a liquid, at one temperature.
 
     Relaxation modulus and complex modulus of the generalised Maxwell model are (convention e^{+iωt})::
@@ -298,14 +323,7 @@ class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
         if rubber < 0.0:
             raise InputError(f"E0 = {E0!r}: must not be below zero; write, for example, '3 MPa'.", code="not-positive")
         object.__setattr__(self, "E0", rubber)
-        object.__setattr__(self, "E", mode_column(E, "E", "Pa"))
-        object.__setattr__(self, "tau", mode_column(tau, "tau", "s"))
-        if self.E.shape != self.tau.shape:
-            raise InputError(
-                f"E and tau must be as many: there are {len(self.E)} and {len(self.tau)}.", code="wrong-length"
-            )
-        if np.any(self.E < 0.0) or np.any(self.tau <= 0.0):
-            raise InputError("E must not be below zero and tau must be above zero in every mode.", code="not-positive")
+        self._set_modes("E", E, "Pa", tau)
         if not self.E_inf > 0.0:
             raise InputError("E0 and all E are zero: there is no modulus at all.", code="no-modulus")
 
@@ -341,49 +359,14 @@ class RelaxationSpectrum(FrequencyResponse, Items[tuple[float, float]]):
             raise InputError("compliance at frequency 0: E0 = 0, a liquid flows without bound at rest.", code="liquid")
         return np.asarray(1.0 / modulus)
 
-    def relaxation_modulus(self, time: ArrayLike) -> Array:
-        """Return E(t) after a step of strain, Pa.
-
-        Parameters
-        ----------
-        time : array_like
-            s, not below zero.
-
-        Returns
-        -------
-        array
-            In the shape of `time`.
-
-        Raises
-        ------
-        InputError
-            If a time is below zero.
-        """
-        seconds = checked_times(time, "relaxation modulus")
+    def _relaxation(self, seconds: Array) -> Array:
         total = np.full(seconds.shape, self.E0)
         for modulus, relaxation in zip(self.E, self.tau, strict=True):
             total += modulus * np.exp(-seconds / relaxation)
         return total
 
-    def creep_compliance(self, time: ArrayLike) -> Array:
-        """Return J(t) after a step of stress, 1/Pa; not for a liquid.
-
-        Parameters
-        ----------
-        time : array_like
-            s, not below zero.
-
-        Returns
-        -------
-        array
-            In the shape of `time`.
-
-        Raises
-        ------
-        InputError
-            If a time is below zero, or E0 is zero.
-        """
-        return self.to_retardation().creep_compliance(time)
+    def _creep(self, seconds: Array) -> Array:
+        return self.to_retardation()._creep(seconds)
 
     def to_retardation(self) -> RetardationSpectrum:
         """Return the same material as retardation modes, exactly; see `viscofric.rheology.spectra.interconversion`.

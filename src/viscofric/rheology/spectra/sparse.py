@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscofric.arrays import Array, non_negative_fit
-from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes, descend
+from viscofric.arrays import Array, descend, non_negative_fit
+from viscofric.rheology.spectra.modulus_misfit import Misfit, Modes
 
 ACTIVE_SET_ITERATIONS = 30
 ACTIVE_SET_CONVERGED = 1e-6  # relative fall of the misfit
