@@ -206,7 +206,8 @@ def test_reference_agrees_with_its_key_and_with_the_docstrings(reference) -> Non
     if reference.key in {PAPER.key, "hertz1882", "carbone2013"} or not reference.journal:
         return  # not in a docstring, or a book
     volume, page = reference.volume.replace("--", "–"), reference.pages.split("--")[0]
-    cited = rf"{volume}[ \n]+\({reference.year}\)[ \n]+{page}\b(?:,[ \n]+doi:(\S+?)[.,;:\"]*(?=\s))?"
+    gap = r"[ \n#]+"  # may go on in the next line of a comment
+    cited = rf"{volume}{gap}\({reference.year}\){gap}{page}\b(?:,{gap}doi:(\S+?)[.,;:\"]*(?=\s))?"
     found = re.findall(cited, TEXT)
     assert found, f"no docstring cites {reference}"
     assert {doi for doi in found if doi} <= {reference.doi}

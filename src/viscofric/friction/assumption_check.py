@@ -60,10 +60,8 @@ class AssumptionCheck(Shown, Check):
 
 
 def assumptions_dataset(checks: Sequence[AssumptionCheck], reader: Reader = "python") -> Dataset:
-    """Return checks as a labelled data set along ``assumption``, with sentences for one kind of reader.
-
-    `value` is NaN where it is not known; `holds` is 1, 0, or −1 where it cannot be judged.
-    """
+    """Return checks as a labelled data set along ``assumption``, with sentences for one kind of reader."""
+    # `value` is NaN where it is not known; `holds` is 1, 0, or −1 where it cannot be judged.
     from viscofric.datasets import plain
 
     return dataset(

@@ -28,10 +28,8 @@ from viscofric.units import Quantities, to_si_array
 def shear_notes(
     curves: FrictionCurves, coulomb: Array, bodies: Sequence[tuple[Material, Layer | None]], rise: Array | None = None
 ) -> tuple[Note, ...]:
-    """Return a note where Coulomb friction (n,) changes predicted friction, solved without it, by too much.
-
-    `bodies` are the material and the layer of each point, `rise` (n,) its temperature above that of the body, K.
-    """
+    """Return a note where Coulomb friction (n,) changes predicted friction, solved without it, by too much."""
+    # `bodies` are the material and the layer of each point, `rise` (n,) its temperature above that of the body, K.
     assert curves.mean_pressure is not None
     kelvin = curves.temperature if rise is None else curves.temperature + rise
     area = curves.load / curves.mean_pressure
@@ -106,11 +104,9 @@ def check_interface(interface: object, slip: object) -> None:
 def with_interface(
     curves: FrictionCurves, interface: InterfaceLaw, slip: Quantities | None = None, *, rise: Array | None = None
 ) -> FrictionCurves:
-    """Put the friction of an interface into predicted curves, as their Coulomb friction.
-
-    `slip` is the slip speed (m/s) of all points or of each; the speed of the curves without it (pure sliding).  `rise`
-    is that of the contacts' temperature (n,), K.
-    """
+    """Put the friction of an interface into predicted curves, as their Coulomb friction."""
+    # `slip` is the slip speed (m/s) of all points or of each; the speed of the curves without it (pure sliding). `rise`
+    # is that of the contacts' temperature (n,), K.
     assert curves.mean_pressure is not None
     assert curves.mean_pressure_error is not None
     speed = curves.speed if slip is None else to_si_array(slip, "m/s", "slip")

@@ -175,10 +175,8 @@ def read_friction_curves(
 
 
 def holds_friction_curves(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> bool:
-    """Return whether a file has a column of viscoelastic friction, not of a tribometer's runs; False if unreadable.
-
-    So has one of which `columns` names the viscoelastic friction.
-    """
+    """Return whether a file has a column of viscoelastic friction, not of a tribometer's runs; False if unreadable."""
+    # So has one of which `columns` names the viscoelastic friction.
     if any(quantity_of(name) == "viscoelastic friction" for name in columns or {}):
         return True
     try:

@@ -191,11 +191,9 @@ _SMALLEST = 1e-3
 def check_half_space(
     material: Material, curves: FrictionCurves, sizes: Sequence[ContactSize], thickness: Quantity | None, passes: float
 ) -> AssumptionCheck:
-    """Check the half-space at all points of friction curves, of contacts of given sizes; return the worst case.
-
-    `thickness` is that of the rubber, m; if not given, the sentence names the one needed.  Rubber is taken as a
-    half-space if the relative change of friction is at most `passes`.
-    """
+    """Check the half-space at all points of friction curves, of contacts of given sizes; return the worst case."""
+    # `thickness` is that of the rubber, m; if not given, the sentence names the one needed. Rubber is taken as a
+    # half-space if the relative change of friction is at most `passes`.
     # By both bounds: the upper one, at E0, is often the same everywhere.
     widest = max(sizes, key=lambda size: size.largest * size.smallest)
     given = None if thickness is None else positive(thickness, "m", "thickness")

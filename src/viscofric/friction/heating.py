@@ -74,11 +74,9 @@ def predict_heated(
     *,
     exact: bool = False,
 ) -> HeatedFrictionCurves:
-    """Return the friction of contacts, arguments of `solve_steady` each, of one material, indenter and load.
-
-    The heat of an `interface` takes the place of a constant Coulomb friction.  Contacts are interpolated between others
-    where that is enough, unless `exact`.
-    """
+    """Return the friction of contacts, arguments of `solve_steady` each, of one material, indenter and load."""
+    # The heat of an `interface` takes the place of a constant Coulomb friction. Contacts are interpolated between
+    # others where that is enough, unless `exact`.
     every = [_thermal(heating=heating, interface=interface, **one) for one in contacts]
     kelvins = sorted({one.kelvin for one in every})
     curves = [[one for one in every if one.kelvin == kelvin] for kelvin in kelvins]

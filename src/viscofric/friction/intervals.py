@@ -38,12 +38,10 @@ def half_widths(error: Array, freedom: Array | None, level: float) -> Array:
 
 
 def consistency_check(left_over: Array, error: Array, freedom: Array | None) -> Check | None:
-    """Return whether the four sign configurations of a traction test agree; None where no error is known.
-
-    `left_over` (n,) is the combination of them that should vanish, relative to the load; `error` (n,) its standard
-    error with `freedom` (n,) degrees of freedom, normal where unknown.  It holds if no more points than by chance
-    lie outside their 95 % interval; its value is the largest residual.
-    """
+    """Return whether the four sign configurations of a traction test agree; None where no error is known."""
+    # `left_over` (n,) is the combination of them that should vanish, relative to the load; `error` (n,) its standard
+    # error with `freedom` (n,) degrees of freedom, normal where unknown. It holds if no more points than by chance lie
+    # outside their 95 % interval; its value is the largest residual.
     from scipy.special import bdtrc
 
     known = np.isfinite(left_over) & np.isfinite(error)

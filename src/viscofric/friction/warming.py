@@ -55,11 +55,8 @@ class Warming(NamedTuple):
         rubber: ThermalProperties,
         counterbody: ThermalProperties,
     ) -> Warming:
-        """Return the worst of contacts of given radii, m, on a material with a shift; see `check_assumptions`.
-
-        Of the few where the heat alone suggests the largest change.  Raises InputError if α is not known near a
-        temperature.
-        """
+        """Return the worst of contacts of given radii, m, on a material with a shift; see `check_assumptions`."""
+        # Of the few where the heat alone suggests the largest change.
         assert material.shift is not None
         contacts = [_Contact.of(curves, row, radius, rubber, counterbody) for row, radius in enumerate(radii)]
         temperatures, place = np.unique(curves.temperature, return_inverse=True)

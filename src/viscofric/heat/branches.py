@@ -27,10 +27,8 @@ class State(NamedTuple):
 
 
 def stable_states(rise: Array, produced: Array) -> list[State]:
-    """Return the stable states of a curve G (n,) over rises ΔT (n,), ascending: those at which G falls below ΔT.
-
-    A colder contact then produces more than it needs to stay as it is, and a warmer one less.
-    """
+    """Return the stable states of a curve G (n,) over rises ΔT (n,), ascending: those at which G falls below ΔT."""
+    # A colder contact then produces more than it needs to stay as it is, and a warmer one less.
     excess = produced - rise
     found = []
     for i in np.flatnonzero((excess[:-1] > 0.0) & (excess[1:] <= 0.0)):
@@ -108,13 +106,10 @@ def settled(
 def settling(
     start: State, tolerance: Callable[[float], float], within: tuple[float, float] = (-math.inf, math.inf)
 ) -> Generator[float, float, tuple[float, float]]:
-    """Find a rise ΔT and G(ΔT) − ΔT, no larger than the tolerance at it, from a state, by secants between two bounds.
-
-    Yields rises ΔT, and takes G at each.  Once a colder contact that produces too much and a warmer one that produces
-    too little are known, steps stay between them, and halve what two secants do not.  A G that jumps past ΔT, as points
-    of a contact come and go, has its state where both are no farther apart than the tolerance.  Raises ConvergenceError
-    if the solves do not settle.
-    """
+    """Find a rise ΔT and G(ΔT) − ΔT, no larger than the tolerance at it, by secants between two bounds."""
+    # Yields rises ΔT, and takes G at each. Once a colder contact that produces too much and a warmer one that produces
+    # too little are known, steps stay between them, and halve what two secants do not. A G that jumps past ΔT, as
+    # points of a contact come and go, has its state where both are no farther apart than the tolerance.
     rise, slope, _ = start
     before: tuple[float, float] | None = None
     low = high = None

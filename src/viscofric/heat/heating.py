@@ -194,10 +194,8 @@ class HeatBalance(NamedTuple):
 
     @classmethod
     def of(cls, resistance: ThermalResistances, coulomb: float, loss: float) -> HeatBalance:
-        """Return the state in which both faces are equally warm on average.
-
-        The rubber's face rises by Rs (Qc − Q) + Rl Qv + Rt (Qc − Q + Qv), the counterface's by R Q: linear in Q.
-        """
+        """Return the state in which both faces are equally warm on average."""
+        # The rubber's face rises by Rs (Qc − Q) + Rl Qv + Rt (Qc − Q + Qv), the counterface's by R Q: linear in Q.
         one, other = resistance, resistance.counterface
         share = 1.0 / (1.0 + (one.surface + one.track) / other)
         face = share * ((one.surface + one.track) * coulomb + (one.loss + one.track) * loss)

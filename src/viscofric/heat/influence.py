@@ -56,11 +56,9 @@ class Diffusion:
     def influence(
         self, x: Array, y: Array, cell: tuple[float, float], depth: Callable[[Array], Array] | None = None
     ) -> Array:
-        """Return the rise (nx, ny), K m²/W, at offsets x (nx,) and y (ny,) from a cell of the size given, all in m.
-
-        With `depth`, which returns factors (k, n) of diffusion lengths (n,), such as exp(−z²/l²) for heat that is
-        released at a depth z in a half-space, the rise is (k, nx, ny).  A cell of infinite width is a strip.
-        """
+        """Return the rise (nx, ny), K m²/W, at offsets x (nx,) and y (ny,) from a cell of the size given, all in m."""
+        # With `depth`, which returns factors (k, n) of diffusion lengths (n,), such as exp(−z²/l²) for heat that is
+        # released at a depth z in a half-space, the rise is (k, nx, ny). A cell of infinite width is a strip.
         half = 0.5 * cell[0], 0.5 * cell[1]
         if self.speed == 0.0 and math.isinf(half[1]):
             raise InputError("A strip of heat at rest has no steady temperature.", code="no-steady-state")

@@ -58,11 +58,9 @@ class SlidingInterface:
         return np.asarray(self.slip * np.asarray(area) * self.law(self.slip, self.kelvin + rise))
 
     def settled_heat(self, area: Any, resistances: ThermalResistances, loss: Array, *, hot: bool) -> Array:
-        """Return the heats (n,) at the temperature to which they and the loss (n,) below warm the faces.
-
-        A face hotter than the law is known is held there; so is one that the loss, released beside it, leaves colder
-        than the body.  The coldest state, or the hottest one.
-        """
+        """Return the heats (n,) at the temperature to which they and the loss (n,) below warm the faces."""
+        # A face hotter than the law is known is held there; so is one that the loss, released beside it, leaves colder
+        # than the body. The coldest state, or the hottest one.
         by_loss = np.asarray(HeatBalance.of(resistances, 0.0, loss).face_rise)  # type: ignore[arg-type]
         per_heat = np.asarray(HeatBalance.of(resistances, 1.0, np.zeros_like(loss)).face_rise)  # type: ignore[arg-type]
         return self.heat_of(area, by_loss, per_heat, hot=hot)

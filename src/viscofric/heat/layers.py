@@ -187,10 +187,8 @@ def _rises(
     face: ComplexArray,
     layers: list[ComplexArray],
 ) -> Array:
-    """Return k times the rises (4,) as in `Rises`, averaged over the roots (m, n) of waves with their shares (m,).
-
-    Layers have heat of the first waves only, deeper ones of fewer.
-    """
+    """Return k times the rises (4,) as in `Rises`, averaged over the roots (m, n) of waves with their shares (m,)."""
+    # Layers have heat of the first waves only, deeper ones of fewer.
     passed = [np.exp(-roots[:, : len(one)] * thick) for one, thick in zip(layers, thickness, strict=True)]
     mean = [(1.0 - one) / (roots[:, : one.shape[1]] * thick) for one, thick in zip(passed, thickness, strict=True)]
     # What passes the lower edge of each layer upwards.

@@ -45,10 +45,8 @@ def strip_mean(peclet: float, *, hertz: bool) -> float:
 
 
 def face_resistance(body: ThermalProperties, speed: float, size: float, line: bool) -> float:
-    """Return the mean rise per heat distributed like Hertz's pressure, K/W, or K m/W and infinite of a strip at rest.
-
-    Of a disc of a radius `size`, m, or a strip of that half-width, at a speed over the body, m/s.
-    """
+    """Return the mean rise per heat distributed like Hertz's pressure, K/W, or K m/W; infinite of a strip at rest."""
+    # Of a disc of a radius `size`, m, or a strip of that half-width, at a speed over the body, m/s.
     peclet = speed * size / (2.0 * body.diffusivity)
     if line:
         return strip_mean(peclet, hertz=True) / (2.0 * float(body.conductivity)) if peclet > 0.0 else math.inf
@@ -56,10 +54,8 @@ def face_resistance(body: ThermalProperties, speed: float, size: float, line: bo
 
 
 def pair_density(distance: Array, shape: str) -> Array:
-    """Return the density of the distance d (n,), 0 to 2 radii, of a point under Hertz's pressure from one of the face.
-
-    In the plane for a "disc", along the line, d of either sign, for a "strip".
-    """
+    """Return the density of the distance d (n,) of a point under Hertz's pressure from one of the face."""
+    # In the plane for a "disc", along the line, d of either sign, for a "strip".
     if shape == "disc":
         return _hertz_overlap(distance) / np.pi**2
     x = 1.0 - distance

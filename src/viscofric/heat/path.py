@@ -70,11 +70,9 @@ class PathRise(NamedTuple):
 
 
 def path_rise(passage: Passage, coulomb: Array, loss: Array, heating: Heating) -> PathRise:
-    """Return the rise along a path by Coulomb heat on the face and loss below it, heats (n,) since the time before.
-
-    The loss is released below the face, and stays in the rubber; of the Coulomb heat each
-    body takes so much that both faces are equally warm at all times.
-    """
+    """Return the rise along a path by Coulomb heat on the face and loss below it, heats (n,) since the time before."""
+    # The loss is released below the face, and stays in the rubber; of the Coulomb heat each body takes so much that
+    # both faces are equally warm at all times.
     count = len(passage.time)
     still = passage._replace(position=np.zeros_like(passage.position))
     rubber, across, within = _responses(passage, heating.rubber)
@@ -92,10 +90,8 @@ def path_rise(passage: Passage, coulomb: Array, loss: Array, heating: Heating) -
 
 
 def _responses(passage: Passage, body: ThermalProperties) -> Array:
-    """Return rises at each time per heat of each interval before, (3, n, n).
-
-    Of the face by heat on it; of the face by the loss, or where that is released by heat on the face; there by it.
-    """
+    """Return rises at each time per heat of each interval before, (3, n, n)."""
+    # Of the face by heat on it; of the face by the loss, or where that is released by heat on the face; there by it.
     count = len(passage.time)
     found = np.zeros((3, count, count))
     for row in range(1, count):
@@ -130,12 +126,10 @@ def _response(passage: Passage, body: ThermalProperties, row: int, last: int, ra
 
 
 def between_depths(spread: Array, shape: str) -> Array:
-    """Return what heat does over what heat on the face does to the face, (3, n), as in `_responses`.
-
-    At a depth z it is exp(−z²/4κt), between two depths ½ exp(−(z − z')²/4κt) + ½ exp(−(z + z')²/4κt).  In the mean over
-    depths of the density z exp(−z/b)/b² their difference has the density (1 + d/b) exp(−d/b)/2b, their sum that of
-    s³ exp(−s/b)/6b⁴: with Iₙ = ∫ uⁿ exp(−u − b²u²/4κt) du these are I₁ and ¼ (I₀ + I₁) + I₃/12.
-    """
+    """Return what heat does over what heat on the face does to the face, (3, n), as in `_responses`."""
+    # At a depth z it is exp(−z²/4κt), between two depths ½ exp(−(z − z')²/4κt) + ½ exp(−(z + z')²/4κt). In the mean
+    # over depths of the density z exp(−z/b)/b² their difference has the density (1 + d/b) exp(−d/b)/2b, their sum that
+    # of s³ exp(−s/b)/6b⁴: with Iₙ = ∫ uⁿ exp(−u − b²u²/4κt) du these are I₁ and ¼ (I₀ + I₁) + I₃/12.
     zeroth, first, third = _moments(np.sqrt(spread) / _DEPTH[shape])
     return np.array([np.ones_like(spread), first, 0.25 * (zeroth + first) + third / 12.0])
 

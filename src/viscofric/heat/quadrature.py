@@ -23,10 +23,8 @@ class Nodes(NamedTuple):
 
 @lru_cache(maxsize=8)
 def unit_nodes(count: int) -> Nodes:
-    """Return the nodes of the tanh-sinh rule.
-
-    H. Takahasi, M. Mori, Publ. RIMS 9 (1974) 721, doi:10.2977/prims/1195192451.
-    """
+    """Return the nodes of the tanh-sinh rule."""
+    # H. Takahasi, M. Mori, Publ. RIMS 9 (1974) 721, doi:10.2977/prims/1195192451.
     t = np.linspace(-_REACH, _REACH, count)
     e = np.exp(-np.pi * np.sinh(np.abs(t)))
     near = e / (1.0 + e)

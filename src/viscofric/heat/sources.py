@@ -64,11 +64,9 @@ def _some_points(x: Array, y: Array, peclet: float, hertz: bool) -> Array:
 
 
 def _rays(x: Array, y: Array) -> tuple[Array, Array]:
-    """Return first angles and widths (n, 3) of the parts in which the integral over the angle is smooth.
-
-    They end where the ray points along the motion, at which the integrand peaks, and where it passes the centre
-    closest, at which it has a kink for points at the edge; points outside see the disc between two tangents.
-    """
+    """Return first angles and widths (n, 3) of the parts in which the integral over the angle is smooth."""
+    # They end where the ray points along the motion, at which the integrand peaks, and where it passes the centre
+    # closest, at which it has a kink for points at the edge; points outside see the disc between two tangents.
     radius, centre = np.hypot(x, y), np.arctan2(y, x)
     half = np.where(radius > 1.0, np.arcsin(1.0 / np.maximum(radius, 1.0)), np.pi)
     low = np.where(radius > 1.0, centre + np.pi - half, 0.0)

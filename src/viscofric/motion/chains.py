@@ -146,10 +146,8 @@ def moment_of(
     early: float,
     extrapolate: bool,
 ) -> Moment[State]:
-    """Return what the chains say of one time: the energies extrapolated, and the rest too on request.
-
-    Errors are those of steps, by the spread, what the mover leaves out, `early` times that, and the floor.
-    """
+    """Return what the chains say of one time: the energies extrapolated, and the rest too on request."""
+    # Errors are those of steps, by the spread, what the mover leaves out, `early` times that, and the floor.
     coarse, fine = pair
     left_out = tuple(early * one for one in fine.seen.left_out)
     off = difference(pair)

@@ -222,10 +222,9 @@ class _Search:
 
 
 def _damping(schedule: Schedule) -> float:
-    """Return the damping factor for a change of memory.
-
-    Sliding at a given depth, pressures fall E_inf/E0 − 1 times as much as slow modes rise; damping prevents overshoot.
-    """
+    """Return the damping factor for a change of memory."""
+    # Sliding at a given depth, pressures fall E_inf/E0 − 1 times as much as slow modes rise; damping prevents
+    # overshoot.
     slides_at_depth = schedule.control in ("indentation", "gap") and not schedule.is_held
     return float(schedule.spectrum.E0 / schedule.spectrum.E_inf) if slides_at_depth else 1.0
 

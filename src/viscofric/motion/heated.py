@@ -43,10 +43,7 @@ def solve_heated(
     solve: Callable[[History, Sequence[float], Callable[[float, float], object] | None], TransientSolution],
     progress: Callable[[float, float], object] | None,
 ) -> TransientSolution:
-    """Return the solution of a contact that its own friction heats; `solve` runs through a history at times given.
-
-    Raises InputError if it cannot be heated, ConvergenceError if the rise does not settle.
-    """
+    """Return the solution of a contact that its own friction heats; `solve` runs through a history at times given."""
     _insist_on_heatable(problem, history, heating)
     law = problem.material.shift
     assert law is not None

@@ -219,10 +219,8 @@ class History(Shown):
 
 
 def dense_times(history: History, count: int) -> list[float]:
-    """Return so many times of a history, s: its own, twice at jumps, and others dense after each, where much happens.
-
-    Evenly spaced times if there are fewer than the history has.
-    """
+    """Return so many times of a history, s: its own, twice at jumps, and others dense after each."""
+    # Evenly spaced times if there are fewer than the history has.
     own: list[float] = history.time.tolist()
     lasting = sum(right > left for left, right in itertools.pairwise(own))
     if count < len(own):

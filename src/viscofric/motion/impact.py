@@ -352,12 +352,10 @@ class _Falling(NamedTuple):
 def _extrapolated(
     coarse: Bounce, fine: Bounce, merging: float, of_springs: float
 ) -> tuple[tuple[ImpactContact, ...], float]:
-    """Return the contacts of two runs, one with half the steps of the other; none if the contacts do not correspond.
-
-    The error of the restitution e is that of the steps, of merged modes, and of the stiffness by springs, de ~ e ln e;
-    the largest one is also returned.  Where these errors of the depth allow that an indenter leaves that stays, or
-    stays that leaves, the restitution jumps: the stated error includes that.
-    """
+    """Return the contacts of two runs, one with half the steps of the other; none if the contacts do not correspond."""
+    # The error of the restitution e is that of the steps, of merged modes, and of the stiffness by springs, de ~ e ln
+    # e; the largest one is also returned. Where these errors of the depth allow that an indenter leaves that stays, or
+    # stays that leaves, the restitution jumps: the stated error includes that.
     if [one.separates for one in coarse.contacts] != [one.separates for one in fine.contacts]:
         return (), math.inf
     found, largest = [], 0.0

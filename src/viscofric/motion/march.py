@@ -71,32 +71,11 @@ def march(
     begin: Reached[State] | None = None,
     extrapolate: bool = False,
 ) -> Track[State]:
-    """March through a schedule.
-
-    Parameters
-    ----------
-    mover : Mover
-    schedule : Schedule
-    accuracy : float
-        Largest error of friction, depth, load and energy, relative to the largest values so far.
-    times : sequence of float, optional
-        Times to return, ascending, s; one given twice at a jump: before and after it.  All steps if omitted.
-    fields : bool
-        Whether to keep the pressures of the returned times.
-    progress : callable, optional
-        Called with the time reached and the last time, s.
-    begin : optional
-        `Track.reached` of the march to continue, within the schedule or before its start; its states belong to the
-        cells or springs of the mover.
-    extrapolate : bool
-        Whether to extrapolate depth, load and friction as well as energies.
-
-    Raises
-    ------
-    ConvergenceError
-        If the accuracy is not reached.  Not raised if the ticks of the mover are too far apart for it; the error
-        estimates then show it.
-    """
+    """March through a schedule; ConvergenceError if the accuracy is not reached."""
+    # `accuracy` is the largest error of friction, depth, load and energy, relative to the largest values so far.
+    # `times` to return ascend, s, one given twice at a jump: before and after it; all steps if None. `begin` is
+    # `Track.reached` of the march to continue, within the schedule or before its start. No error is raised if the ticks
+    # of the mover are too far apart for the accuracy; the error estimates then show it.
     # Where all steps are returned, integrals over these, such as means of cycles, need short ones.
     share = SHARE if times is None else mover.share
     if begin is not None and begin.share is not None:
@@ -237,10 +216,8 @@ class _March(Generic[State]):
         return self._seen(Pair(*links))
 
     def _interval(self, pair: Pair[State], start: float, end: float) -> None:
-        """March through a part without kinks, from its start or from where an earlier march has come to.
-
-        Times are counted from the last kink: soon after it, absolute ones would be rounded.
-        """
+        """March through a part without kinks, from its start or from where an earlier march has come to."""
+        # Times are counted from the last kink: soon after it, absolute ones would be rounded.
         kinks = self.schedule.kinks
         self._kink = float(kinks[np.searchsorted(kinks, start, side="right") - 1])
         time, begun, last = float(self._at.time), self._at.since, end - self._kink  # type: ignore[arg-type]
@@ -295,10 +272,8 @@ class _March(Generic[State]):
             time = reached
 
     def _first_step(self, start: float, end: float) -> float:
-        """Return the first step after a jump, before the end of which not even quick modes have followed it.
-
-        The two chains could not show an error of both of them.
-        """
+        """Return the first step after a jump, before the end of which not even quick modes have followed it."""
+        # The two chains could not show an error of both of them.
         step = _FIRST * (end - start)
         begun = self._kink + start
         _, fastest = self.schedule.rates(begun, begun + step)
@@ -393,10 +368,8 @@ def _growth(ratio: float) -> float:
 
 
 def _even_steps(edges: Array) -> Array:
-    """Return the edges of an even number of steps: the first one is divided if their number is odd.
-
-    Steps of whole cells stay whole: after half a cell, friction is off for the next two.
-    """
+    """Return the edges of an even number of steps: the first one is divided if their number is odd."""
+    # Steps of whole cells stay whole: after half a cell, friction is off for the next two.
     if len(edges) % 2:
         return edges
     return np.insert(edges, 1, 0.5 * (edges[0] + edges[1]))

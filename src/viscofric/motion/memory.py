@@ -41,10 +41,8 @@ _FEW = 8
 
 
 def phi(z: ArrayLike, count: int = 2, exponential: NDArray[Any] | None = None) -> list[NDArray[Any]]:
-    """Return φ1(z) = (e^z − 1)/z, φ2(z) = (φ1(z) − 1)/z, φ3(z) = (φ2(z) − ½)/z, … to rounding, for Re z ≤ 0.
-
-    `exponential` is e^z, if that is known.
-    """
+    """Return φ1(z) = (e^z − 1)/z, φ2(z) = (φ1(z) − 1)/z, φ3(z) = (φ2(z) − ½)/z, … to rounding, for Re z ≤ 0."""
+    # `exponential` is e^z, if that is known.
     z = np.asarray(z)
     small = np.abs(z) < _SERIES_BELOW
     inverse = 1.0 / np.where(small, 1.0, z)
@@ -71,11 +69,9 @@ class StepCoefficients(NamedTuple):
 
 
 def step_coefficients(steps: ArrayLike, turn: ArrayLike = 0.0) -> StepCoefficients:
-    """Return the exact coefficients of a step.
-
-    `steps` are κ = Δt/τ, not below zero; zero is a jump, which does not change q.  `turn` is q·Δs in the
-    indenter's frame, zero in the solid's; both broadcast.  The coefficients are real without `turn`.
-    """
+    """Return the exact coefficients of a step."""
+    # `steps` are κ = Δt/τ, not below zero; zero is a jump, which does not change q. `turn` is q·Δs in the indenter's
+    # frame, zero in the solid's; both broadcast. The coefficients are real without `turn`.
     kappa, angle = np.asarray(steps, dtype=np.float64), np.asarray(turn, dtype=np.float64)
     z = -kappa + 1j * angle if np.any(angle != 0.0) else np.broadcast_to(-kappa, np.broadcast(kappa, angle).shape)
     first, second = phi(z)
@@ -120,12 +116,10 @@ def quickest_time(instantaneous: float, compliances: Array, times: Array) -> flo
 
 
 def recovery_at_depth(instantaneous: float, compliances: Array, times: Array, duration: float) -> Array:
-    """Return (1 − e^{−AT})⁻¹ (n, n) for memories √C q of points that stay where they are: u is given, and not p.
-
-    With u given, p falls by Σ C q/c∞ and q' = −A q + …, A = diag(1/τ)(1 + [1 … 1]ᵀC/c∞), whose times are those of
-    relaxation.  Scaled by √(Cτ) the inverse of A is symmetric: diag(τ) − √(Cτ)√(Cτ)ᵀ/(c∞ + ΣC), in which long times are
-    exact; of short ones only that they are short matters.
-    """
+    """Return (1 − e^{−AT})⁻¹ (n, n) for memories √C q of points that stay where they are: u is given, and not p."""
+    # With u given, p falls by Σ C q/c∞ and q' = −A q + …, A = diag(1/τ)(1 + [1 … 1]ᵀC/c∞), whose times are those of
+    # relaxation. Scaled by √(Cτ) the inverse of A is symmetric: diag(τ) − √(Cτ)√(Cτ)ᵀ/(c∞ + ΣC), in which long times
+    # are exact; of short ones only that they are short matters.
     root = np.sqrt(compliances * times)
     relaxation = np.diag(times) - np.outer(root, root) / (instantaneous + float(compliances.sum()))
     found, vectors = np.linalg.eigh(relaxation)
@@ -172,15 +166,13 @@ class Modes:
 
     @classmethod
     def for_history(cls, spectrum: Spectrum, shortest_time: float, whole_duration: float, error: float = 1e-5) -> Modes:
-        """Return few modes that respond in the same way to all that happens within a history.
-
-        `shortest_time` is the least time in which the pressure on a point of the solid changes noticeably: the
-        shortest step, or the time in which a sliding contact passes a cell, if that is less.  Much faster modes follow
-        the pressure at once or share one field; modes much slower than `whole_duration` share another.  `error` bounds
-        what that changes: of the creep compliance J(t) from `shortest_time` to `whole_duration`, relative to J(t), and
-        of the complex compliance S(ω) from 1/`whole_duration` to 1/`shortest_time`, relative to |S|.  Modes at other
-        times, fitted to both, are used where fewer of them are as close.
-        """
+        """Return few modes that respond in the same way to all that happens within a history."""
+        # `shortest_time` is the least time in which the pressure on a point of the solid changes noticeably: the
+        # shortest step, or the time in which a sliding contact passes a cell, if that is less. Much faster modes follow
+        # the pressure at once or share one field; modes much slower than `whole_duration` share another. `error` bounds
+        # what that changes: of the creep compliance J(t) from `shortest_time` to `whole_duration`, relative to J(t),
+        # and of the complex compliance S(ω) from 1/`whole_duration` to 1/`shortest_time`, relative to |S|. Modes at
+        # other times, fitted to both, are used where fewer of them are as close.
         every = cls.of(spectrum)
         reference = _Response.of(every, shortest_time, whole_duration)
         best, counts = every, [0, 0, 0]
@@ -207,10 +199,8 @@ class Modes:
         return _Response.of(every, shortest_time, whole_duration).error(self)
 
     def growth_of_error(self, every: Modes, since: float) -> float:
-        """Return how many times as large the error of merging is at a time after a jump, s of the clock, as stated.
-
-        Before the shortest time of `for_history`, it is that of the creep compliance at this time.
-        """
+        """Return how many times as large the error of merging is at a time after a jump, s of the clock, as stated."""
+        # Before the shortest time of `for_history`, it is that of the creep compliance at this time.
         if since <= 0.0 or self.error <= 0.0:
             return 1.0
         off = abs(float(self.creep_compliance(since) / every.creep_compliance(since)) - 1.0)
@@ -244,11 +234,9 @@ class Modes:
 
 
 def _merged(every: Modes, at_once: int, fast: int, slow: int) -> Modes:
-    """Return modes of which the fastest ones follow at once, the next share a field, and the slowest share another.
-
-    The common time of fast modes has the same loss at low frequencies, that of slow ones the same rate of creep at
-    first; both have the same compliance in the end.
-    """
+    """Return modes of which the fastest ones follow at once, the next share a field, and the slowest share another."""
+    # The common time of fast modes has the same loss at low frequencies, that of slow ones the same rate of creep at
+    # first; both have the same compliance in the end.
     C, tau = every.C, every.tau
     first, last = at_once + fast, len(every) - slow
     one_C, one_tau = [C[first:last]], [tau[first:last]]
@@ -285,10 +273,8 @@ class _Response:
         return float(max(creep, dynamic))
 
     def fitted(self, every: Modes, count: int, fastest: float) -> Modes:
-        """Return modes at so many times and one slow one, fitted to what these modes respond, with the same sum.
-
-        A part of the compliance follows at once.  The fit is one of least squares with compliances not below zero.
-        """
+        """Return modes at so many times and one slow one, fitted to what these modes respond, with the same sum."""
+        # A part of the compliance follows at once. The fit is one of least squares with compliances not below zero.
         shortest, longest = float(self.times[0]), float(self.times[-1])
         tau = np.append(np.geomspace(fastest * shortest, 0.5 / fastest * longest, count), _SLOWEST * longest)
         total, size = float(every.C.sum()), np.abs(self.dynamic)

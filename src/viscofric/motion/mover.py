@@ -112,17 +112,13 @@ class Mover(Protocol[State]):
         ...
 
     def step(self, state: State, start: Instant, end: Instant) -> State:
-        """Return the state at the end of a step; the memory is exact for a pressure that is linear in between.
-
-        A jump is a step with ``end.clock - start.clock == 0``: the response of the glassy modulus.
-        """
+        """Return the state at the end of a step; the memory is exact for a pressure that is linear in between."""
+        # A jump is a step with ``end.clock - start.clock == 0``: the response of the glassy modulus.
         ...
 
     def settle(self, state: State, instant: Instant, shortest: float) -> State:
-        """Return the state soon after a jump, in which modes too quick for steps have followed; others as they are.
-
-        `shortest` is the time of the shortest step that follows, s.
-        """
+        """Return the state soon after a jump, in which modes too quick for steps have followed; others as they are."""
+        # `shortest` is the time of the shortest step that follows, s.
         ...
 
     def accept(self, state: State, instant: Instant) -> None:

@@ -238,11 +238,9 @@ class NormalMotion:
         return replace(state, memory=memory / self._energy_scale, dissipated=0.0)
 
     def recovered(self, change: Array, touched: Array, start: Instant, end: Instant) -> Array:
-        """Return the change of a memory over a period, divided by 1 − e^(−T/τ), or by its like for springs that touch.
-
-        Where the load is prescribed, it determines the mean of the springs that touch, as if they were free; relative
-        to each other they stay where they are.
-        """
+        """Return the change of a memory over a period, divided by 1 − e^(−T/τ), or its like for springs that touch."""
+        # Where the load is prescribed, it determines the mean of the springs that touch, as if they were free; relative
+        # to each other they stay where they are.
         period = end.clock - start.clock
         freely = -np.expm1(-period / self.tau)
         common = np.zeros_like(change)

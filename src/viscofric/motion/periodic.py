@@ -128,10 +128,8 @@ class PeriodicMover:
         return _TIGHTER * self._tightness >= _TIGHTEST
 
     def tighten(self) -> None:
-        """Lower the tolerance of the contact conditions, and keep the memory in double precision.
-
-        A stiff response multiplies rounding errors of the memory by E_inf/E0.
-        """
+        """Lower the tolerance of the contact conditions, and keep the memory in double precision."""
+        # A stiff response multiplies rounding errors of the memory by E_inf/E0.
         self._tightness *= _TIGHTER
         self.precision = np.complex128
 
@@ -201,10 +199,8 @@ class PeriodicMover:
         keep: bool,
         quick: Mask | None = None,
     ) -> PeriodicState:
-        """Return the state at the end of a step; compliances that lag behind remember the pressure before it.
-
-        Quick modes follow in no time.
-        """
+        """Return the state at the end of a step; compliances that lag behind remember the pressure before it."""
+        # Quick modes follow in no time.
         path = np.asarray(end.position) - np.asarray(start.position)
         clock_step = end.clock - start.clock
         if quick is not None and quick.any():
@@ -305,10 +301,8 @@ class PeriodicMover:
         energies: tuple[float, float],
         trend: Array | None,
     ) -> PeriodicState:
-        """Return a solved state, given the energy that its modes store and all that has been dissipated.
-
-        `both` are the waves of the pressure, and those scaled as the memory is.
-        """
+        """Return a solved state, given the energy that its modes store and all that has been dissipated."""
+        # `both` are the waves of the pressure, and those scaled as the memory is.
         waves, scaled = both
         mean = self._shape[0, 0] * response.end[0, 0] * waves[0, 0] + self._unscaled[0, 0] * past[0, 0]
         depth += float(mean.real) / pressure.size

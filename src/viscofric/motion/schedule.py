@@ -124,10 +124,8 @@ class Schedule:
         return int(np.count_nonzero(self._time == time)) == 2
 
     def at(self, time: float, *, after: bool = True, since: float = 0.0) -> Instant:
-        """Return what is prescribed at a time, after its jump or before it, or so long after it, s.
-
-        Soon after a time, the sum of both would be rounded.
-        """
+        """Return what is prescribed at a time, after its jump or before it, or so long after it, s."""
+        # Soon after a time, the sum of both would be rounded.
         node = int(np.searchsorted(self._time, time))
         place = self._interval(time + since, after=after)
         if since > 0.0:

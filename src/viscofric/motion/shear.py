@@ -23,10 +23,8 @@ def contact_sizes(problem: Problem, run: TransientSolution) -> Array:
 def shear_notes(
     problem: Problem, run: TransientSolution, coulomb: float, kelvin: Array | None = None
 ) -> tuple[Note, ...]:
-    """Return a note where the shear of Coulomb friction changes friction by too much.
-
-    `kelvin` (n,) is the temperature of the rubber, K, if it is known.
-    """
+    """Return a note where the shear of Coulomb friction changes friction by too much."""
+    # `kelvin` (n,) is the temperature of the rubber, K, if it is known.
     if coulomb == 0.0:
         return ()
     ratio, layer, line = problem.material.poisson_ratio, problem.layer, problem.kind == "line"

@@ -418,10 +418,8 @@ def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]], co
 
 
 def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
-    """Return a note where a motion is faster than its material was measured, also between the moments.
-
-    Without sliding, also where it is slower.
-    """
+    """Return a note where a motion is faster than its material was measured, also between the moments."""
+    # Without sliding, also where it is slower.
     schedule, times = problem.schedule, [one.instant.time for one in moments]
     fit = schedule.spectrum.fit
     if fit is None or not moments:

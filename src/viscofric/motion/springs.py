@@ -38,10 +38,8 @@ _FAR, _FARTHEST = 60, 4.0
 
 
 def quadrature_error(values: Array, s: Array) -> float:
-    """Return the error of the trapezoidal rule over both sides of a row, of values (n,) with kinks at contact edges.
-
-    A kink in the middle of a cell makes a quarter of this error; there are kinks at the edge and where it was before.
-    """
+    """Return the error of the trapezoidal rule over both sides of a row, of values (n,) with kinks at contact edges."""
+    # A kink in the middle of a cell makes a quarter of this error; there are kinks at the edge and where it was before.
     return float(np.max(np.abs(np.diff(values)) * np.diff(s)))
 
 
@@ -71,13 +69,7 @@ def profile(indenter: Indenter, s: Array) -> Array:
 
 
 def disc_profile(indenter: Indenter, s: Array, edge: float) -> Array:
-    """Return g(s), m, for contacts up to an edge.
-
-    Raises
-    ------
-    InputError
-        If it does not grow outwards up to the edge: the contact may be a ring, for which springs do not stand.
-    """
+    """Return g(s), m, for contacts up to an edge; InputError if it does not grow outwards up to the edge."""
     g = profile(indenter, s)
     lowest = np.minimum.accumulate(g[::-1])[::-1]  # of what lies further out
     inside = s <= edge
@@ -108,10 +100,8 @@ def elastic_radius(indenter: Indenter, depth: float | None, load: float | None, 
 
 
 def impact_radius(indenter: Indenter, energy: float, weight: float, modulus: float) -> float:
-    """Return the largest contact radius on an elastic half-space after an impact of some energy under a weight, m.
-
-    The energy E* ∫₀ᵃ (δ − g)² ds of the springs is the kinetic energy plus the work of the weight.
-    """
+    """Return the largest contact radius on an elastic half-space after an impact of some energy under a weight, m."""
+    # The energy E* ∫₀ᵃ (δ − g)² ds of the springs is the kinetic energy plus the work of the weight.
     if indenter.has_walls:
         return elastic_radius(indenter, 0.0, None, modulus)
     nodes, weights = np.polynomial.legendre.leggauss(20)
@@ -132,11 +122,9 @@ def row(indenter: Indenter, edge: float, count: int) -> tuple[Array, Array, Arra
 
 
 def graded_row(indenter: Indenter, edge: float, count: int) -> tuple[Array, Array, Array]:
-    """Return places, profile and weights of springs: `count` evenly up to an edge, closer near the axis, wider beyond.
-
-    Near the axis the distances are in proportion to the place: a contact that begins there is resolved as well as one
-    that has grown.
-    """
+    """Return places, profile and weights of springs: `count` evenly up to an edge, closer near the axis."""
+    # Near the axis the distances are in proportion to the place: a contact that begins there is resolved as well as one
+    # that has grown.
     s = np.linspace(0.0, edge, count + 1)
     if not indenter.has_walls:
         more = math.ceil(math.log(_GRADING / _FIRST) / math.log1p(1.0 / _GRADING))

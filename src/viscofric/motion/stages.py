@@ -21,30 +21,9 @@ def staged_history(
     before: str = "untouched",
     direction: Sequence[float] = (1.0, 0.0),
 ) -> History:
-    """Return the history of loading (or indenting), dwell and sliding; SI.
-
-    Parameters
-    ----------
-    control : str
-        ``"load"`` or ``"indentation"``.
-    value : float
-        N (N/m) or m.
-    load_time : float
-        Time in which the load or depth rises from zero, s; zero for a step.
-    dwell : float
-        At rest, s.
-    slide, speed : float
-        Length of the path, m, and the speed, m/s; zero: no sliding.
-    strokes : int
-        Number of strokes along the path, in alternating directions.
-    temperature, before, direction : optional
-        As in `History`.
-
-    Raises
-    ------
-    InputError
-        If all stages are empty, or the history cannot be used.
-    """
+    """Return the history of loading (or indenting), dwell and sliding; SI."""
+    # The load or depth rises to `value` in `load_time`, in a step if that is zero. Each of the `strokes`, in
+    # alternating directions, has the length `slide`, m; zero: no sliding.
     time, values, speeds = [0.0], [0.0 if load_time else value], [0.0]
 
     def stage(duration: float, at: float) -> None:

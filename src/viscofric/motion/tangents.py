@@ -74,11 +74,9 @@ class _Point(NamedTuple):
 def follow(
     springs: Springs, time: Array, given: Array | Falling, control: str = "fall", *, derivatives: bool = True
 ) -> Followed:
-    """Return the motion at times (T,), ascending, one given twice being a jump.
-
-    `control` says what was given at these times: "load", "indentation", or nothing but a `Falling` indenter.  Nothing
-    has happened before the first time, at which nothing touches.
-    """
+    """Return the motion at times (T,), ascending, one given twice being a jump."""
+    # `control` says what was given at these times: "load", "indentation", or nothing but a `Falling` indenter. Nothing
+    # has happened before the first time, at which nothing touches.
     steps, count = np.diff(time), len(springs.tau)
     parts, c = _Coefficients.of(steps, springs.tau), springs.compliances
     force, memory = np.zeros(len(springs.g)), np.zeros((count, len(springs.g)))

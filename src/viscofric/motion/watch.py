@@ -25,11 +25,9 @@ class RepeatingMover(Mover[State], Protocol[State]):
         ...
 
     def recovered(self, change: NDArray[Any], touched: Array, start: Instant, end: Instant) -> NDArray[Any]:
-        """Return the change of a memory over a period, divided by 1 − e^z.
-
-        Where points in contact stay where they are, by the corresponding matrix (`recovery_at_depth`).  `touched` is
-        the part of the period in which each point of `touching` touched.
-        """
+        """Return the change of a memory over a period, divided by 1 − e^z."""
+        # Where points in contact stay where they are, by the corresponding matrix (`recovery_at_depth`). `touched` is
+        # the part of the period in which each point of `touching` touched.
         ...
 
     def memory_from(self, coarser: Any, memory: NDArray[Any]) -> NDArray[Any]:

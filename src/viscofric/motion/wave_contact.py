@@ -63,11 +63,9 @@ class StepContact:
         return self.exact.products + self.single.products
 
     def solved(self, gap: Array, guess: Array | None, target: Target) -> tuple[Array, float, int]:
-        """Return pressure, indentation and the number of products; ConvergenceError if none are found.
-
-        `gap` is that of the guess of the pressure, None if that is zero, at an indentation of zero; both are
-        overwritten.
-        """
+        """Return pressure, indentation and the number of products; ConvergenceError if none are found."""
+        # `gap` is that of the guess of the pressure, None if that is zero, at an indentation of zero; both are
+        # overwritten.
         start, pressure = self.products, guess
         if pressure is not None:
             indentation = self._followed(gap, pressure, target)

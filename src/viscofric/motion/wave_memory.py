@@ -106,10 +106,8 @@ class StepResponse:
         return cls(np.zeros(0), turn, none, compliance, none, none, None)
 
     def known(self, modes: Modes, memory: ComplexArray, pressure: ComplexArray) -> ComplexArray:
-        """Return waves of the displacement at the end of the step that the past causes, for a unit transfer function.
-
-        They carry the same factor as memory (n, rows, columns) and pressure (rows, columns).
-        """
+        """Return waves of the displacement that the past causes at the end of the step, per transfer function."""
+        # They carry the same factor as memory (n, rows, columns) and pressure (rows, columns).
         left = _weighted(modes.C * np.exp(-self.steps), memory)
         if self.turn.any():
             left *= np.exp(1j * self.turn)
@@ -148,10 +146,8 @@ def advance(
     *,
     keep: bool = True,
 ) -> Advanced:
-    """Return the memory (n, rows, columns) after a step from one of two pressures (rows, columns) to the other.
-
-    The given memory, which stores the energy held, is overwritten unless `keep` is set.
-    """
+    """Return the memory (n, rows, columns) after a step from one of two pressures (rows, columns) to the other."""
+    # The given memory, which stores the energy held, is overwritten unless `keep` is set.
     found = np.empty_like(memory) if keep else memory
     # Pressures are rounded as the memory is: where they are equal, nothing is dissipated.
     both = np.stack(pressures, axis=1, dtype=memory.dtype, casting="same_kind")

@@ -38,11 +38,9 @@ def named(cells: Sequence[str], words: Vocabulary) -> set[str]:
 
 
 def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
-    """Return rows with the place of their header, None without one; a missing header is put in where places suffice.
-
-    It is the first row with all headings that the user names; without these the first that names what is needed;
-    without such a row the first that names two quantities.
-    """
+    """Return rows with the place of their header, None without one; a missing header is put in where places suffice."""
+    # It is the first row with all headings that the user names; without these the first that names what is needed;
+    # without such a row the first that names two quantities.
     if words.user_columns:
         return _header_with(rows, words)
     second_best = None

@@ -181,11 +181,9 @@ class Vocabulary:
         return replace(self, user_columns=headings, constants=constants)
 
     def header_values(self, columns: Sequence[Column], missing: Iterable[str]) -> dict[str, Any]:
-        """Return the values of an error about a header, from which a form can ask for the columns.
-
-        ``headings`` found, quantities ``missing``, those ``known`` with their headings, what a form ``offered`` to name
-        with examples of units, and the ``key`` of the run file.
-        """
+        """Return the values of an error about a header, from which a form can ask for the columns."""
+        # ``headings`` found, quantities ``missing``, those ``known`` with their headings, what a form ``offered`` to
+        # name with examples of units, and the ``key`` of the run file.
         return {
             "headings": [column.heading for column in columns],
             "missing": list(missing),
@@ -218,11 +216,9 @@ class Vocabulary:
         return tuple(found)
 
     def _with_titles(self, columns: list[Column], held: set[str]) -> list[Column]:
-        """Return columns with the temperatures or frequencies of their headings, where no column holds these.
-
-        Those of a temperature without any quantity that a header needs are left as they are, and all where another
-        column holds one of their quantities, or a temperature may be below or above zero.
-        """
+        """Return columns with the temperatures or frequencies of their headings, where no column holds these."""
+        # Those of a temperature without any quantity that a header needs are left as they are, and all where another
+        # column holds one of their quantities, or a temperature may be below or above zero.
         lacks = [
             pattern
             for pattern, has in ((TEMPERATURE_IN_NAME, "temperature"), (FREQUENCY_IN_NAME, "frequency"))
@@ -286,11 +282,9 @@ def quantity_of(key: object) -> str:
 
 
 def place_of(said: str, cells: Sequence[str]) -> tuple[int | None, str]:
-    """Return the place of the column that the user means, None if there is none, and the unit added to it, or "".
-
-    `said` is a heading as printed, without regard to case, or the number of a column (``"#3"``); a unit may follow in
-    brackets, which then counts instead of that of the file.  Of several equal headings the first counts.
-    """
+    """Return the place of the column that the user means, None if there is none, and the unit added to it, or ""."""
+    # `said` is a heading as printed, without regard to case, or the number of a column (``"#3"``); a unit may follow in
+    # brackets, which then counts instead of that of the file. Of several equal headings the first counts.
     bracketed = _BRACKETED.match(said)
     for words, unit in ((said, ""), (bracketed["name"], bracketed["unit"]) if bracketed else ("", "")):
         numbered = _PLACE.fullmatch(words)

@@ -125,10 +125,8 @@ def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
 
 
 def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
-    """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, also for plain powers (``N/mm2``).
-
-    A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, ``mPa`` is not.
-    """
+    """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, also for plain powers (``N/mm2``)."""
+    # A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, ``mPa`` is not.
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     if unit == "K":
         text = _TEMPERATURE_UNITS.get(re.sub(r"[°º˚\s]", "", text.replace("℃", "C")).lower(), text)
@@ -145,11 +143,9 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
 
 
 def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
-    """Return the factor from a printed frequency to rad/s, None if the unit does not determine it.
-
-    pint treats the radian as a pure number, so Hz and rad/s are distinguished here.  A frequency in 1/s may be
-    either; an angular frequency in 1/s is in rad/s.
-    """
+    """Return the factor from a printed frequency to rad/s, None if the unit does not determine it."""
+    # pint treats the radian as a pure number, so Hz and rad/s are distinguished here. A frequency in 1/s may be either;
+    # an angular frequency in 1/s is in rad/s.
     plain = unit.replace(" ", "")
     if re.fullmatch(r"rad(/s|/sec|_s|s\^?-1|·s⁻¹|s⁻¹|[*.·]s\^?-1)", plain, re.IGNORECASE):
         return 1.0

@@ -147,10 +147,8 @@ class Table:
         return factor * self.numbers(column) + offset
 
     def conversion(self, column: Column, unit: str, hint: Remedy | None = None) -> tuple[float, float]:
-        """Return ``(factor, offset)`` from a column as printed to an SI unit.
-
-        Without a unit in the heading, the error ends with the hint; a unit of the wrong kind is an error too.
-        """
+        """Return ``(factor, offset)`` from a column as printed to an SI unit."""
+        # Without a unit in the heading, the error ends with the hint; a unit of the wrong kind is an error too.
         example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s", "rad": "deg"}.get(unit, unit)
         if not column.unit:
             right = f"{' '.join(filter(None, (column.name, column.title)))} ({example})"
@@ -208,11 +206,9 @@ class Table:
         return any(column.quantity == what for column in self.columns)
 
     def find(self, names: frozenset[str], what: str) -> int | None:
-        """Return the place of the one column whose name is among `names`, or None.
-
-        Names are compared as printed and in lower case, with underscores as spaces.  Several such columns are an error,
-        in which `what` names the quantity.
-        """
+        """Return the place of the one column whose name is among `names`, or None."""
+        # Names are compared as printed and in lower case, with underscores as spaces. Several such columns are an
+        # error, in which `what` names the quantity.
         found = [
             place
             for place, column in enumerate(self.columns)
@@ -238,10 +234,8 @@ def make_table(
     comma: bool | None = None,
     vocabulary: Vocabulary = NO_WORDS,
 ) -> Table:
-    """Return a table of numbered rows under their headings; `comma`: whether decimals have one, None if numbers decide.
-
-    Rows without any cell, or with none in the columns of the quantities that make a header, are left out.
-    """
+    """Return a table of numbered rows under their headings; `comma`: whether decimals have one, None if unknown."""
+    # Rows without any cell, or with none in the columns of the quantities that make a header, are left out.
     needed = {what for some in vocabulary.needed for what in some}
     places = [place for place, column in enumerate(columns) if column.quantity in needed]
     rows, lines, empty = [], [], 0
@@ -283,10 +277,8 @@ def instrument_table(
     vocabulary: Vocabulary,
     comma: bool | None = None,
 ) -> Table:
-    """Return a table of an instrument's export: its columns are name, unit and quantity, which the format knows.
-
-    `comma` as for `make_table`: a file of several tables has one decimal mark.
-    """
+    """Return a table of an instrument's export: its columns are name, unit and quantity, which the format knows."""
+    # `comma` as for `make_table`: a file of several tables has one decimal mark.
     headed = tuple(Column(name, name, unit, quantity) for name, unit, quantity in columns)
     return replace(make_table(path, headed, rows, comma=comma), vocabulary=vocabulary)
 

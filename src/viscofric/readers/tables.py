@@ -43,12 +43,10 @@ _VALUE = re.compile(r"[+−-]?[\d.,]++(?!\s*/)")
 
 
 def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
-    """Return the tables of a file by the names of their sheets, ``""`` for text.
-
-    Of a workbook these are all sheets with a header, or the one that `source.sheet` names.  A header is the first row
-    that names what the vocabulary needs, or all headings that `source.columns` names; else the first that names two of
-    its quantities, so that the caller can say what is missing.
-    """
+    """Return the tables of a file by the names of their sheets, ``""`` for text."""
+    # Of a workbook these are all sheets with a header, or the one that `source.sheet` names. A header is the first row
+    # that names what the vocabulary needs, or all headings that `source.columns` names; else the first that names two
+    # of its quantities, so that the caller can say what is missing.
     words = vocabulary.with_columns(source.columns)
     if is_workbook(source):
         return _of_workbook(source, words)
@@ -184,12 +182,10 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
 
 
 def _below_each_other(table: Table) -> Table:
-    """Return tables beside each other, such as E' and E'' of several temperatures, below each other.
-
-    Columns before them belong to all.  They have the same columns, and each has a temperature of its own, in its
-    headings or above them; else the table is returned as it is, and so it is where the user names columns, of which
-    equal headings say too little.
-    """
+    """Return tables beside each other, such as E' and E'' of several temperatures, below each other."""
+    # Columns before them belong to all. They have the same columns, and each has a temperature of its own, in its
+    # headings or above them; else the table is returned as it is, and so it is where the user names columns, of which
+    # equal headings say too little.
     found = _by_headings(table) if any(column.title for column in table.columns) else _by_line_above(table)
     if found is None:
         return table
@@ -336,10 +332,8 @@ def _in_text(source: Source, words: Vocabulary) -> Found | None:
 
 
 def _header_of_text(source: Source, words: Vocabulary) -> tuple[str, bool] | None:
-    """Return the delimiter that makes most of a header, and whether the header is a remark.
-
-    Where no line is a header, remarks (``# f (Hz), E' (MPa)``) are looked at too.
-    """
+    """Return the delimiter that makes most of a header, and whether the header is a remark."""
+    # Where no line is a header, remarks (``# f (Hz), E' (MPa)``) are looked at too.
     for remarks in (False, True) if "#" in (source.text or "") else (False,):
         best: tuple[int, str] | None = None
         for delimiter in (*_DELIMITERS, _BLANKS):

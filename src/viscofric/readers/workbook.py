@@ -72,11 +72,9 @@ def _as_text(rows: Rows) -> str:
 
 
 def sheets(source: Source) -> dict[str, Rows]:
-    """Return the sheets of a workbook, in its order: numbers as float, dates and times as text, ``""`` for nothing.
-
-    The file is parsed once, in a separate process with limited memory and time: a crafted workbook can request
-    hundreds of gigabytes.  A damaged, protected or oversized workbook is a `DataFileError`.
-    """
+    """Return the sheets of a workbook, in its order: numbers as float, dates and times as text, ``""`` for nothing."""
+    # The file is parsed once, in a separate process with limited memory and time: a crafted workbook can request
+    # hundreds of gigabytes. A damaged, protected or oversized workbook is a `DataFileError`.
     return opened(source).sheets
 
 

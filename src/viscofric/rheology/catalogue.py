@@ -117,14 +117,12 @@ def _plain(name: str) -> str:
 
 
 def _vhb_4910() -> Material:
-    """Return the small-strain limit: equilibrium shear modulus and three Maxwell branches, incompressible (E = 3G).
-
-    The equilibrium is a chain law of Arruda and Boyce (1993, doi:10.1016/0022-5096(93)90013-6): the deviatoric stress
-    is G0 ζ dev(B), ζ = β(z)/(3z), z = λ/λL, with λ = 1 at small strain.  β is the inverse Langevin function, in
-    the source's code by the Padé approximation of Cohen (1991), β = z (3 − z²)/(1 − z²), which is kept here.  The
-    branches are G_i dev(F A Fᵀ) with dA/dt = (C⁻¹ − A)/τ_i: neo-Hookean, so that G_i and τ_i are those of a linear
-    Maxwell model.
-    """
+    """Return the small-strain limit: equilibrium shear modulus and three Maxwell branches, incompressible (E = 3G)."""
+    # The equilibrium is a chain law of Arruda and Boyce (1993, doi:10.1016/0022-5096(93)90013-6): the deviatoric stress
+    # is G0 ζ dev(B), ζ = β(z)/(3z), z = λ/λL, with λ = 1 at small strain. β is the inverse Langevin function, in the
+    # source's code by the Padé approximation of Cohen (1991), β = z (3 − z²)/(1 − z²), which is kept here. The branches
+    # are G_i dev(F A Fᵀ) with dA/dt = (C⁻¹ − A)/τ_i: neo-Hookean, so that G_i and τ_i are those of a linear Maxwell
+    # model.
     z = 1.0 / 5.99  # locking stretch λL = 5.99
     equilibrium = 15.36e3 * (3.0 - z**2) / (3.0 * (1.0 - z**2))  # Pa
     shear = np.array([26.06e3, 26.53e3, 10.83e3])  # Pa
@@ -174,11 +172,9 @@ def synthetic_fluoroelastomer() -> Material:
 
 
 def _synthetic_tread_rubber() -> Material:
-    """Return a SYNTHETIC rubber with the loss of a tread compound of high wet grip; it was assumed, not measured.
-
-    At 20 °C: a broad glass transition (12 MPa to 1.6 GPa) whose tan δ peaks at 1.1 near 1e6 rad/s, and a very broad
-    relaxation below it (12 MPa to 4 MPa), tan δ of about 0.1, as of a filled rubber at small strain.
-    """
+    """Return a SYNTHETIC rubber with the loss of a tread compound of high wet grip; it was assumed, not measured."""
+    # At 20 °C: a broad glass transition (12 MPa to 1.6 GPa) whose tan δ peaks at 1.1 near 1e6 rad/s, and a very broad
+    # relaxation below it (12 MPa to 4 MPa), tan δ of about 0.1, as of a filled rubber at small strain.
     spectrum = _two_transitions(
         (4e6, 12e6, 1.6e9),
         fast={"centre": -3.0, "long": 0.6, "short": 1.3},

@@ -124,10 +124,8 @@ def predict_heated(
     workers: int | Workers,
     report: Callable[[int], None],
 ) -> tuple[list[Numbers], dict[str, Array], tuple[Note, ...]]:
-    """Return numbers of all contacts at the temperature that they heat to, the columns of the heat, and notes.
-
-    `contacts` have name, surface, speed and temperature each; `call` has the other arguments of `solve_periodic`.
-    """
+    """Return numbers of all contacts at the temperature that they heat to, the columns of the heat, and notes."""
+    # `contacts` have name, surface, speed and temperature each; `call` has the other arguments of `solve_periodic`.
     curves: dict[tuple[int, float, bool], list[int]] = {}
     for row, one in enumerate(contacts):
         backwards = one["speed"] < 0.0  # where a surface is another one

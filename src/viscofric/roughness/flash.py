@@ -63,12 +63,9 @@ class Flash:
     def settled(
         self, q: Array, log_weights: Array, at: tuple[float, float], heated: Callable[[Array], tuple[Array, Array]]
     ) -> tuple[Array, Array, Array, Array, float]:
-        """Return P(q), dissipation, and the rise, its part by Coulomb friction and that of the surface, K, that agree.
-
-        `q` (n,) in rad/m; `log_weights` (n,) are those of a quadrature over ln q; `at` are the speed, m/s, and the
-        temperature, K; `heated` returns P(q) and q³ C S ∫dφ cos φ Im E/(1−ν²), Pa m, at a rise of temperature.  Raises
-        ConvergenceError if the iteration does not converge.
-        """
+        """Return P(q), dissipation, the rise, its part by Coulomb friction and that of the surface, K, that agree."""
+        # `q` (n,) in rad/m; `log_weights` (n,) are those of a quadrature over ln q; `at` are the speed, m/s, and the
+        # temperature, K; `heated` returns P(q) and q³ C S ∫dφ cos φ Im E/(1−ν²), Pa m, at a rise of temperature.
         rise = np.full(len(q), self.start)
         step, before, descending = 1.0, np.zeros(len(q)), self.start > 0.0
         for _ in range(_MOST_ITERATIONS):

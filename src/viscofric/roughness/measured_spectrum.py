@@ -89,11 +89,9 @@ class LineSpectrum(Density):
 
 
 def _isotropic_density(q: Array, line: Callable[[Array], Array]) -> Array:
-    """Solve C₁(q) = ∫ dp C(√(q² + p²)) for the density C of a surface at the points of that of its lines, C₁.
-
-    C is sought as C₁(k)/k times a factor that is linear in ln k between the points, not below zero, by least squares of
-    the relative misfit.  For C ∝ k^(−s) the factor is constant, Γ(s/2)/(√π Γ((s−1)/2)).
-    """
+    """Solve C₁(q) = ∫ dp C(√(q² + p²)) for the density C of a surface at the points of that of its lines, C₁."""
+    # C is sought as C₁(k)/k times a factor that is linear in ln k between the points, not below zero, by least squares
+    # of the relative misfit. For C ∝ k^(−s) the factor is constant, Γ(s/2)/(√π Γ((s−1)/2)).
     logs, count = np.log(q), len(q)
     place, weight = np.polynomial.legendre.leggauss(NODES)
     rows = np.zeros((count - 1, count))
@@ -221,10 +219,8 @@ def _insist(topography: object) -> None:
 
 
 def _windowed(topography: Topography, axes: tuple[int, ...]) -> Array:
-    """Return heights less their mean; if not periodic, less their tilt and under Hann's window of unit mean square.
-
-    A surface that is flat but for rounding is refused.
-    """
+    """Return heights less their mean; if not periodic, less their tilt and under Hann's window of unit mean square."""
+    # A surface that is flat but for rounding is refused.
     heights = topography.complete()
     rounding = _ROUNDING * float(np.square(heights).mean())
     heights = np.asarray(heights - heights.mean(axis=axes, keepdims=True), dtype=np.float64)
@@ -247,11 +243,9 @@ def _windowed(topography: Topography, axes: tuple[int, ...]) -> Array:
 def _rings(
     q: Array, density: Array, counts: Array, limits: tuple[float, float, float], per_decade: int
 ) -> tuple[Array, Array]:
-    """Return mean wave numbers and densities of rings of wave numbers, from limits[1] on, and points at both ends.
-
-    The waves in the first ring stand for all wave numbers from limits[0] on: the cells of a grid of waves fill the
-    plane.  Cells of longer waves that the surface is without stay empty.
-    """
+    """Return mean wave numbers and densities of rings of wave numbers, from limits[1] on, and points at both ends."""
+    # The waves in the first ring stand for all wave numbers from limits[0] on: the cells of a grid of waves fill the
+    # plane. Cells of longer waves that the surface is without stay empty.
     whole_number(per_decade, "per_decade", 1, MOST_PER_DECADE)
     start, first, last = limits
     # Rounding in what a surface was made without is no roughness.

@@ -143,10 +143,8 @@ class Theory:
 
 
 def _interval_ends(logs: Array, width: float, start: float) -> Array:
-    """Return ends of intervals of ln q/q0, no longer than a width, with all points of the spectrum among them.
-
-    Just beyond the longest wave P falls from one like the inverse root of the distance: intervals grow from there on.
-    """
+    """Return ends of intervals of ln q/q0, no longer than a width, with all points of the spectrum among them."""
+    # Just beyond the longest wave P falls from one like the inverse root of the distance: intervals grow from there on.
     starts = [start]
     while starts[-1] < 1.0 / _GROWTH:
         starts.append(starts[-1] * (1.0 + _GROWTH * width))

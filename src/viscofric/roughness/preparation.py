@@ -189,10 +189,8 @@ def _harmonic(heights: Array, spacing: tuple[float, float], periodic: bool, hole
 
 
 def rough_indenter(heights: Array, spacing: tuple[float, float], shape: Indenter | None) -> HeightMap | Profile:
-    """Return roughness, or roughness on a smooth shape, as heights that grow away from the solid.
-
-    Heights are (nx, ny), m, none of them missing; a line scan has ny = 1.
-    """
+    """Return roughness, or roughness on a smooth shape, as heights that grow away from the solid."""
+    # Heights are (nx, ny), m, none of them missing; a line scan has ny = 1.
     # A summit is near to the solid, so that its height above the lowest point is small.
     z = -heights
     (nx, ny), (dx, dy) = heights.shape, spacing

@@ -190,11 +190,8 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
 
 
 def interval_of_mean(found: Array, level: float = 0.95) -> tuple[Array, Array]:
-    """Return lower and upper limit (...) of the confidence interval of the mean over all surfaces of a kind.
-
-    By Student's t, for values `found` (..., k) on k surfaces that scatter normally.  Raises InputError if there is one
-    surface only, or the level is not between 0 and 1.
-    """
+    """Return lower and upper limit (...) of the confidence interval of the mean over all surfaces of a kind."""
+    # By Student's t, for values `found` (..., k) on k surfaces that scatter normally.
     from scipy.special import stdtrit
 
     wanted, count = share(level, "level", example=0.95), found.shape[-1]

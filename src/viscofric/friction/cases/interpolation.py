@@ -31,11 +31,9 @@ class Stencil(NamedTuple):
 
 
 def stencil(low: int, high: int, known: Sequence[int], furthest: int) -> Stencil:
-    """Choose the nodes of the polynomial over an interval whose two ends are known.
-
-    Their distances are not below the length of the interval, where a curve was refined nearby: closer nodes would add
-    little and magnify their errors.  Neighbours more than `furthest` apart are not connected.
-    """
+    """Choose the nodes of the polynomial over an interval whose two ends are known."""
+    # Their distances are not below the length of the interval, where a curve was refined nearby: closer nodes would add
+    # little and magnify their errors. Neighbours more than `furthest` apart are not connected.
     least = high - low
     below = _walk([node for node in reversed(known) if node < low], low, -1, least, furthest)
     above = _walk([node for node in known if node > high], high, 1, least, furthest)
@@ -83,11 +81,9 @@ class Interpolated(NamedTuple):
 def interpolate(
     chosen: Stencil, step: float, places: Array, values: Array, errors: Array, logarithmic: Mask
 ) -> Interpolated:
-    """Interpolate several quantities at places (places,) within the stencil's interval.
-
-    `values` and `errors` are (nodes, columns); `step` is the length of one step between integers.  `logarithmic`
-    columns are interpolated by their logarithms if all values are positive.
-    """
+    """Interpolate several quantities at places (places,) within the stencil's interval."""
+    # `values` and `errors` are (nodes, columns); `step` is the length of one step between integers. `logarithmic`
+    # columns are interpolated by their logarithms if all values are positive.
     nodes = step * np.array(chosen.nodes, dtype=float)
     logarithmic = logarithmic & np.all(values > 0.0, axis=0)
     unit = np.where(logarithmic, values, 1.0)

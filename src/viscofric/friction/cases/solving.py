@@ -47,10 +47,7 @@ class Task:
 
 
 def solve(task: Task) -> Record:
-    """Solve one contact; the result is the same to the last bit in any process.
-
-    Raises as `solve_steady` or `solve_periodic`.
-    """
+    """Solve one contact; the result is the same to the last bit in any process."""
     return task.verb(**task.arguments)
 
 

@@ -104,10 +104,8 @@ class SurfaceCase(Case):
         return Task(solve_surface, rubber | self._contact | kept, label)
 
     def solution(self, rubbers: Rubbers, accuracy: float, most_points: int | None = None) -> PeriodicSolution:
-        """Solve the contact and return the whole solution; see `solve_periodic`.
-
-        The surface's grid sets the accuracy; a surface with more than `most_points` along an axis is coarsened.
-        """
+        """Solve the contact and return the whole solution; see `solve_periodic`."""
+        # The surface's grid sets the accuracy; a surface with more than `most_points` along an axis is coarsened.
         surface = surface_of(self.surface)
         every = 1 if most_points is None else -(-max(surface.shape) // most_points)
         if every > 1:

@@ -108,11 +108,9 @@ class Findings(Generic[AnyProblem]):
         return [Material(spectrum_of(row, smoothness.tau), None, self.poisson_ratio) for row in compliances]
 
     def band(self, part: str, reach: tuple[float, float], limit: float, *, relative: bool) -> IdentifiedBand:
-        """Return the frequencies about the middle over which a modulus has a relative standard error below `limit`.
-
-        Before anything was measured, it must scatter at least three times as much.  `reach` are the lowest and highest
-        frequency considered, rad/s; `relative` means the modulus over |E| at the middle.
-        """
+        """Return the frequencies about the middle over which a modulus has a relative standard error below `limit`."""
+        # Before anything was measured, it must scatter at least three times as much. `reach` are the lowest and highest
+        # frequency considered, rad/s; `relative` means the modulus over |E| at the middle.
         middle = self.middle
         steps = BAND_STEPS * np.log10([middle / reach[0], reach[1] / middle])
         places = np.arange(-np.floor(steps[0]), np.floor(steps[1]) + 1.0)
@@ -174,11 +172,9 @@ HELD = 1e-3
 def level_family(
     findings: Findings[Problem], contacts: Contacts, factors: Sequence[float], step: int, accuracy: float
 ) -> tuple[LevelFit, ...]:
-    """Fit the friction with |E| held at levels; contacts are solved once for each but the first.
-
-    `factors`, ascending, are the levels of |E| at the middle frequency over that of the identified material; `step`
-    numbers the first step of solving contacts.  Levels at which the contacts are not solved are left out.
-    """
+    """Fit the friction with |E| held at levels; contacts are solved once for each but the first."""
+    # `factors`, ascending, are the levels of |E| at the middle frequency over that of the identified material; `step`
+    # numbers the first step of solving contacts. Levels at which the contacts are not solved are left out.
     best, middle = findings.best, findings.middle
     log_modulus = float(np.log(np.abs(findings.material(best.minimum.place).complex_modulus(middle))))
     found: dict[float, LevelFit] = {}

@@ -103,12 +103,10 @@ class FirstOrder:
 
 @lru_cache(maxsize=2)
 def _kernels(dimension: int) -> tuple[_Table, _Table]:
-    """Return ln of the loss kernel K(θ) and of the storage kernel, 1 at θ = 0, over ln θ = ln(τ v/a).
-
-    K(θ) = ∫ W(t) tθ/(1 + t²θ²) dt with W the dissipation's weight of the waves q·v/|v| = t/a; of a ball's Hertz
-    pressure, whose transform is g(z) = 3 (sin z − z cos z)/z³, W(t) = 4 t ∫ g(t cosh y)² dy, and of a cylinder's,
-    g(z) = 2 J1(z)/z, W(t) = g(t)².
-    """
+    """Return ln of the loss kernel K(θ) and of the storage kernel, 1 at θ = 0, over ln θ = ln(τ v/a)."""
+    # K(θ) = ∫ W(t) tθ/(1 + t²θ²) dt with W the dissipation's weight of the waves q·v/|v| = t/a; of a ball's Hertz
+    # pressure, whose transform is g(z) = 3 (sin z − z cos z)/z³, W(t) = 4 t ∫ g(t cosh y)² dy, and of a cylinder's,
+    # g(z) = 2 J1(z)/z, W(t) = g(t)².
     from scipy.special import expit, j1, spherical_jn
 
     t = np.exp(_WAVES)
@@ -177,11 +175,9 @@ class CorrectedFriction:
             self._missing = CubicSpline(solved.log_speed, np.column_stack(missing))
 
     def __call__(self, compliances: Array, log_speed: Array, log_load: Array) -> tuple[Array, Array, Array]:
-        """Return ln μ (n,), its derivatives by the compliances (n, 1 + m) and by ln v (n,).
-
-        `compliances` (1 + m,) are ln(1/E_inf), then every ln C; `log_speed` and `log_load` (n,) are ln of the reduced
-        speed, m/s, and of the load over that of the nodes.
-        """
+        """Return ln μ (n,), its derivatives by the compliances (n, 1 + m) and by ln v (n,)."""
+        # `compliances` (1 + m,) are ln(1/E_inf), then every ln C; `log_speed` and `log_load` (n,) are ln of the reduced
+        # speed, m/s, and of the load over that of the nodes.
         crude = self.first(compliances, log_speed)
         if self.solved is None:
             return crude.log_friction, crude.change, crude.slope

@@ -253,12 +253,8 @@ def alone_or_many(anchor: Anchor | Sequence[Anchor] | None) -> tuple[Anchor, ...
 def shifts_of(
     points: Points, curves: FrictionCurves, shift: ShiftLaw | None, reference: float | None, others: Sequence[float]
 ) -> tuple[Points, Shifts]:
-    """Return the shifts as unknowns, and the points at temperatures whose shifts are known or can be found.
-
-    `reference` is the one requested, K; `others` are the temperatures of anchors, K.  Raises InputError if the shift is
-    no shift law, or not known at a temperature; if it is to be found and curves do not overlap, or the reference was
-    not measured.
-    """
+    """Return the shifts as unknowns, and the points at temperatures whose shifts are known or can be found."""
+    # `reference` is the one requested, K; `others` are the temperatures of anchors, K.
     if shift is not None:
         if not isinstance(shift, ShiftLaw):
             raise InputError(

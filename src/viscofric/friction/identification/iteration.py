@@ -95,15 +95,11 @@ def identify(
     accuracy: float,
     first_accuracy: float = FIRST_ACCURACY,
 ) -> tuple[list[Weighed[AnyProblem]], int]:
-    """Iterate until the modelled points converge; return the fits under every roughness, and the number of iterations.
-
-    Each step leads to the predicted minimum in the neighbourhood of the solved contacts.  Where contacts solved there
-    do not confirm the prediction, a shorter step is tried: a trust region, with the step damped in the metric of the
-    prior (A. R. Conn, N. I. M. Gould, P. L. Toint, Trust-Region Methods, SIAM 2000).  The roughness with most evidence
-    is chosen before a step and compared with itself, so that the misfit is one function during a step.
-
-    Raises ConvergenceError if it does not converge, or contacts fail at every step tried.
-    """
+    """Iterate until the modelled points converge; return the fits under every roughness, and the number of steps."""
+    # Each step leads to the predicted minimum in the neighbourhood of the solved contacts. Where contacts solved there
+    # do not confirm the prediction, a shorter step is tried: a trust region, with the step damped in the metric of the
+    # prior (A. R. Conn, N. I. M. Gould, P. L. Toint, Trust-Region Methods, SIAM 2000). The roughness with most evidence
+    # is chosen before a step and compared with itself, so that the misfit is one function during a step.
     errors = problem.point_errors
     typical = float(np.median(errors))
     floors = iter([error for error in FIRST_STEPS if error > typical])

@@ -85,13 +85,10 @@ def anchored(anchors: Iterable[ModulusAnchor]) -> list[Block]:
 
 
 def known_part(prior: Known, band: tuple[Quantity, Quantity] | None, error: float, reference: float) -> Block:
-    """Return E' and E'' of a prior over its measured frequencies, as observations.
-
-    `band` are angular frequencies at the prior's own reference, rad/s, if not those that it was measured at; `error` is
-    the relative standard error of each modulus (samples of a material have their own); `reference` is the temperature
-    of a material without a shift, K.  Raises InputError if the prior is no material, samples or master curve, or its
-    band is unknown or holds nothing.
-    """
+    """Return E' and E'' of a prior over its measured frequencies, as observations."""
+    # `band` are angular frequencies at the prior's own reference, rad/s, if not those that it was measured at; `error`
+    # is the relative standard error of each modulus (samples of a material have their own); `reference` is the
+    # temperature of a material without a shift, K.
     if isinstance(prior, MasterCurve):
         return _of_curve(prior, band, error)
     if isinstance(prior, Material):

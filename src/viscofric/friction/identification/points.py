@@ -67,13 +67,10 @@ class Points:
 def usable_points(
     curves: FrictionCurves, indenter: Indenter, load: Quantity | None, least_error: float, *, assumed: bool = True
 ) -> Points:
-    """Return the usable points of friction curves.
-
-    `load` is that of all points; without it, each has its own.  `least_error` is the smallest relative error of a
-    point: that of the solved contacts.  With `assumed`, the error of a Coulomb friction that was assumed is one that
-    points share.  Raises InputError if points are too few, friction is not above zero, or the
-    loads differ and the indenter has no similarity.
-    """
+    """Return the usable points of friction curves."""
+    # `load` is that of all points; without it, each has its own. `least_error` is the smallest relative error of a
+    # point: that of the solved contacts. With `assumed`, the error of a Coulomb friction that was assumed is one that
+    # points share.
     unit = indenter.geometry.load_unit
     if load is None and len(curves) and curves.load_unit != unit:
         raise InputError(

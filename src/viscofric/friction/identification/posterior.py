@@ -32,11 +32,9 @@ class Minimum(NamedTuple):
 
 
 def descend(residuals: Residuals, start: Array, converged: float = CONVERGED, metric: Array | None = None) -> Minimum:
-    """Minimise a sum of squares by the method of Levenberg and Marquardt, in 100 steps at most.
-
-    Steps are damped in a metric (p, p), positive definite; that of the prior takes few steps along directions that the
-    measurement does not determine.  The damping follows H. B. Nielsen, Report IMM-REP-1999-05, DTU 1999.
-    """
+    """Minimise a sum of squares by the method of Levenberg and Marquardt, in 100 steps at most."""
+    # Steps are damped in a metric (p, p), positive definite; that of the prior takes few steps along directions that
+    # the measurement does not determine. The damping follows H. B. Nielsen, Report IMM-REP-1999-05, DTU 1999.
     place, damping, growth = np.array(start), 1.0, 2.0
     metric = np.eye(len(place)) if metric is None else metric
     values, jacobian = residuals(place)
@@ -72,13 +70,11 @@ def log_evidence(minimum: Minimum, log_volume: float) -> float:
 def draws(
     residuals: Residuals, minimum: Minimum, count: int, random: np.random.Generator, metric: Array | None = None
 ) -> Array:
-    """Draw from the density exp(−|r|²/2), (count, p): each sample is the minimum for other errors of all inputs.
-
-    Measurements and prior means are changed by errors of their own size, and fitted again.  This is exact for linear
-    residuals, and for as many residuals as unknowns up to the change of |∂r/∂x|; samples are independent.
-    Randomised maximum likelihood: Y. Chen, D. S. Oliver, Math. Geosci. 44 (2012) 1; J. M. Bardsley et al., SIAM J. Sci.
-    Comput. 36 (2014) A1895.
-    """
+    """Draw from the density exp(−|r|²/2), (count, p): each sample is the minimum for other errors of all inputs."""
+    # Measurements and prior means are changed by errors of their own size, and fitted again. This is exact for linear
+    # residuals, and for as many residuals as unknowns up to the change of |∂r/∂x|; samples are independent. Randomised
+    # maximum likelihood: Y. Chen, D. S. Oliver, Math. Geosci. 44 (2012) 1; J. M. Bardsley et al., SIAM J. Sci. Comput.
+    # 36 (2014) A1895.
     size = len(residuals(minimum.place)[0])
     found = []
     for _ in range(count):
@@ -101,10 +97,8 @@ def correlation(residuals: Array) -> float:
 
 
 def too_small(residuals: Array, freedom: float, example: str, remedy: Remedy | None = None) -> tuple[Note, ...]:
-    """Return a note if residuals over given standard errors are smaller than chance explains: errors are shared.
-
-    `example` is a clause about a shared error, `remedy` the end of the sentence.
-    """
+    """Return a note if residuals over given standard errors are smaller than chance explains: errors are shared."""
+    # `example` is a clause about a shared error, `remedy` the end of the sentence.
     from scipy.special import chdtr
 
     chi2 = float(residuals @ residuals)

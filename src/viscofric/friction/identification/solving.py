@@ -53,11 +53,9 @@ def friction_response(
     progress: Callable[[int, int], object] | None = None,
     **settings: Unpack[ContactOptions],
 ) -> FrictionResponse:
-    """Solve a contact at each speed (n,), m/s, with the derivatives of friction by every mode, E_inf, speed and load.
-
-    The spectrum is that at the temperature to which the speeds are reduced; the load, N or N/m, is one or (n,).
-    `progress(done, total)` is called after every contact.  ConvergenceError names the speed and load that failed.
-    """
+    """Solve a contact at each speed (n,), m/s, with derivatives of friction by every mode, E_inf, speed and load."""
+    # The spectrum is that at the temperature to which the speeds are reduced; the load, N or N/m, is one or (n,).
+    # `progress(done, total)` is called after every contact. ConvergenceError names the speed and load that failed.
     material = Material(spectrum, poisson_ratio=poisson_ratio)
     calls = [
         {

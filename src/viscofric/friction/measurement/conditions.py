@@ -212,18 +212,14 @@ def _full_rank(signs: frozenset[tuple[int, int]], offset: bool, coulomb: bool) -
 def conditions(
     runs: TractionRuns, course: Course, speed_tolerance: float, temperature_tolerance: float
 ) -> tuple[list[Condition], tuple[str, ...]]:
-    """Group the readings of a traction test by their measured temperature, load, speed and slip, in this order.
-
-    Values are sorted, and a gap wider than the tolerance starts the next nominal value.  The tolerance of temperature
-    is in K, that of speed relative; that of load is 5 %.  The tolerance of the slip ratio follows from the measured
-    jitter of the speeds, since slip is a small difference of two of them: it is three standard deviations of that
-    difference, at least a tenth of the speeds' tolerance.  Slip of either sense within it, or with a mean within three
-    of its own standard deviations, is pure rolling.  Slip that was swept without gaps is cut into intervals four
-    tolerances wide.  Readings at zero speed of the disc are left out.
-
-    Returns notes too: on readings left out, taken as pure rolling, or cut into intervals.  Raises InputError if values
-    have no gaps between nominal values.
-    """
+    """Group the readings of a traction test by their measured temperature, load, speed and slip, in this order."""
+    # Values are sorted, and a gap wider than the tolerance starts the next nominal value. The tolerance of temperature
+    # is in K, that of speed relative; that of load is 5 %. The tolerance of the slip ratio follows from the measured
+    # jitter of the speeds, since slip is a small difference of two of them: it is three standard deviations of that
+    # difference, at least a tenth of the speeds' tolerance. Slip of either sense within it, or with a mean within three
+    # of its own standard deviations, is pure rolling. Slip that was swept without gaps is cut into intervals four
+    # tolerances wide. Readings at zero speed of the disc are left out. Returns notes too: on readings left out, taken
+    # as pure rolling, or cut into intervals.
     moving = np.flatnonzero((runs.disc_speed != 0.0) & (course.speed > 0.0))
     notes = list(course.notes)
     if moving.size < len(runs):

@@ -194,15 +194,12 @@ def _measured_once(fit: Fit) -> bool:
 def of_readings(
     fits: list[Fit], weights: Array, lacking: Mask
 ) -> tuple[dict[tuple[int, int], tuple[float, float]], float]:
-    """Estimate the variance of coefficients whose passes leave no residual, from the scatter within the passes.
-
-    Readings of a pass are an autoregressive series of first order.  Its autocorrelation is that of all passes together,
-    with which the mean products of deviations from means agree in expectation.
-
-    `weights` (3,) are those of force, drift and changes of the zero; `lacking` (k, 4) marks the numbers of each
-    condition without an error.  Returns variance and degrees of freedom by condition and number, where there are
-    several readings in a pass, and the autocorrelation.
-    """
+    """Estimate the variance of coefficients whose passes leave no residual, from the scatter within the passes."""
+    # Readings of a pass are an autoregressive series of first order. Its autocorrelation is that of all passes
+    # together, with which the mean products of deviations from means agree in expectation. `weights` (3,) are those of
+    # force, drift and changes of the zero; `lacking` (k, 4) marks the numbers of each condition without an error.
+    # Returns variance and degrees of freedom by condition and number, where there are several readings in a pass, and
+    # the autocorrelation.
     places = [
         place
         for place in np.flatnonzero(np.any(lacking, axis=1)).tolist()

@@ -121,13 +121,11 @@ class Entry:
 
 
 def operators(design: Array, crossed: Array | None, parts: list[Indices]) -> Array:
-    """Return the operators (4, n) from readings to coefficients, for each of several parts separately.
-
-    `design` (n, 3) are the regressors (those that are zero throughout are not fitted), `crossed` (n,) a fourth one,
-    whose coefficient is fitted without changing those of the others; each of `parts`, rows that are fitted together,
-    determines all coefficients.  The columns of a part hold (XᵀX)⁻¹Xᵀ, by the QR factors of X: the fit without
-    `crossed` has the leading ones of the fit with it.  The sums of squares are the diagonal of (XᵀX)⁻¹.
-    """
+    """Return the operators (4, n) from readings to coefficients, for each of several parts separately."""
+    # `design` (n, 3) are the regressors (those that are zero throughout are not fitted), `crossed` (n,) a fourth one,
+    # whose coefficient is fitted without changing those of the others; each of `parts`, rows that are fitted together,
+    # determines all coefficients. The columns of a part hold (XᵀX)⁻¹Xᵀ, by the QR factors of X: the fit without
+    # `crossed` has the leading ones of the fit with it. The sums of squares are the diagonal of (XᵀX)⁻¹.
     used = np.flatnonzero(np.any(design != 0.0, axis=0))
     columns = design[:, used] if crossed is None else np.column_stack([design[:, used], crossed])
     operator = np.zeros((4, len(design)))
@@ -194,12 +192,10 @@ class Fit:
         coulomb: tuple[float, float] | None = None,
         growth: Growth | None = None,
     ) -> Fit:
-        """Fit a condition's readings, each replicate separately where all are complete.
-
-        `zeros` are used where the signs do not determine the zero; `coulomb` is the coefficient and its standard error
-        where they are assumed; `growth` is the change of viscoelastic friction with speed within the condition, none if
-        None.
-        """
+        """Fit a condition's readings, each replicate separately where all are complete."""
+        # `zeros` are used where the signs do not determine the zero; `coulomb` is the coefficient and its standard
+        # error where they are assumed; `growth` is the change of viscoelastic friction with speed within the condition,
+        # none if None.
         slides = bool(np.any(group.slip_sign))
         checks = coulomb is None and group.signs >= _FOUR
         offset = zeros.fitted(group, coulomb=coulomb is None)

@@ -37,10 +37,8 @@ class Uneven:
         return bool(np.any(self.apart))
 
     def with_growths(self, bare: list[Entry], entries: list[Entry]) -> Uneven:
-        """Return the change of friction from that at the speeds of each temperature and load.
-
-        The standard errors of `entries` include the uncertainty of the change of friction, those of `bare` do not.
-        """
+        """Return the change of friction from that at the speeds of each temperature and load."""
+        # The standard errors of `entries` include the uncertainty of the change of friction, those of `bare` do not.
         growths = list(self.growths)
         for place in np.flatnonzero(self.apart).tolist():
             own = bare[place]

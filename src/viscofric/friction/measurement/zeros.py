@@ -85,11 +85,9 @@ class Zeros:
         return bool(np.all(np.isfinite(self.of(group))))
 
     def variance(self, group: Condition, operator: Array, part: Indices | None) -> Array:
-        """Return the variance of coefficients (4,) = `operator` @ readings due to the errors of the recordings.
-
-        The scatter of parts of the readings (numbered by `part`), which gives the errors, includes this variance if
-        each part has its own recording, and nothing of it if they share one.  The included part is subtracted.
-        """
+        """Return the variance of coefficients (4,) = `operator` @ readings due to the errors of the recordings."""
+        # The scatter of parts of the readings (numbered by `part`), which gives the errors, includes this variance if
+        # each part has its own recording, and nothing of it if they share one. The included part is subtracted.
         _, which = np.unique(self.recording[group.rows], return_inverse=True)
         recordings = int(which.max()) + 1
         left = np.array([np.sum(np.bincount(which, row) ** 2) for row in operator])

@@ -187,17 +187,14 @@ def plan_cases(
     fields: bool | Collection[int] = False,
     each: bool = False,
 ) -> Plan:
-    """Plan the solution of a set of cases.
-
-    Cases refer to materials, with a shift if they differ in temperature, by index, and to the bootstrap samples in
-    `members` by their number, from 1.  `accuracy` is that of the friction coefficients, relative.  If `sensitive`, the
-    derivatives of friction by the material's compliance are found for bands; not for bootstrap samples.  `fields` are
-    kept of all cases, or of those of given numbers, which are solved individually, as are all if `each`.  If not, cases
-    on one curve (Eq. 10) are interpolated between as many solved contacts as the accuracy requires.
-
-    The nodes of curves lie at fixed places.  A study with more cases has the same nodes and some others, so that
-    results of its old cases change within the accuracy if their neighbourhood is refined, and not at all elsewhere.
-    """
+    """Plan the solution of a set of cases."""
+    # Cases refer to materials, with a shift if they differ in temperature, by index, and to the bootstrap samples in
+    # `members` by their number, from 1. `accuracy` is that of the friction coefficients, relative. If `sensitive`, the
+    # derivatives of friction by the material's compliance are found for bands; not for bootstrap samples. `fields` are
+    # kept of all cases, or of those of given numbers, which are solved individually, as are all if `each`. If not,
+    # cases on one curve (Eq. 10) are interpolated between as many solved contacts as the accuracy requires. The nodes
+    # of curves lie at fixed places. A study with more cases has the same nodes and some others, so that results of its
+    # old cases change within the accuracy if their neighbourhood is refined, and not at all elsewhere.
     kept = range(len(cases)) if fields is True else () if fields is False else fields
     settings = Settings(accuracy, sensitive, frozenset(kept))
     return Plan(cases, Rubbers(materials, members or {}), settings, range(len(cases)) if each else settings.fields)

@@ -55,11 +55,9 @@ class SharedContacts:
         *,
         sensitive: bool = False,
     ) -> SharedContacts | None:
-        """Return the shared contacts of which these, arguments of `solve_steady` each, are some.
-
-        None where each is better solved by itself: for few contacts, a table of moduli, and settings that belong to one
-        grid or direction.
-        """
+        """Return the shared contacts of which these, arguments of `solve_steady` each, are some."""
+        # None where each is better solved by itself: for few contacts, a table of moduli, and settings that belong to
+        # one grid or direction.
         first = contacts[0]
         accuracy = first["accuracy"]
         given = {name: value for name, value in first.items() if name not in _OF_CONTACT}

@@ -77,10 +77,8 @@ def widenings(members: Sequence[int], values: Array, pairs: Pairs) -> Array:
 
 
 def widened(covariance: Array, factors: Array, at_reference: Array) -> Array:
-    """Return the covariance (n, n) of shifts whose steps between neighbours have variances larger by factors (n − 1,).
-
-    `at_reference` (n,) are the weights with which the shifts are zero together.
-    """
+    """Return the covariance (n, n) of shifts whose steps have variances larger by factors (n − 1,)."""
+    # `at_reference` (n,) are the weights with which the shifts are zero together.
     wider = covariance.copy()
     for step, factor in enumerate(factors.tolist()):
         pair = np.array([step, step + 1])
@@ -94,23 +92,13 @@ def widened(covariance: Array, factors: Array, at_reference: Array) -> Array:
 def found_shifts(
     isotherms: Sequence[FrictionIsotherm], reference: float | None, level_error: float = 0.0
 ) -> tuple[ShiftFactors, list[int]]:
-    """Find the shift factors that bring friction curves, in ascending temperature, onto one smooth curve.
-
-    They are those of the temperatures whose curves overlap, with notes on those left out; the second value are their
-    indices among all temperatures.
-
-    Pairs of temperatures are scanned for steps at which their curves coincide, overlapping curves are arranged roughly
-    (both in `placement`), and all are brought onto one penalised spline at once, as moduli are
-    (`rheology.superposition.common_shifts`).  Overlaps that the fitted shifts and their errors do not confirm are
-    dropped.
-
-    α is 1 at `reference` (K), by default the temperature in the middle of the largest group.  `level_error` is the
-    relative standard error of friction that all points of a temperature share.
-
-    Raises SuperpositionError if no curve overlaps with another one, or none with that of the reference; if friction is
-    too flat, or fits in more than one way (codes: see `Doubts`).  Raises InputError if the reference lies outside the
-    temperatures, or between groups that do not overlap.
-    """
+    """Find the shift factors that bring friction curves, in ascending temperature, onto one smooth curve."""
+    # They are those of the temperatures whose curves overlap, with notes on those left out; the second value are their
+    # indices among all temperatures. Pairs of temperatures are scanned for steps at which their curves coincide,
+    # overlapping curves are arranged roughly (both in `placement`), and all are brought onto one penalised spline at
+    # once, as moduli are (`rheology.superposition.common_shifts`). Overlaps that the fitted shifts and their errors do
+    # not confirm are dropped. α is 1 at `reference` (K), by default the temperature in the middle of the largest group.
+    # `level_error` is the relative standard error of friction that all points of a temperature share.
     _check(isotherms, reference)
     scale = scatter_scale(isotherms)
     pairs = scan_pairs(isotherms, scale or 1.0)

@@ -97,10 +97,8 @@ class SmoothedPoints:
 
     @cached_property
     def _variance(self) -> Array:
-        """Variances of the points (n,), larger by one factor where they scatter about the curve by more than these.
-
-        The scatter that errors which points share explain is not counted.
-        """
+        """Variances of the points (n,), larger by one factor where they scatter about the curve by more than these."""
+        # The scatter that errors which points share explain is not counted.
         finite = np.isfinite(self.error)
         known = bool(np.any(self.error[finite] > 0.0))
         # Without stated errors, the scatter is taken to be a part of friction.
@@ -138,13 +136,11 @@ def _weights(error: Array) -> Array:
 
 
 def smoothing_weights(points: Array, weights: Array, at: Array, bandwidth: float) -> Iterator[tuple[slice, Array]]:
-    """Yield of each place in `at` (m,) which of `points` (n,), ascending, it depends on, and their weights of sum one.
-
-    At each place, within the range of the points, a parabola is fitted by weighted least squares; its weights are those
-    given (above zero) times the tricube kernel (1 − |d/h|³)³ (W. S. Cleveland, J. Am. Stat. Assoc. 74 (1979) 829), h
-    the bandwidth or, where points are sparse, just beyond the fifth nearest one.  With fewer than four different points
-    the parabola becomes a line or a constant.
-    """
+    """Yield of each place in `at` (m,) the `points` (n,), ascending, it depends on, and their weights of sum one."""
+    # At each place, within the range of the points, a parabola is fitted by weighted least squares; its weights are
+    # those given (above zero) times the tricube kernel (1 − |d/h|³)³ (W. S. Cleveland, J. Am. Stat. Assoc. 74 (1979)
+    # 829), h the bandwidth or, where points are sparse, just beyond the fifth nearest one. With fewer than four
+    # different points the parabola becomes a line or a constant.
     different = points[np.concatenate([[True], np.diff(points) > _COINCIDENT * bandwidth])]
     degree = min(2, max(0, different.size - 2)) if different.size != 2 else 1
     reach = min(_NEIGHBOURS, different.size)

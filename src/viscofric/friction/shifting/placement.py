@@ -176,14 +176,11 @@ def groups(places: Iterable[int], joined: Iterable[tuple[int, int]]) -> list[lis
 
 
 def arrange(members: Sequence[int], pairs: Pairs) -> list[Arrangement]:
-    """Return arrangements of the curves of a group of temperatures over each other, the best one first.
-
-    From the coldest on, each curve is tried wherever it coincides with one that has a position already.  The best few
-    arrangements are kept, so that a curve that coincides with one neighbour at two steps gets the right one.  No α may
-    rise with temperature; curves without a position are left out.
-
-    `members` are the places of the temperatures, which `pairs`, from `scan_pairs`, join.
-    """
+    """Return arrangements of the curves of a group of temperatures over each other, the best one first."""
+    # From the coldest on, each curve is tried wherever it coincides with one that has a position already. The best few
+    # arrangements are kept, so that a curve that coincides with one neighbour at two steps gets the right one. No α may
+    # rise with temperature; curves without a position are left out. `members` are the places of the temperatures, which
+    # `pairs`, from `scan_pairs`, join.
     found = [Arrangement({members[0]: 0.0}, 0.0)]
     left = list(members[1:])
     while left:

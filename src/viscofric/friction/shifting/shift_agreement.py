@@ -227,11 +227,9 @@ def _independent(spread: Array) -> Array:
 
 
 def _slope(x: Array, y: Array, x_spread: Array, y_spread: Array) -> tuple[float, float]:
-    """Return k of y = k x, and its standard error, by generalised total least squares.
-
-    χ²(k) = (y − kx)ᵀ (V_y + k² V_x)⁻¹ (y − kx) with the true x on the line; found by repeated generalised least
-    squares on the x that lies nearest.
-    """
+    """Return k of y = k x, and its standard error, by generalised total least squares."""
+    # χ²(k) = (y − kx)ᵀ (V_y + k² V_x)⁻¹ (y − kx) with the true x on the line; found by repeated generalised least
+    # squares on the x that lies nearest.
     slope = float(x @ y / (x @ x)) if np.any(x) else math.nan
     if not math.isfinite(slope):
         raise InputError("the other shift factors are all 1: there is no slope against them.", code="no-slope")

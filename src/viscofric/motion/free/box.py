@@ -109,10 +109,8 @@ class Lattice(NamedTuple):
         return Lattice(Box(i, j, nx, ny), spacing, width, times)
 
     def carried(self, fields: Array, target: Lattice) -> Array:
-        """Return fields (m, nx, ny) on another lattice; zero beyond this one.
-
-        A delayed pressure is a smooth function of the retardation time.
-        """
+        """Return fields (m, nx, ny) on another lattice; zero beyond this one."""
+        # A delayed pressure is a smooth function of the retardation time.
         here, there = self.box, target.box
         found = _along(fields, 1, (here.i, self.spacing), (there.i, there.nx, target.spacing))
         if here.ny > 1:

@@ -57,11 +57,9 @@ class Cells:
         return self.setting.shape.height(self.grid.x[:, None] - place.x, self.grid.y - place.y)
 
     def force(self, pressure: Array, remembered: Array) -> tuple[float, float]:
-        """Return the friction force along and across the lattice, −∫ p ∇u dA.
-
-        Only what the body remembers counts, the displacement `remembered`: that under the pressure itself does no work
-        when it is moved along, whatever the place of the contact's edges in their cells.
-        """
+        """Return the friction force along and across the lattice, −∫ p ∇u dA."""
+        # Only what the body remembers counts, the displacement `remembered`: that under the pressure itself does no
+        # work when it is moved along, whatever the place of the contact's edges in their cells.
         cell = self.grid.cell_area
         along = np.gradient(remembered, self.grid.spacing, axis=0)
         across = np.gradient(remembered, self.grid.width, axis=1) if pressure.shape[1] > 1 else np.zeros_like(pressure)

@@ -54,10 +54,8 @@ class FreeMover(Cells):
         return self.setting.scales
 
     def floor(self, largest: Scales) -> Scales:
-        """Return the errors by the contact conditions: a part of the largest values, of the load of a relaxed one.
-
-        Gaps are closed to a part of what the body yields in a step, so that a glassy load leaves no error behind.
-        """
+        """Return the errors by the contact conditions: a part of the largest values, of the load of a relaxed one."""
+        # Gaps are closed to a part of what the body yields in a step, so that a glassy load leaves no error behind.
         relaxed = self.setting.scale.force * self.setting.geometry.parabolic_load
         return Scales(*(self.tolerance * one for one in largest._replace(load=min(largest.load, relaxed))))
 

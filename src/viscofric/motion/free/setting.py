@@ -322,10 +322,8 @@ class Setting:
         return self._split(np.concatenate([[start.time], kept[apart]]))[1:]
 
     def _after_start(self, start: Instant, end: Instant, passing: float) -> Array:
-        """Return times before the first cell is passed: friction changes over paths much shorter than a cell.
-
-        `passing` is the time in which the part begins to pass a cell.
-        """
+        """Return times before the first cell is passed: friction changes over paths much shorter than a cell."""
+        # `passing` is the time in which the part begins to pass a cell.
         schedule, kinks = self.schedule, self.schedule.kinks
         begun = float(kinks[np.searchsorted(kinks, start.time, side="right") - 1])
         if begun > schedule.start and not schedule.starts_at(begun):
@@ -371,10 +369,8 @@ def _places(schedule: Schedule) -> Array:
 
 
 def with_fewer_kinks(schedule: Schedule, accuracy: float) -> Schedule:
-    """Return a schedule without the kinks of a smooth curve given by many points: steps may cross them.
-
-    Those at jumps, stops and turns remain, and those at which a rate changes by much.
-    """
+    """Return a schedule without the kinks of a smooth curve given by many points: steps may cross them."""
+    # Those at jumps, stops and turns remain, and those at which a rate changes by much.
     kinks, least = schedule.kinks, min(_BEND * accuracy, _MOST_BEND)
     kept = [float(kinks[0])]
     velocity = [[schedule.velocity(float(time), after=after) for after in (False, True)] for time in kinks]

@@ -113,20 +113,9 @@ def solve_free(
     follow: Callable[..., Track[Any]] = march,
     begun: Sequence[Level] = (),
 ) -> tuple[Track[Any], tuple[Note, ...], list[Level]]:
-    """March a free contact through its schedule.
-
-    Parameters
-    ----------
-    follow : callable
-        Takes the arguments of `march`, and returns the track on one grid.
-    begun : sequence of Level
-        The last grid, or the last two, of a run through a part of the schedule, to be continued.
-
-    Returns
-    -------
-    track, notes, levels
-        The moments with all errors, notes on assumptions, and the last one or two grids.
-    """
+    """March a free contact through its schedule; return track, notes on assumptions, and the last one or two grids."""
+    # `follow` takes the arguments of `march`, and returns the track on one grid; `begun` are the last grids of a run
+    # through a part of the schedule, to be continued.
     if not begun:
         problem = replace(problem, schedule=with_fewer_kinks(problem.schedule, problem.accuracy))
     line = problem.indenter.geometry.dimension == 1  # type: ignore[union-attr]
@@ -226,10 +215,8 @@ def _fitted(setting: Setting, spacing: float) -> float:
 
 
 def _largest(level: Level) -> Scales:
-    """Return the largest values of a march, as scales of errors; of the friction not below a part of the slope.
-
-    A contact that does not move has hardly any friction to be compared with.
-    """
+    """Return the largest values of a march, as scales of errors; of the friction not below a part of the slope."""
+    # A contact that does not move has hardly any friction to be compared with.
     seen = [one.seen for one in level.track.moments]
     load = max((one.load for one in seen), default=0.0)
     setting = level.mover.setting
@@ -248,11 +235,9 @@ def _largest(level: Level) -> Scales:
 
 
 def _compared(level: Level, coarser: Level, judged: Sequence[int]) -> list[Moment[Any]]:
-    """Return the moments of the finer grid with the errors of steps and cells, the work of friction extrapolated.
-
-    Friction is that of the memory, or of the pressure on the indenter's slopes if that has changed less.  The usual
-    change is that of the moments that are judged.
-    """
+    """Return the moments of the finer grid with the errors of steps and cells, the work of friction extrapolated."""
+    # Friction is that of the memory, or of the pressure on the indenter's slopes if that has changed less. The usual
+    # change is that of the moments that are judged.
     fine, coarse = level.track.moments, coarser.track.moments
     kinks = level.mover.setting.schedule.kinks
     here, there = np.array([_values(one) for one in fine]), np.array([_values(one) for one in coarse])
@@ -276,10 +261,8 @@ def _compared(level: Level, coarser: Level, judged: Sequence[int]) -> list[Momen
 
 
 def _interpolated(clock: Array, given: Array, values: Array, kinks: Array) -> Array:
-    """Return values (n, m) at other times, by cubics between kinks that overshoot nowhere.
-
-    They are cubics of the logarithm of the time since the kink: first steps are short.
-    """
+    """Return values (n, m) at other times, by cubics between kinks that overshoot nowhere."""
+    # They are cubics of the logarithm of the time since the kink: first steps are short.
     found = np.repeat(values[:1], len(clock), axis=0)  # before a jump at the start
     for start, end in itertools.pairwise(kinks):
         begin = np.nextafter(start, math.inf)  # the second of two points, at a jump

@@ -112,10 +112,8 @@ LAST_DECIMAL = 0.01
 def insist_on_agreement(
     path: str, storage: Array, loss: Array, tangent: Array | None = None, absolute: Array | None = None
 ) -> None:
-    """Raise `DataFileError` if most of the printed tan δ or |E*| do not follow from E' and E''.
-
-    Single points may differ: noise about zero, numbers of few digits.  Moduli have one unit, NaN if missing.
-    """
+    """Raise `DataFileError` if most of the printed tan δ or |E*| do not follow from E' and E''."""
+    # Single points may differ: noise about zero, numbers of few digits. Moduli have one unit, NaN if missing.
     used = (storage > 0.0) & (loss > 0.0)
     for printed, name, formula, slack, follows in (
         (tangent, "tan δ", "loss over storage modulus", LAST_DECIMAL, loss[used] / storage[used]),

@@ -36,13 +36,11 @@ TEMPERATURE_SWEEP = 5
 
 
 def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[Indices], list[Note]]:
-    """Return the points of each isotherm, in the order of reading, and notes on points outside all of them.
-
-    Points of one file and step are separated at gaps in temperature.  Without a gap over more than
-    `WIDEST_ISOTHERM`, the sample was heated between its isotherms during recording: points at a held temperature are
-    kept.  Groups of equal temperature, of one file or several, are one isotherm; groups of hardly any frequency,
-    next to isotherms with several, are left out.
-    """
+    """Return the points of each isotherm, in the order of reading, and notes on points outside all of them."""
+    # Points of one file and step are separated at gaps in temperature. Without a gap over more than `WIDEST_ISOTHERM`,
+    # the sample was heated between its isotherms during recording: points at a held temperature are kept. Groups of
+    # equal temperature, of one file or several, are one isotherm; groups of hardly any frequency, next to isotherms
+    # with several, are left out.
     groups: list[Indices] = []
     moving: list[int] = []
     for block in _blocks(points, keep):
@@ -85,10 +83,8 @@ def _by_gaps(points: Points, block: Indices) -> list[Indices]:
 
 
 def _by_repeats(points: Points, group: Indices) -> list[Indices]:
-    """Separate points at the widest gaps in temperature if each part then has all frequencies: programmes step by 1 K.
-
-    Repeated sweeps at one temperature have no such gaps and stay together.
-    """
+    """Separate points at the widest gaps in temperature if each part has all frequencies: programmes step by 1 K."""
+    # Repeated sweeps at one temperature have no such gaps and stay together.
     order = group[np.argsort(points.temperature[group], kind="stable")]
     kelvin = points.temperature[order]
     gaps = np.diff(kelvin)

@@ -45,11 +45,9 @@ class TracedSweeps:
 
 
 def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None = None) -> TracedSweeps:
-    """Sort the points of one or several files of one specimen into isotherms, and keep their assignment.
-
-    The notes of the sweeps report what was left out, averaged or reordered, and what is doubtful: drifting
-    temperatures, outliers, strain amplitudes that differ between isotherms.
-    """
+    """Sort the points of one or several files of one specimen into isotherms, and keep their assignment."""
+    # The notes of the sweeps report what was left out, averaged or reordered, and what is doubtful: drifting
+    # temperatures, outliers, strain amplitudes that differ between isotherms.
     if not readings:
         raise InputError("at least one file of DMA sweeps is needed.", code="no-files")
     source, kind, opened = opening(readings, deformation)

@@ -189,10 +189,9 @@ def quantity(name: str) -> str | None:
 
 
 def temperature_in_name(name: str) -> float | None:
-    """Return the temperature in the name of a file or sheet, such as ``"foam_dma_-25C"``, K, or None.
-
-    A minus sign must follow a space or an underscore: in ``"foam-25C"`` it may be a dash, and ``"foam - 25C"`` has one.
-    """
+    """Return the temperature in the name of a file or sheet, such as ``"foam_dma_-25C"``, K, or None."""
+    # A minus sign must follow a space or an underscore: in ``"foam-25C"`` it may be a dash, and ``"foam - 25C"`` has
+    # one.
     found = list(TEMPERATURE_IN_NAME.finditer(name))
     if len(found) != 1 or found[0]["dash"]:
         return None
@@ -211,10 +210,7 @@ FROM_TITLES = Note(
 
 
 def temperatures_of_titles(table: Table, source: Source | None = None) -> Array | None:
-    """Return the temperature of each row, K, by the headings or lines above tables; None if one of them gives none.
-
-    Raises `DataFileError` where the user gives another one with the source.
-    """
+    """Return the temperature of each row, K, by the headings or lines above tables; None if one of them gives none."""
     found = [temperature_of_title(title) for title in table.titles]
     if table.block is None or None in found:
         return None
@@ -333,11 +329,9 @@ def deformation_of(name: str) -> Deformation | None:
 
 
 def tool_says(texts: Iterable[tuple[str, str]], *, axial: bool = False) -> Said:
-    """Return the deformation that the sample holder implies.
-
-    `texts` are label and value from the head of a file, such as ``("Geometry name", "Shear sandwich")``.  `axial`: the
-    columns show an axial oscillation, in which plates do not shear.
-    """
+    """Return the deformation that the sample holder implies."""
+    # `texts` are label and value from the head of a file, such as ``("Geometry name", "Shear sandwich")``. `axial`: the
+    # columns show an axial oscillation, in which plates do not shear.
     said: dict[bool, Said] = {}  # whether it is shear
     for label, value in texts:
         words = f"{label} {value.strip()[:80]!r}"
@@ -371,13 +365,11 @@ def tools_in(rows: Iterable[Sequence[str]]) -> list[tuple[str, str]]:
 def said_by_columns(
     moduli: Iterable[str], tables: Iterable[Iterable[str]], tools: Iterable[tuple[str, str]] = ()
 ) -> Said:
-    """Decide between E and G by headings and sample holder, once for all tables of a file.
-
-    The headings of the moduli come first (with E, the holder separates compression and bending from tension), then the
-    sample holder (see `tools_in`), then a column of shear strain, stress or rate, then a torque without a force.
-    `tables` are the headings of all columns that hold numbers, of each table; a torque counts if each table has one,
-    and so does a column of shear beside a force, which may be of another table.
-    """
+    """Decide between E and G by headings and sample holder, once for all tables of a file."""
+    # The headings of the moduli come first (with E, the holder separates compression and bending from tension), then
+    # the sample holder (see `tools_in`), then a column of shear strain, stress or rate, then a torque without a force.
+    # `tables` are the headings of all columns that hold numbers, of each table; a torque counts if each table has one,
+    # and so does a column of shear beside a force, which may be of another table.
     for printed in moduli:
         kind = deformation_of(heading(printed).name)
         if kind is not None:

@@ -24,10 +24,8 @@ from viscofric.units import Quantity, celsius, to_si
 
 
 def by_frequency(points: Points, rows: Indices) -> list[Indices]:
-    """Separate points by their frequency, ascending; each in the order of reading.
-
-    A frequency that is held scatters as it is measured; frequencies of a test differ by more.
-    """
+    """Separate points by their frequency, ascending; each in the order of reading."""
+    # A frequency that is held scatters as it is measured; frequencies of a test differ by more.
     logarithm = np.log(points.angular_frequency[rows])
     order = np.argsort(logarithm, kind="stable")
     cuts = np.flatnonzero(np.diff(logarithm[order]) > HELD_FREQUENCY) + 1

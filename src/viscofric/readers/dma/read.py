@@ -176,10 +176,8 @@ def trace_dma(
     columns: Mapping[str, str] | None = None,
     sheet: str | None = None,
 ) -> TracedSweeps:
-    """Read the same as `read_dma`, and return the sweeps with every reading of the files.
-
-    If nothing decides between tension and shear, this raises no error, so that the page can show the sweeps and ask.
-    """
+    """Read the same as `read_dma`, and return the sweeps with every reading of the files."""
+    # If nothing decides between tension and shear, this raises no error, so that the page can show the sweeps and ask.
     readings = read_files(paths, "read_dma", "frequency", deformation, temperature, modulus_unit, columns, sheet)
     return traced_sweeps(readings, deformation)
 

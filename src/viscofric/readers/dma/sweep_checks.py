@@ -99,12 +99,10 @@ def _on_outliers(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
 
 
 def outliers(isotherms: Sequence[Isotherm], name: str) -> list[tuple[int, int]]:
-    """Return isotherm and place of points far from the smooth curve of their neighbours in log modulus.
-
-    Each point is compared with the parabola through its nearest neighbours, two on either side, in log frequency
-    and log modulus, relative to the scatter of all points of all isotherms (median absolute deviation).  The
-    worst point is removed and its neighbours are judged again, so that it does not affect them.
-    """
+    """Return isotherm and place of points far from the smooth curve of their neighbours in log modulus."""
+    # Each point is compared with the parabola through its nearest neighbours, two on either side, in log frequency and
+    # log modulus, relative to the scatter of all points of all isotherms (median absolute deviation). The worst point
+    # is removed and its neighbours are judged again, so that it does not affect them.
     curves = [
         (np.log10(one.angular_frequency), np.log10(getattr(one, f"{name}_modulus")), np.arange(len(one)))
         for one in isotherms
@@ -127,10 +125,8 @@ def outliers(isotherms: Sequence[Isotherm], name: str) -> list[tuple[int, int]]:
 
 
 def _residuals(x: Array, y: Array) -> Array:
-    """Return each point's distance from the parabola through its four nearest neighbours, over its standard deviation.
-
-    The ends of a sweep are zero: a parabola is uncertain beyond the last neighbour.
-    """
+    """Return each point's distance from the parabola through four neighbours, over its standard deviation."""
+    # The ends of a sweep are zero: a parabola is uncertain beyond the last neighbour.
     n = len(x)
     if n < 7:
         return np.zeros(0)
@@ -188,11 +184,9 @@ AMPLITUDE_SWEEP, SWEPT_AMPLITUDE = 3, 2.0
 
 
 def of_one_amplitude(points: Points, rows: Indices, source: str) -> tuple[Indices, list[Note]]:
-    """Return the rows of one isotherm of one strain amplitude, and a note on those at others that are left out.
-
-    Points at frequencies that were measured at several amplitudes are those of repeated sweeps, or of an amplitude
-    sweep before the frequency sweep: the amplitude that covers most frequencies, of several the smallest, is kept.
-    """
+    """Return the rows of one isotherm of one strain amplitude, and a note on those at others that are left out."""
+    # Points at frequencies that were measured at several amplitudes are those of repeated sweeps, or of an amplitude
+    # sweep before the frequency sweep: the amplitude that covers most frequencies, of several the smallest, is kept.
     known = rows[points.strain_amplitude[rows] > 0.0]
     held, swept = _swept(points, known)
     if len(swept) < AMPLITUDE_SWEEP:
@@ -236,10 +230,8 @@ def _swept(points: Points, rows: Indices) -> tuple[Array, list[int]]:
 
 
 def on_amplitudes(sweeps: Sequence[Sorted]) -> list[Note]:
-    """Return notes on differing strain amplitudes: the modulus of a filled rubber falls with amplitude.
-
-    A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57, doi:10.1002/app.1962.070061906.
-    """
+    """Return notes on differing strain amplitudes: the modulus of a filled rubber falls with amplitude."""
+    # A. R. Payne, J. Appl. Polym. Sci. 6 (1962) 57, doi:10.1002/app.1962.070061906.
     known = []
     for one in sweeps:
         amplitude = one.isotherm.strain_amplitude

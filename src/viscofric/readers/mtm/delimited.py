@@ -222,10 +222,8 @@ def missing(table: Table) -> list[str]:
 
 
 def speeds(table: Table, notes: list[Note]) -> tuple[Array, Array, set[str]]:
-    """Return the speeds of disc and ball, m/s, and the quantities that they were read from.
-
-    The slide-to-roll ratio is (u_disc - u_ball)/U, with the rolling speed U, the mean of the two.
-    """
+    """Return the speeds of disc and ball, m/s, and the quantities that they were read from."""
+    # The slide-to-roll ratio is (u_disc - u_ball)/U, with the rolling speed U, the mean of the two.
     if table.has("disc speed") and table.has("ball speed"):
         disc, ball = _values(table, "disc speed", "m/s"), _values(table, "ball speed", "m/s")
         return disc, ball, {"disc speed", "ball speed", *_agreeing_slip(table, disc, ball, notes)}
@@ -238,10 +236,8 @@ def speeds(table: Table, notes: list[Note]) -> tuple[Array, Array, set[str]]:
 
 
 def _agreeing_slip(table: Table, disc: Array, ball: Array, notes: list[Note]) -> set[str]:
-    """Return the quantities of slip that are printed beside both speeds and agree; add a note where one does not.
-
-    A sign may be left out.
-    """
+    """Return the quantities of slip that are printed beside both speeds and agree; add a note where one does not."""
+    # A sign may be left out.
     slip, rolling = np.abs(disc - ball), np.abs(0.5 * (disc + ball))
     ratio = slip / np.where(rolling > 0.0, rolling, np.nan)
     agreeing = set()

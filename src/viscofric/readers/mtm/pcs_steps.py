@@ -273,10 +273,8 @@ _FIRST_YEAR, _LAST_YEAR = 1970, 2200
 
 
 def start_times(printed: Sequence[str]) -> list[datetime | None]:
-    """Return when steps began, from date and time as printed (``"23/03/2018 10:12:01"``), None if unreadable.
-
-    The day precedes the month, as in all samples, unless only the other order makes dates of all of them.
-    """
+    """Return when steps began, from date and time as printed (``"23/03/2018 10:12:01"``), None if unreadable."""
+    # The day precedes the month, as in all samples, unless only the other order makes dates of all of them.
     day_first = [_moment(text, 0, 1) for text in printed]
     month_first = [_moment(text, 1, 0) for text in printed]
     return month_first if month_first.count(None) < day_first.count(None) else day_first

@@ -267,11 +267,9 @@ def _nominal(columns: dict[str, Array]) -> Integers:
 
 
 def _counted_on(parts: Sequence[TractionReadings], columns: dict[str, Array]) -> tuple[Integers, tuple[str, ...]]:
-    """Return the replicate numbers of the files, continued where a file repeats conditions of an earlier one.
-
-    Files of one repetition, such as one for each direction, share no reading; files that were each numbered
-    from 1 do.
-    """
+    """Return the replicate numbers of the files, continued where a file repeats conditions of an earlier one."""
+    # Files of one repetition, such as one for each direction, share no reading; files that were each numbered from 1
+    # do.
     sense = np.sign(columns["disc_speed"] - columns["ball_speed"]).astype(np.int64)
     conditions = np.column_stack([_nominal(columns), sense])
     numbers: list[Integers] = []

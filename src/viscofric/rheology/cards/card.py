@@ -200,12 +200,10 @@ _ALIKE = 1e-9
 
 
 def tensile(shear: RelaxationSpectrum, bulk: RelaxationSpectrum | None) -> tuple[RetardationSpectrum, float, list[str]]:
-    """Return tensile spectrum, Poisson ratio of the long-term moduli, and notes, of given G(t) and K(t) in Pa, exactly.
-
-    1/E = 1/(3G) + 1/(9K) holds at every frequency, so that the retardation modes of E are those of G and of K
-    together.  Where K relaxes as G does, or is infinite (`bulk` is None), the Poisson ratio is constant and
-    E = 2(1+ν)G; elsewhere a note says that it is not.
-    """
+    """Return tensile spectrum, Poisson ratio of the long-term moduli, and notes, of G(t) and K(t) in Pa, exactly."""
+    # 1/E = 1/(3G) + 1/(9K) holds at every frequency, so that the retardation modes of E are those of G and of K
+    # together. Where K relaxes as G does, or is infinite (`bulk` is None), the Poisson ratio is constant and E =
+    # 2(1+ν)G; elsewhere a note says that it is not.
     if shear.E0 <= 0.0:
         raise InputError(
             "the long-term shear modulus is zero (the relative moduli add up to 1, or no term is constant): a liquid "
@@ -254,11 +252,9 @@ def _alike(shear: RelaxationSpectrum, bulk: RelaxationSpectrum) -> bool:
 
 
 def relative_series(modulus: float, ratios: Any, times: Any, long_term: float | None = None) -> RelaxationSpectrum:
-    """Return a Prony series from its instantaneous modulus (Pa), relative moduli g_i and relaxation times (s).
-
-    Abaqus and ANSYS store it so.  `long_term` is the long-term modulus where it is known more accurately than by
-    modulus (1 − Σg), which loses digits.
-    """
+    """Return a Prony series from its instantaneous modulus (Pa), relative moduli g_i and relaxation times (s)."""
+    # Abaqus and ANSYS store it so. `long_term` is the long-term modulus where it is known more accurately than by
+    # modulus (1 − Σg), which loses digits.
     share = 1.0 - float(np.sum(ratios))
     rubber = modulus * share
     if long_term is not None and abs(long_term - rubber) <= 1e-9 * modulus:

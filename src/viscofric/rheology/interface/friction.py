@@ -59,11 +59,9 @@ def total_error(*parts: Array | None) -> Array | None:
 def interface_friction(
     law: InterfaceLaw, speed: Array, kelvin: Array | None, pressure: Array, pressure_error: Array
 ) -> tuple[Array, Array]:
-    """Return μ = τ_s(v, T)/p and its standard error at slip speeds, m/s, and mean contact pressures, Pa, of one shape.
-
-    `pressure_error` is the error estimate of solved contacts.  The error of a law of unknown uncertainty is that of the
-    pressure alone.
-    """
+    """Return μ = τ_s(v, T)/p and its standard error at slip speeds, m/s, and mean pressures, Pa, of one shape."""
+    # `pressure_error` is the error estimate of solved contacts. The error of a law of unknown uncertainty is that of
+    # the pressure alone.
     friction = np.asarray(law(speed, kelvin)) / pressure
     relative = OF_LIMIT * pressure_error / pressure
     if law.has_standard_error:

@@ -47,11 +47,9 @@ POINTS_OF_A_SLOPE = 4
 
 
 def solid_modes(misfit: Misfit, tau: Array, curve: Curve) -> Modes:
-    """Fit non-negative modes with a rubber plateau, and raise `LiquidError` where only flow describes the low end.
-
-    The slowest retardation time that a mode may have (`Misfit.ends`) is added to `tau` (n,) in s where the
-    curve's low end is missed without it: whether a fixed lattice has a time near it is chance.
-    """
+    """Fit non-negative modes with a rubber plateau, and raise `LiquidError` where only flow describes the low end."""
+    # The slowest retardation time that a mode may have (`Misfit.ends`) is added to `tau` (n,) in s where the curve's
+    # low end is missed without it: whether a fixed lattice has a time near it is chance.
     enough = MISSED_OVER_TIME if isinstance(curve, StepMasterCurve) else MISSED
     solid = nonnegative_modes(misfit, tau)
     if _missed_at_low_end(misfit, solid) <= enough:
@@ -92,10 +90,8 @@ def judged(
     regularisation: float | None = None,
     notes: tuple[str, ...] = (),
 ) -> RetardationSpectrum:
-    """Return the spectrum with its `fit` judged against master curves at the same temperature; see `SpectrumFit`.
-
-    Of several kinds of tests those at the places `ends` reach the lowest and the highest rates.
-    """
+    """Return the spectrum with its `fit` judged against master curves at the same temperature; see `SpectrumFit`."""
+    # Of several kinds of tests those at the places `ends` reach the lowest and the highest rates.
     fits = [_fit_to(spectrum, curve) for curve in curves]
     low, high = (fits[place] for place in ends)
     known = [one.measured_storage for one in fits if one.measured_storage is not None]

@@ -59,12 +59,10 @@ def merged(strengths: Array, positions: Array) -> tuple[Array, Array]:
 
 
 def reciprocal_modes(level: float, strengths: Array, positions: Array) -> tuple[Array, Array]:
-    """Return strengths and ascending positions (m,) of the modes of the reciprocal function.
-
-    From a relaxation series (level E0 > 0, strengths E_k ≥ 0 and relaxation times, (n,)) to C_k and retardation times;
-    or from a retardation series (1/E_inf, C_k and retardation **rates** 1/τ) to E_k and relaxation rates.  Equal
-    positions are joined, and those without strength left out.
-    """
+    """Return strengths and ascending positions (m,) of the modes of the reciprocal function."""
+    # From a relaxation series (level E0 > 0, strengths E_k ≥ 0 and relaxation times, (n,)) to C_k and retardation
+    # times; or from a retardation series (1/E_inf, C_k and retardation **rates** 1/τ) to E_k and relaxation rates.
+    # Equal positions are joined, and those without strength left out.
     weights, poles = merged(strengths, positions)
     if not len(poles):
         return weights, poles

@@ -274,13 +274,9 @@ ANY_TEMPERATURE = 298.15
 
 @one_blas_thread
 def modes_of_table(table: ModulusTable) -> RetardationSpectrum:
-    """Fit retardation modes to a table of at least four frequencies, with plateaus where the table has them.
-
-    The sum of squares of the errors of ln E' and ln E'' is minimised over C ≥ 0 on a coarse lattice of times, then on
-    finer ones near the modes found, so that a few sharp modes are fitted as well as a broad spectrum.  Raises
-    InputError if the table is too short, that of a liquid, or described by no modes: then E' and E'' scatter too much
-    or violate the Kramers–Kronig relations.
-    """
+    """Fit retardation modes to a table of at least four frequencies, with plateaus where the table has them."""
+    # The sum of squares of the errors of ln E' and ln E'' is minimised over C ≥ 0 on a coarse lattice of times, then on
+    # finer ones near the modes found, so that a few sharp modes are fitted as well as a broad spectrum.
     curve = _as_curve(table)
     if len(table) < 4:
         raise InputError(

@@ -17,13 +17,11 @@ FIRST_STRENGTH_ITERATIONS = 200
 
 
 def smooth_modes(misfit: Misfit, tau: Array, strength: float, start: Modes | None = None) -> Modes:
-    """Minimise the misfit plus the roughness of the spectrum, at retardation times (n,) in geometric progression, s.
-
-    With c = ln C, which keeps every C above zero, ⟨r²⟩ + λ² ∫ (d²c / d(ln τ)²)² d ln τ is minimised; ⟨r²⟩ is the mean
-    square of the errors of ln E' and ln E'', λ > 0 is `strength`.  λ has the same meaning for any number of points and
-    any ratio of the times.  A spectrum without roughness is a power law between sharp ends.  `start` is at the same
-    times; its modes without compliance begin with their neighbour's.
-    """
+    """Minimise the misfit plus the roughness of the spectrum, at retardation times (n,) in geometric progression, s."""
+    # With c = ln C, which keeps every C above zero, ⟨r²⟩ + λ² ∫ (d²c / d(ln τ)²)² d ln τ is minimised; ⟨r²⟩ is the mean
+    # square of the errors of ln E' and ln E'', λ > 0 is `strength`. λ has the same meaning for any number of points and
+    # any ratio of the times. A spectrum without roughness is a power law between sharp ends. `start` is at the same
+    # times; its modes without compliance begin with their neighbour's.
     begin = _even(misfit, tau) if start is None else _continued(start)
     iterations = FIRST_STRENGTH_ITERATIONS if start is None else ITERATIONS
     relaxed = misfit.relaxed(tau)

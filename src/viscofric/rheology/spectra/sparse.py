@@ -32,13 +32,11 @@ def lattice_between(ends: tuple[float, float], ratio: float) -> Array:
 def nonnegative_modes(
     misfit: Misfit, tau: Array, start: Modes | None = None, *, converged: float = ACTIVE_SET_CONVERGED
 ) -> Modes:
-    """Fit 1/E_inf ≥ 0 and C ≥ 0 at retardation times (n,) in s, until the relative fall of the misfit is `converged`.
-
-    The compliance is linear in 1/E_inf and C, so that relative errors of S (equally of E) are minimised by
-    non-negative least squares (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974).  From there, or
-    from `start` at the same times, the sum of squares of the errors of ln E' and ln E'' is minimised by Gauss–Newton
-    steps, each a non-negative least-squares problem.
-    """
+    """Fit 1/E_inf ≥ 0 and C ≥ 0 at retardation times (n,) in s; stop at the relative fall `converged` of the misfit."""
+    # The compliance is linear in 1/E_inf and C, so that relative errors of S (equally of E) are minimised by
+    # non-negative least squares (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974). From there, or from
+    # `start` at the same times, the sum of squares of the errors of ln E' and ln E'' is minimised by Gauss–Newton
+    # steps, each a non-negative least-squares problem.
     columns = misfit.columns(tau)
     strengths = non_negative_fit(*misfit.relative(tau)) if start is None else np.append(start.glass, start.C)
     strengths = _refined(misfit, columns, strengths, converged)
@@ -93,12 +91,10 @@ def few_modes(misfit: Misfit, number: int) -> Modes:
 
 
 def moved_modes(misfit: Misfit, start: Modes, *, tidy: bool = True, converged: float = CONVERGED) -> Modes:
-    """Refine the compliances and the retardation times of modes near the optimum.
-
-    A mode's compliance begins at no less than a hundredth of 1/|E*| at its frequency.  `tidy` sorts the modes, joins
-    those of one time and removes those that have vanished; `converged` is the relative fall of the sum of squares at
-    which to stop.
-    """
+    """Refine the compliances and the retardation times of modes near the optimum."""
+    # A mode's compliance begins at no less than a hundredth of 1/|E*| at its frequency. `tidy` sorts the modes, joins
+    # those of one time and removes those that have vanished; `converged` is the relative fall of the sum of squares at
+    # which to stop.
     number = len(start.tau)
     low, high = misfit.ends
     floor = 1e-2 / misfit.size_at(start.tau)

@@ -39,12 +39,10 @@ class Smoother:
 
     @classmethod
     def fitted(cls, frequency: Array, moduli: Array, weights: Array | None = None) -> Smoother:
-        """Place knots for points and choose the smoothing by restricted maximum likelihood.
-
-        `frequency` (n,) is log10 of the reduced angular frequency; `moduli` (n, m) are log10 of E' and E'' without
-        vertical shifts, or other quantities; `weights` (n,) are the inverse variances of the points relative to each
-        other, all equal if None.
-        """
+        """Place knots for points and choose the smoothing by restricted maximum likelihood."""
+        # `frequency` (n,) is log10 of the reduced angular frequency; `moduli` (n, m) are log10 of E' and E'' without
+        # vertical shifts, or other quantities; `weights` (n,) are the inverse variances of the points relative to each
+        # other, all equal if None.
         knots, degree = knots_for(frequency)
         penalty = roughness(knots, degree)
         basis = splines(knots, degree, frequency)[0]
@@ -162,12 +160,10 @@ def ridged(square: Array) -> Array:
 
 
 def restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple[Array, Array, Array]:
-    """Return the smoothing of each quantity that maximises its restricted likelihood, the scatter, and −2 log of it.
-
-    In the basis that makes BᵀB the identity and the penalty diagonal (d), the likelihood of all smoothings λ is
-    −2 log L = (n − q) log S + Σ log(1 + λd) − (K − q) log λ, with S the penalised squares and q the number of
-    coefficients without penalty; S/(n − q) is the squared scatter.
-    """
+    """Return the smoothing of each quantity that maximises its restricted likelihood, the scatter, and −2 log of it."""
+    # In the basis that makes BᵀB the identity and the penalty diagonal (d), the likelihood of all smoothings λ is −2
+    # log L = (n − q) log S + Σ log(1 + λd) − (K − q) log λ, with S the penalised squares and q the number of
+    # coefficients without penalty; S/(n − q) is the squared scatter.
     factor = np.linalg.cholesky(ridged(basis.T @ basis))
     whitened = np.linalg.solve(factor, np.linalg.solve(factor, penalty).T)
     rough, modes = np.linalg.eigh(0.5 * (whitened + whitened.T))

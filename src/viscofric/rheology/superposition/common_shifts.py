@@ -45,25 +45,18 @@ class CommonShifts:
 def common_shifts(
     sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, quantities: Quantities = BOTH
 ) -> CommonShifts:
-    """Shift isotherms (ascending in temperature, two points or more each) onto one curve of log E' and one of log E''.
-
-    E' and E'' have equal weights; the covariance follows from the scatter of each.  `joins` of each isotherm with the
-    next are the start of the search.
-
-    Plateaus at the cold and the hot end, where the slope of the curves is noise, are left out of the fit; their shifts
-    continue the trend of the others (`gauge.continued`).  With vertical shifts they are kept, since plateaus determine
-    these.
-
-    Where neighbours disagree by many times the typical misfit, superposition itself fails, and one flexible curve would
-    hide that by moving them apart.  There each side gets its own curve, and the two are joined where the two neighbours
-    overlap best, with that join's uncertainty.  The same is done, with an uncertainty of at least half a decade, where
-    a common curve moves neighbours past each other although their storage moduli overlap (`overlap.parted`): sweeps
-    that disagree in E'' alone, as at a resonance of the instrument, do not increase the misfit of a flexible curve once
-    they are apart.
-
-    `sweeps` contain the moduli measured.  The `quantities` shifted may be one of them or tan δ, or have other weights;
-    `joins` are those of the quantities.
-    """
+    """Shift isotherms (ascending in temperature, two points or more each) onto one curve of log E' and of log E''."""
+    # E' and E'' have equal weights; the covariance follows from the scatter of each. `joins` of each isotherm with the
+    # next are the start of the search. Plateaus at the cold and the hot end, where the slope of the curves is noise,
+    # are left out of the fit; their shifts continue the trend of the others (`gauge.continued`). With vertical shifts
+    # they are kept, since plateaus determine these. Where neighbours disagree by many times the typical misfit,
+    # superposition itself fails, and one flexible curve would hide that by moving them apart. There each side gets its
+    # own curve, and the two are joined where the two neighbours overlap best, with that join's uncertainty. The same is
+    # done, with an uncertainty of at least half a decade, where a common curve moves neighbours past each other
+    # although their storage moduli overlap (`overlap.parted`): sweeps that disagree in E'' alone, as at a resonance of
+    # the instrument, do not increase the misfit of a flexible curve once they are apart. `sweeps` contain the moduli
+    # measured. The `quantities` shifted may be one of them or tan δ, or have other weights; `joins` are those of the
+    # quantities.
     search, apart = _torn_apart(quantities.of(sweeps), joins, gauge, quantities)
     inside = identified(search.signal, gauge)
     if inside is None:

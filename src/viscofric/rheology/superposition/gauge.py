@@ -67,12 +67,10 @@ BEND = 0.2  # decades per typical step
 
 
 def identified(signal: Array, gauge: Gauge) -> tuple[int, int] | None:
-    """Return the index of the first isotherm to fit, and that after the last; None to fit all.
-
-    `signal` (n,) is the squared slope of the curves at each isotherm, in units of its noise.  All are fitted where none
-    at the ends is a plateau, nearly all are plateaus, vertical shifts are fitted, or a factor is fixed whose plateau,
-    or whose reference, would be left out.
-    """
+    """Return the index of the first isotherm to fit, and that after the last; None to fit all."""
+    # `signal` (n,) is the squared slope of the curves at each isotherm, in units of its noise. All are fitted where
+    # none at the ends is a plateau, nearly all are plateaus, vertical shifts are fitted, or a factor is fixed whose
+    # plateau, or whose reference, would be left out.
     clear = np.flatnonzero(signal > CLEAR)
     if gauge.free_vertical or len(clear) <= TREND_STEPS:
         return None
@@ -85,11 +83,9 @@ def identified(signal: Array, gauge: Gauge) -> tuple[int, int] | None:
 
 
 def continued(values: Array, gauge: Gauge, first: int, last: int) -> Array:
-    """Continue shifts (or what is linear in them) over the plateaus at both ends, linearly in 1/T.
-
-    `values` (m, …) are those of the isotherms `first` to before `last`; returns (n, …) of all isotherms, zero at the
-    reference.
-    """
+    """Continue shifts (or what is linear in them) over the plateaus at both ends, linearly in 1/T."""
+    # `values` (m, …) are those of the isotherms `first` to before `last`; returns (n, …) of all isotherms, zero at the
+    # reference.
     inverse = gauge.inverse_temperatures
     size = len(inverse)
     onto = np.zeros((size, last - first))

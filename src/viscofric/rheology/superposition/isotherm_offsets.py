@@ -95,11 +95,9 @@ class IsothermOffsets:
         return replace(self, with_shifts=with_shifts.reshape(2 * size, moduli * size))
 
     def resized(self, random: np.random.Generator, errors: Array) -> Array:
-        """Rescale the offsets of each sample to one size drawn at random, and move its shifts accordingly.
-
-        `errors` (samples, s + m n), in decades, were drawn with the mean covariance: errors of log10 α, then of log10 b
-        if fitted (s = 2n), then offsets of the first quantity and those of the second.
-        """
+        """Rescale the offsets of each sample to one size drawn at random, and move its shifts accordingly."""
+        # `errors` (samples, s + m n), in decades, were drawn with the mean covariance: errors of log10 α, then of log10
+        # b if fitted (s = 2n), then offsets of the first quantity and those of the second.
         if not np.any(self.covariance):
             return errors
         moduli, count = len(self.covariance), self.with_shifts.shape[1]
@@ -124,14 +122,12 @@ class Offsets:
 
 
 def estimated(information: Array, score: Array, prior: Array, moduli: int = 2, *, tied: bool) -> Offsets:
-    """Estimate the variance of the offsets of the m quantities (`moduli`, 1 or 2) of n isotherms.
-
-    `information` (p + m n, p + m n) and `score` (p + m n,), half of the decrease of the objective, are those of p free
-    shifts, of the offsets of log E', and of those of log E'', in units of the scatter of the points, with the curves
-    refitted.  `prior` (p, p) is information on the shifts apart from the points.  `tied` makes offsets of E' and E''
-    independent of each other, as they must be where vertical shifts are fitted, which absorb whatever the two have in
-    common.
-    """
+    """Estimate the variance of the offsets of the m quantities (`moduli`, 1 or 2) of n isotherms."""
+    # `information` (p + m n, p + m n) and `score` (p + m n,), half of the decrease of the objective, are those of p
+    # free shifts, of the offsets of log E', and of those of log E'', in units of the scatter of the points, with the
+    # curves refitted. `prior` (p, p) is information on the shifts apart from the points. `tied` makes offsets of E' and
+    # E'' independent of each other, as they must be where vertical shifts are fitted, which absorb whatever the two
+    # have in common.
     free = len(prior)
     size = (len(score) - free) // moduli
     if moduli == 1 and tied:  # part of the vertical shifts

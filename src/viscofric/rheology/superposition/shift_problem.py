@@ -175,13 +175,11 @@ class ShiftProblem:
     def with_offsets(
         self, parameters: Array, smoothers: list[Smoother], expected: Array | None
     ) -> tuple[Array, Array, Array]:
-        """Return information, score and gradient of p parameters and of offsets of the m moduli of n isotherms.
-
-        The curves are refitted.  Information (p + m n, p + m n) is half of the second derivatives of the squares, score
-        (p + m n,) half of their decrease, in units of the scatter of each modulus; gradient (p, m n), in 1/decades, is
-        what each offset adds to half of the decrease of the plain squares with the parameters.  With `expected` offsets
-        (m n,), points of an isotherm whose residuals have a common part count for less.
-        """
+        """Return information, score and gradient of p parameters and of offsets of the m moduli of n isotherms."""
+        # The curves are refitted. Information (p + m n, p + m n) is half of the second derivatives of the squares,
+        # score (p + m n,) half of their decrease, in units of the scatter of each modulus; gradient (p, m n), in
+        # 1/decades, is what each offset adds to half of the decrease of the plain squares with the parameters. With
+        # `expected` offsets (m n,), points of an isotherm whose residuals have a common part count for less.
         count, levels = len(self.start), self.moduli * self.size
         information, score = np.zeros((count + levels, count + levels)), np.zeros(count + levels)
         gradient = np.zeros((count, levels))

@@ -217,12 +217,10 @@ def _drifts(isotherms: Sequence[Isotherm | StepTest], log10_b: Array) -> bool:
 
 
 def _between_models(found: CommonShifts, other: CommonShifts, free: bool) -> CommonShifts:
-    """Add to the errors the difference of the alternative model: with a free vertical shift, or without one if `free`.
-
-    Isotherms that drift contradict the requested model; each of the two models is given half of the weight, so that
-    their difference adds half its square to the variance (S. T. Buckland et al., Biometrics 53 (1997) 603).  Of the
-    difference of each step, only the part beyond the uncertainty of the free model counts.
-    """
+    """Add the difference of the alternative model to the errors: with a free vertical shift, or without if `free`."""
+    # Isotherms that drift contradict the requested model; each of the two models is given half of the weight, so that
+    # their difference adds half its square to the variance (S. T. Buckland et al., Biometrics 53 (1997) 603). Of the
+    # difference of each step, only the part beyond the uncertainty of the free model counts.
     loose = found if free else other
     nearest = int(np.argmin(np.abs(found.values) + np.diag(found.covariance)))
 

@@ -112,11 +112,9 @@ class StepProfiles:
             self.scatters = [np.sqrt(one) * scatter for one, scatter in zip(excess, self.scatters, strict=True)]
 
     def widened(self, parameters: Array, inverse: Array, noise: Array, covariance: Array) -> Array:
-        """Return the covariance (p, p) with the variance that profiles of the steps add, at the parameters (p,) found.
-
-        `inverse` of the curvature, `noise`, the covariance due to the scatter of the points, and `covariance` in all
-        are (p, p).
-        """
+        """Return the covariance (p, p) with the variance that profiles of the steps add, at parameters (p,) found."""
+        # `inverse` of the curvature, `noise`, the covariance due to the scatter of the points, and `covariance` in all
+        # are (p, p).
         broken = {piece.last - 1 for piece in self.problem.pieces}
         profiles = []
         for place in range(self.problem.size - 1):
@@ -253,11 +251,9 @@ MOVED = 0.1
 
 
 def most_likely(likelihood: Callable[[Array], Array], start: Array, scale: Array) -> tuple[Array, Array]:
-    """Return the parameters (p,) that minimise −2 log of a likelihood, and their covariance (p, p).
-
-    `likelihood` returns −2 log of it (k,) at several parameters (k, p).  The columns of `scale` (p, q) are the q
-    directions in which parameters may change, each by one Gauss–Newton standard error.
-    """
+    """Return the parameters (p,) that minimise −2 log of a likelihood, and their covariance (p, p)."""
+    # `likelihood` returns −2 log of it (k,) at several parameters (k, p). The columns of `scale` (p, q) are the q
+    # directions in which parameters may change, each by one Gauss–Newton standard error.
     found = start
     for _ in range(PASSES):
         parts, modes = np.linalg.eigh(_second_derivatives(likelihood, found, scale))

@@ -126,12 +126,10 @@ def neighbour_distances(isotherms: Sequence[Isotherm], log10_b: Array) -> tuple[
 
 
 def drift(neighbours: Sequence[NeighbourDistance]) -> Drift | None:
-    """Return the largest drift, or None where there is none.
-
-    Errors of single isotherms cancel in the sum over a run, except for its two ends; changes with temperature add up: a
-    missing vertical shift, a second relaxation, a sample that changes.  All runs are evaluated.  Errors
-    σ of single isotherms make the differences of consecutive distances scatter by √6 σ, and a sum over a run by √2 σ.
-    """
+    """Return the largest drift, or None where there is none."""
+    # Errors of single isotherms cancel in the sum over a run, except for its two ends; changes with temperature add up:
+    # a missing vertical shift, a second relaxation, a sample that changes. All runs are evaluated. Errors σ of single
+    # isotherms make the differences of consecutive distances scatter by √6 σ, and a sum over a run by √2 σ.
     distances = np.array([pair.distance for pair in neighbours])
     single = float(np.mean(np.diff(distances) ** 2)) / 6.0 if len(distances) > 1 else 0.0
     found = None

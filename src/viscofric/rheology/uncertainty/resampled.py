@@ -86,10 +86,8 @@ def _without_offsets(residual: Array, isotherm: Integers, offset: Array) -> Arra
 
 
 def _leverage(misfit: Misfit, spectrum: RetardationSpectrum, isotherm: Integers) -> Array:
-    """Return the part of each error that modes and shifts follow, (mN,): the diagonal of the linear fit's hat matrix.
-
-    `isotherm` (N,) is the number of each point's isotherm, −1 where its shift was not fitted.
-    """
+    """Return the part of each error that modes and shifts follow, (mN,): the diagonal of the fit's hat matrix."""
+    # `isotherm` (N,) is the number of each point's isotherm, −1 where its shift was not fitted.
     tau = np.array(spectrum.tau)
     relaxed = misfit.relaxed(tau)
     moved = misfit.moved(relaxed, np.array(spectrum.C), tau)

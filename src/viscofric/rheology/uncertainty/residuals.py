@@ -81,10 +81,8 @@ def _moderated(squares: Array, counts: Integers) -> Array:
 
 
 def prior_freedom(log_variances: Array, freedom: Array | Integers) -> float:
-    """Return the degrees of freedom ν0 of the common variance, infinite where sample variances differ by chance only.
-
-    The variance of ln s² (n,) is ψ'(ν/2) by chance, with ν degrees of freedom (n,), and ψ'(ν0/2) besides.
-    """
+    """Return the degrees of freedom ν0 of the common variance, infinite where variances differ by chance only."""
+    # The variance of ln s² (n,) is ψ'(ν/2) by chance, with ν degrees of freedom (n,), and ψ'(ν0/2) besides.
     from scipy.optimize import brentq
     from scipy.special import polygamma
 
@@ -144,14 +142,11 @@ class SystematicMisfit:
 
 
 def systematic_misfit(log10_frequency: Array, residual: Array, isotherm: Integers) -> SystematicMisfit:
-    """Return the part of residuals that neighbouring points have in common.
-
-    `log10_frequency` (N,) is log10 of the reduced angular frequency; `residual` (N, m) is measured minus fitted log10
-    E' and log10 E'', decades; `isotherm` (N,) the number of each point's isotherm.
-
-    The variance of the noise follows from second differences along each isotherm, in which a smooth misfit vanishes (J.
-    von Neumann et al., Ann. Math. Stat. 12 (1941) 153, with first differences).
-    """
+    """Return the part of residuals that neighbouring points have in common."""
+    # `log10_frequency` (N,) is log10 of the reduced angular frequency; `residual` (N, m) is measured minus fitted log10
+    # E' and log10 E'', decades; `isotherm` (N,) the number of each point's isotherm. The variance of the noise follows
+    # from second differences along each isotherm, in which a smooth misfit vanishes (J. von Neumann et al., Ann. Math.
+    # Stat. 12 (1941) 153, with first differences).
     squares, noise = np.zeros_like(residual), np.zeros_like(residual)
     for number in np.unique(isotherm):
         rows = np.flatnonzero(isotherm == number)

@@ -106,10 +106,8 @@ def _above_zero(kelvin: float, place: int, path: str) -> float:
 
 
 def insist_on_sense(shifts: ShiftList, reference: float, path: str) -> None:
-    """Refuse a shift list that contradicts the temperature of the rows, or whose shifts rise with temperature.
-
-    In the former case the list has another unit, in the latter hot and cold isotherms would change places.
-    """
+    """Refuse a shift list that contradicts the temperature of the rows, or whose shifts rise with temperature."""
+    # In the former case the list has another unit, in the latter hot and cold isotherms would change places.
     still = shifts.measured_reference
     if still is not None and abs(still - reference) > SAME_TEMPERATURE:
         both = f"{shown_celsius(still)} °C, but the rows are at {shown_celsius(reference)} °C"
@@ -174,12 +172,10 @@ def programmed_frequencies(tables: Mapping[str, Rows]) -> Array | None:
 def isotherm_of_each_row(
     frequency: Array, time: Array | None, shifts: Array, programmed: Array, path: str, places: Sequence[str]
 ) -> Indices:
-    """Return the isotherm, a place in `shifts`, of each row of a master curve.
-
-    The shift of that isotherm takes the row's frequency, (n,) Hz, back to one of the programme, (k,) Hz, ascending.
-    If two shifts do so (they differ by a whole number of steps), the row belongs to the isotherm of its neighbours in
-    time, s.
-    """
+    """Return the isotherm, a place in `shifts`, of each row of a master curve."""
+    # The shift of that isotherm takes the row's frequency, (n,) Hz, back to one of the programme, (k,) Hz, ascending.
+    # If two shifts do so (they differ by a whole number of steps), the row belongs to the isotherm of its neighbours in
+    # time, s.
     if frequency.size * shifts.size > MOST_CANDIDATES:
         raise DataFileError(
             path, f"{frequency.size} rows and {shifts.size} shifts are more than any sweep has.", code="too-large"
@@ -208,10 +204,8 @@ def isotherm_of_each_row(
 
 
 def _insist_on_one_row_each(chosen: Indices, place: Indices, fits: Mask, path: str) -> None:
-    """Refuse isotherms that lost all their rows to others, or took rows of others.
-
-    Both happen if shifts differ by whole steps of the programme, so that all rows of an isotherm fit another too.
-    """
+    """Refuse isotherms that lost all their rows to others, or took rows of others."""
+    # Both happen if shifts differ by whole steps of the programme, so that all rows of an isotherm fit another too.
     lost = fits.any(axis=0) & ~np.isin(np.arange(fits.shape[1]), chosen)
     doubtful = fits.sum(axis=1) > 1
     _, which, count = np.unique(np.stack([chosen, place]), axis=1, return_inverse=True, return_counts=True)

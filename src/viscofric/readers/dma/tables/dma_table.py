@@ -44,10 +44,8 @@ _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the modul
 
 
 def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
-    """Return the places of the columns by quantity.
-
-    Reduced frequencies have priority over measured ones in a master curve; `is_reduced` distinguishes the two.
-    """
+    """Return the places of the columns by quantity."""
+    # Reduced frequencies have priority over measured ones in a master curve; `is_reduced` distinguishes the two.
     wanted = ("temperature", *MODULI, "tan delta")
     found = {what: table.place(what) for what in wanted}
     found["frequency"] = _frequency_place(table, master_curve=master_curve)
@@ -128,11 +126,9 @@ def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array
 
 
 def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str]) -> tuple[Array, Array]:
-    """Return storage and loss modulus, Pa, as printed or from tan δ, with notes on what was computed.
-
-    With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ, or the angle δ, give the others exactly;
-    redundant columns must agree, else `DataFileError` is raised.
-    """
+    """Return storage and loss modulus, Pa, as printed or from tan δ, with notes on what was computed."""
+    # With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ, or the angle δ, give the others exactly;
+    # redundant columns must agree, else `DataFileError` is raised.
     values = {what: _modulus(table, places[what], source, notes) for what in MODULI if what in places}
     if "storage modulus" in values and "loss modulus" in values:
         storage, loss = values["storage modulus"], values["loss modulus"]
@@ -197,10 +193,8 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
 
 
 def deformation(tables: Sequence[Table], tools: Tools | None = None) -> Said:
-    """Return tension or shear and the words that state it; moduli of both kinds are a `DataFileError`.
-
-    `tools` are label and value of the sample holder, if it is not named above the tables.
-    """
+    """Return tension or shear and the words that state it; moduli of both kinds are a `DataFileError`."""
+    # `tools` are label and value of the sample holder, if it is not named above the tables.
     moduli = [column for what in MODULI for table in tables for column in table.columns if column.quantity == what]
     if {"tension", "shear"} <= {deformation_of(column.name) for column in moduli}:
         problem = "one modulus is tensile (E) by its heading, the other shear (G); correct the wrong heading."
@@ -225,13 +219,11 @@ def read_points(
     exported: bool = False,
     tools: Tools | None = None,
 ) -> Readings:
-    """Return the points of one table.
-
-    `name` is that of the file or sheet, which may contain the temperature; numbers of rows count lines, or what `where`
-    says.  `exported`: by an instrument, which writes no frequency of zero or less; a strain without a unit may be in
-    per cent and is not read; a file may hold many such tables, so that moduli are judged when all points
-    are joined (`checks.usable`).  `tools` as for `deformation`.
-    """
+    """Return the points of one table."""
+    # `name` is that of the file or sheet, which may contain the temperature; numbers of rows count lines, or what
+    # `where` says. `exported`: by an instrument, which writes no frequency of zero or less; a strain without a unit may
+    # be in per cent and is not read; a file may hold many such tables, so that moduli are judged when all points are
+    # joined (`checks.usable`). `tools` as for `deformation`.
     places = find_columns(table)
     if is_reduced(table, places):
         problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
@@ -278,10 +270,8 @@ def read_export(
     where: str = "line",
     tools: Tools | None = None,
 ) -> Readings:
-    """Return the points of the tables, called `what` in an error, of one file of an instrument, without their steps.
-
-    All tables decide together between tension and shear: a torque in one of them states nothing of the others.
-    """
+    """Return the points of the tables, called `what` in an error, of one file of an instrument, without their steps."""
+    # All tables decide together between tension and shear: a torque in one of them states nothing of the others.
     parts = [read_points(table, source, format, "", where, exported=True, tools=tools) for table in tables]
     kind, said_by = deformation(tables, tools)
     return replace(of_one_file(parts, what), deformation=kind, said_by=said_by)
@@ -415,10 +405,8 @@ def _strain_amplitude(table: Table, notes: list[str], without_unit: str) -> Arra
 
 
 def _step(table: Table) -> Integers | None:
-    """Return the numbers of steps, None without exactly one column for them.
-
-    Steps are whole numbers, names, or segment and point (``2|11``); without any, tables below each other are steps.
-    """
+    """Return the numbers of steps, None without exactly one column for them."""
+    # Steps are whole numbers, names, or segment and point (``2|11``); without any, tables below each other are steps.
     for place in range(len(table.columns)):
         if all(_SEGMENT.fullmatch(row[place].strip()) for row in table.rows):
             return np.array([int(row[place].partition("|")[0]) for row in table.rows], dtype=np.int64)

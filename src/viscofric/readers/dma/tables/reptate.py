@@ -149,11 +149,9 @@ _HEADINGS |= {"T": "T (degC)", "Temp": "T (degC)"}
 
 
 def with_units(source: Source) -> Source:
-    """Return such a file as a table with a unit in every heading, any other file as it is.
-
-    The strain of a relaxation test (``gamma``, 1 if it is not given) and the temperature (``T``) are taken from the
-    parameters where there are no columns for them.
-    """
+    """Return such a file as a table with a unit in every heading, any other file as it is."""
+    # The strain of a relaxation test (``gamma``, 1 if it is not given) and the temperature (``T``) are taken from the
+    # parameters where there are no columns for them.
     lines = (source.text or "").splitlines()
     parameters = parameters_of(lines[0]) if lines else {}
     names = lines[1].split() if len(lines) > 1 else []

@@ -30,12 +30,10 @@ def recognises(source: Source) -> bool:
 
 
 def read(source: Source) -> Readings:
-    """Return the points of all sheets with a DMA table.
-
-    Several sheets are the temperatures of one specimen.  If their temperatures overlap, they may as well be several
-    specimens, or copies, and are refused.  Sheets at one frequency, such as amplitude sweeps, are skipped beside
-    frequency sweeps.
-    """
+    """Return the points of all sheets with a DMA table."""
+    # Several sheets are the temperatures of one specimen. If their temperatures overlap, they may as well be several
+    # specimens, or copies, and are refused. Sheets at one frequency, such as amplitude sweeps, are skipped beside
+    # frequency sweeps.
     readings = _of_exports(source) or {
         name: read_points(table, source, NAME, name, where=f"sheet {name!r}, row")
         for name, table in find_tables(source, DMA).items()
