@@ -550,7 +550,6 @@ CALLS: dict[str, Any] = {
     "ParametricLaw.with_parameters": lambda: (wlf(), {"parameters": np.array([9.0, 100.0])}),
     "ShiftFactors": lambda: {**table(), "notes": ()},
     "ShiftFactors.to_dataset": lambda: (factors(), {"temperatures": [310.0]}),
-    "ShiftFactors.with_value": lambda: (factors(), {"temperature": 308.0, "log10": -3.0, "standard_error": 0.1}),
     "ShiftFactors.at_reference": lambda: (factors(), {"reference": 305.0}),
     "ShiftFactors.save": lambda: (factors(), {"path": at("saved.csv")}),
     "WLF.at_reference": lambda: (wlf(), {"reference": 310.0}),

@@ -108,19 +108,6 @@ SAID = [
         ),
     ),
     (
-        lambda: TWO.with_value("15 degC", 1.0),
-        "no-such-temperature",
-        "temperature = 15.0 °C has no shift factor to correct; the table has those at 0.0, 30.0 °C.",
-    ),
-    (
-        lambda: FACTORS.with_value("30 degC", 1.0),
-        "is-reference",
-        (
-            "temperature = 30.0 °C is the reference, where the shift factor is 1; correct the others, or choose "
-            "another reference with at_reference(…) first."
-        ),
-    ),
-    (
         lambda: FACTORS.law("cubic"),
         "unknown-law",
         "law = 'cubic': must be 'wlf', 'arrhenius', 'vft', 'wlf+arrhenius' or 'polynomial'.",

@@ -196,32 +196,6 @@ def test_standard_error_between_temperatures_is_carried_through_the_interpolatio
         table.standard_error("70 degC")
 
 
-def test_a_factor_corrected_by_hand_is_what_it_was_given():
-    covariance = 0.01 * (np.eye(4) + 0.5)
-    celsius = ["0 degC", "30 degC", "60 degC", "100 degC"]
-    table = ShiftFactors(celsius, [2.5, 0.0, -1.5, -2.5], "30 degC", covariance)
-    table = table.at_reference("60 degC").at_reference("30 degC")
-    changed = table.with_value("60.02 degC", -1.7, standard_error=0.05)
-    assert changed.log10_values == pytest.approx([2.5, 0.0, -1.7, -2.5], abs=ROUNDING)
-    assert changed.standard_errors[2] == pytest.approx(0.05)
-    assert changed.covariance[2, [0, 1, 3]] == pytest.approx(0.0)
-    assert changed.covariance[np.ix_([0, 3], [0, 3])] == pytest.approx(table.covariance[np.ix_([0, 3], [0, 3])])
-    (note,) = changed.notes
-    assert note.code == "corrected-by-hand"
-    assert note.values == {"temperature": 333.15, "before": pytest.approx(-1.5), "after": -1.7}
-    assert changed.at_reference("0 degC").notes == changed.notes
-    between = table.at_reference("45 degC")
-    corrected = between.with_value("60 degC", -0.9)
-    assert corrected.log10("60 degC") == pytest.approx(-0.9, abs=ROUNDING)
-    assert corrected.log10("45 degC") == pytest.approx(0.0, abs=ROUNDING)
-    with refused("no-such-temperature"):
-        table.with_value("50 degC", 0.0)
-    with refused("is-reference"):
-        table.with_value("30 degC", 0.1)
-    with refused("out-of-range", naming="standard_error"):
-        table.with_value("60 degC", 0.1, standard_error=-1.0)
-
-
 def test_saved_factors_come_back_with_their_covariance(tmp_path):
     from viscofric.rheology.shifts.shift_files import read_shift_factors
 

@@ -20,13 +20,11 @@ from viscofric.rheology.interface.laws import (
 )
 from viscofric.rheology.shifts.law_comparison import EXCLUDED, LawComparison, LawRow, chosen_row, weighted
 from viscofric.rheology.shifts.law_fitting import (
-    LARGEST_RELATIVE_ERROR,
     SMALLEST_ERROR,
     Solution,
     Table,
     criterion_of,
-    least_squares,
-    with_misfit,
+    solved,
 )
 from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
@@ -203,19 +201,9 @@ def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference:
             f"{len(table)} values of shear stress are too few to fit {kind!r}; give {family.size} or more.",
             code="too-few-points",
         )
-    try:
-        with np.errstate(over="ignore"):  # a constant that runs away is refused below
-            bare = least_squares(family, table, family.start(table.values), 0.0)
-            found, scatter = with_misfit(family, table, bare)
-            aic = criterion_of(family, table, found.parameters)
-    except np.linalg.LinAlgError:
-        raise _not_described(kind) from None
-    if not np.all(np.isfinite(found.covariance)) or not np.all(np.diag(found.covariance) > 0.0):
-        raise _not_described(kind)
-    if not linear and np.any(np.diag(found.covariance) > (LARGEST_RELATIVE_ERROR * found.parameters) ** 2):
-        raise _not_described(kind)
+    found, chi2, scatter = solved(family, table, _not_described(kind))
     law = family.law(found.parameters, _wider(found, scatter, freedom))
-    return FittedStress(law, bare.chi2, scatter, aic, family.size)
+    return FittedStress(law, chi2, scatter, criterion_of(family, table, found.parameters), family.size)
 
 
 def _wider(found: Solution, scatter: float, freedom: int) -> Array:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, Protocol, overload
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from viscofric.arrays import Array, descend
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.law_families import LAWS, TITLES, family_of
-from viscofric.rheology.shifts.laws import WLF, ParametricLaw
+from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.units import shown_celsius
 
 #: Rounding of tabulated values; keeps exact tables from dividing by zero.
@@ -42,6 +42,9 @@ class Model(Protocol):
     @property
     def surcharge(self) -> int:
         """What Akaike's criterion adds to `size`."""
+
+    def start(self, values: Array, /) -> Array:
+        """Return starting values of the constants for values (n,)."""
 
     def values(self, parameters: Array, /) -> Array:
         """Return the values (n,)."""
@@ -107,17 +110,8 @@ class Fitted(NamedTuple):
     scatter: float
 
 
-@overload
-def fit(kind: Literal["wlf"], table: FactorTable) -> WLF: ...
-@overload
-def fit(kind: str, table: FactorTable, degree: int | None = None) -> ParametricLaw: ...
-def fit(kind: str, table: FactorTable, degree: int | None = None) -> ParametricLaw:
-    """Fit a law by generalised least squares; see `ShiftFactors.law`."""
-    return fitted(kind, table, degree).law
-
-
 def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
-    """Fit a law as `fit` does, and return its misfit too."""
+    """Fit a law by generalised least squares; see `ShiftFactors.law`."""
     if kind not in LAWS:
         raise InputError(
             f"law = {kind!r}: must be {', '.join(repr(one) for one in LAWS[:-1])} or {LAWS[-1]!r}.", code="unknown-law"
@@ -131,17 +125,24 @@ def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
             f"{len(table) + 1} temperatures are too few to fit {kind!r}; give {family.size + 1} or more.",
             code="too-few-temperatures",
         )
+    found, chi2, scatter = solved(family, table, _not_described(table, kind))
+    return Fitted(family.law(found.parameters, found.covariance), chi2, scatter)
+
+
+def solved(family: Model, table: Table, otherwise: InputError) -> tuple[Solution, float, float]:
+    """Return constants, χ² by the measured covariance alone, and scatter; `otherwise` if they are not determined."""
     try:
-        bare = least_squares(family, table, family.start(table.values), 0.0)
-        found, scatter = with_misfit(family, table, bare)
+        with np.errstate(over="ignore"):  # a constant that runs away is refused below
+            bare = least_squares(family, table, family.start(table.values), 0.0)
+            found, scatter = with_misfit(family, table, bare)
     except np.linalg.LinAlgError:
-        raise _not_described(table, kind) from None
+        raise otherwise from None
     errors = np.diag(found.covariance)
     if not np.all(np.isfinite(found.covariance)) or not np.all(errors > 0.0):
-        raise _not_described(table, kind)
+        raise otherwise
     if family.positive and np.any(errors > (LARGEST_RELATIVE_ERROR * found.parameters) ** 2):
-        raise _not_described(table, kind)
-    return Fitted(family.law(found.parameters, found.covariance), bare.chi2, scatter)
+        raise otherwise
+    return found, bare.chi2, scatter
 
 
 def criterion(law: ParametricLaw, table: FactorTable) -> float:
@@ -233,5 +234,8 @@ def _positive(family: Model, whiten: Array, target: Array, start: Array) -> Solu
 
     point = descend(misfit, normal, np.log(start), iterations=ITERATIONS, tolerance=CONVERGED)
     parameters, now = np.exp(point), misfit(point)
-    inverse = np.linalg.inv(normal(point, now)[0])
+    try:
+        inverse = np.linalg.inv(normal(point, now)[0])
+    except np.linalg.LinAlgError:  # the data do not determine some combination of constants
+        inverse = np.full((len(point), len(point)), np.inf)
     return Solution(parameters, inverse * np.outer(parameters, parameters), float(now @ now))

@@ -16,7 +16,7 @@ from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.files import file_path, write_atomically
-from viscofric.notes import Note, Remedy
+from viscofric.notes import Remedy
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.law_comparison import LawComparison, compare_laws, polynomial
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
@@ -29,17 +29,7 @@ from viscofric.units import (
     kelvin_hint,
     positive,
     shown_celsius,
-    shown_number,
-    to_si,
 )
-
-#: Two temperatures closer than this are the same one, to rounding of °C.
-_SAME_TEMPERATURE = 1e-9  # relative
-#: Users write a measured temperature as the instrument prints it.
-_NAMED_TEMPERATURE = 0.1  # K
-_CORRECTIONS = 500
-_MOST_DECADES = 300  # as floats go
-_ROUNDING = 1e-13  # decades
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,69 +146,6 @@ class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
         weights = self._weights(kelvin)
         return np.asarray(weights @ self._referenced(self.covariance, self.reference) @ weights.T)
 
-    def with_value(self, temperature: Quantity, log10: float, standard_error: float = 0.0) -> ShiftFactors:
-        """Return the factors with the one at a measured temperature corrected by hand.
-
-        Parameters
-        ----------
-        temperature : float or quantity
-            One of `temperatures`, to 0.1 K; K, or text such as ``"30 degC"``.
-        log10 : float
-            log10 α there, relative to the same reference.
-        standard_error : float
-            How well the new value is known, decades; independent of the others.
-
-        Returns
-        -------
-        ShiftFactors
-            With a note of the correction.
-
-        Raises
-        ------
-        InputError
-            If there is no such temperature, it is the reference (whose α is 1), or a number is not finite.
-        """
-        kelvin = positive(temperature, "K", "temperature")
-        value = to_si(log10, "dimensionless", "log10")
-        error = to_si(standard_error, "dimensionless", "standard_error")
-        if not 0.0 <= error <= _MOST_DECADES:
-            raise InputError(
-                f"standard_error = {error:g}: must lie between 0 and {_MOST_DECADES} decades.", code="out-of-range"
-            )
-        place = int(np.argmin(np.abs(self.temperatures - kelvin)))
-        if abs(self.temperatures[place] - kelvin) > _NAMED_TEMPERATURE:
-            shown = ", ".join(shown_celsius(one) for one in self.temperatures)
-            raise InputError(
-                f"temperature = {shown_celsius(kelvin)} °C has no shift factor to correct; the table has those at "
-                f"{shown} °C{kelvin_hint(kelvin)}.",
-                code="no-such-temperature",
-            )
-        if abs(self.temperatures[place] - self.reference) <= _SAME_TEMPERATURE * self.reference:
-            raise InputError(
-                f"temperature = {shown_celsius(kelvin)} °C is the reference, where the shift factor is 1; correct the "
-                "others, or choose another reference with at_reference(…) first.",
-                code="is-reference",
-            )
-        before = float(self.log10_values[place])
-        covariance = self.covariance.copy()
-        covariance[place, :] = covariance[:, place] = 0.0
-        covariance[place, place] = error**2
-        covariance = self._referenced(covariance, self.reference)
-        values = self.log10_values.copy()
-        for _ in range(_CORRECTIONS):  # a reference between temperatures moves with its neighbours
-            corrected = ShiftFactors(self.temperatures, values, self.reference, covariance)
-            missing = value - float(corrected.log10_values[place])
-            if abs(missing) < _ROUNDING:
-                break
-            values[place] += missing
-        note = Note(
-            "corrected-by-hand",
-            f"The shift factor at {shown_celsius(float(self.temperatures[place]))} °C was corrected by hand, from "
-            f"log10 α = {shown_number(before, '.4g')} to {shown_number(value, '.4g')}.",
-            values={"temperature": float(self.temperatures[place]), "before": float(before), "after": float(value)},
-        )
-        return ShiftFactors(self.temperatures, corrected.log10_values, self.reference, covariance, (*self.notes, note))
-
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the factors with their covariance to a CSV file that `read_shift_factors` reads back unchanged.
 
@@ -289,7 +216,7 @@ class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
         table = self._table(above)
         if kind == "polynomial" and degree is None:
             return polynomial(table)
-        return law_fitting.fit(kind, table, degree)
+        return law_fitting.fitted(kind, table, degree).law
 
     def compare_laws(self, *, above: Quantity | None = None) -> LawComparison[ParametricLaw]:
         """Fit every law and choose the one that the table supports best; see `LawComparison`.

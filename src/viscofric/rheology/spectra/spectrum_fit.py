@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -106,70 +106,136 @@ def fit_retardation_spectrum(
     >>> 20 < len(spectrum) < 40, spectrum.fit.rms_storage < 0.01  # decades
     (True, True)
     """
-    tau_ratio = number(tau_ratio, "tau_ratio")
+    asked = _Asked(method, number(tau_ratio, "tau_ratio"), modes, regularisation, largest_error)
     if isinstance(master_curve, JointSuperposition):
-        return _of_several(master_curve, method, tau_ratio, modes, regularisation, largest_error)
+        return _of_several(master_curve, asked)
     curve = _curve_of(master_curve)
-    _check(curve, method, tau_ratio, modes, regularisation, largest_error)
-    fitted, strength, notes = _fitted(misfit_of(curve), curve, method, tau_ratio, modes, regularisation, largest_error)
-    ratio = None if method == "sparse" else tau_ratio
-    return judged(as_spectrum(fitted), curve, method=method, tau_ratio=ratio, regularisation=strength, notes=notes)
+    asked.check(curve)
+    fitted, strength, notes = asked.fitted(misfit_of(curve), curve)
+    return judged(
+        as_spectrum(fitted), curve, method=method, tau_ratio=asked.ratio, regularisation=strength, notes=notes
+    )
 
 
-def _fitted(
-    misfit: Misfit,
-    low: Curve,
-    method: Method,
-    tau_ratio: float,
-    modes: int | None,
-    regularisation: float | str | None,
-    largest_error: float | None,
-) -> tuple[Modes, float | None, tuple[str, ...]]:
-    """Return modes, the strength of regularisation, and notes; `low` is the curve that reaches the lowest rates."""
-    dense = solid_modes(misfit, lattice(misfit, min(tau_ratio, math.e)), low)
-    if method == "sparse":
-        fitted, notes = _sparse(misfit, tau_ratio, modes, largest_error)
-        return fitted, None, notes
-    if method == "regularised":
-        return _regularised(misfit, tau_ratio, low, regularisation)
-    return dense if tau_ratio <= math.e else nonnegative_modes(misfit, lattice(misfit, tau_ratio)), None, ()
+@dataclass(frozen=True)
+class _Asked:
+    """The choices of `fit_retardation_spectrum`."""
+
+    method: Method
+    tau_ratio: float
+    modes: int | None
+    regularisation: float | str | None
+    largest_error: float | None
+
+    @property
+    def ratio(self) -> float | None:
+        """Ratio of neighbouring times, where these are fixed."""
+        return None if self.method == "sparse" else self.tau_ratio
+
+    def check(self, master_curve: Curve) -> None:
+        """Raise InputError for choices that are wrong, contradict each other or do not fit a curve."""
+        method, regularisation = self.method, self.regularisation
+        check_choice(method, "method", *METHODS)
+        if positive(self.tau_ratio, "dimensionless", "tau_ratio") <= 1.0:
+            raise wrong_argument("tau_ratio", self.tau_ratio, "must be above 1.", "out-of-range")
+        if len(master_curve) < 4:
+            raise InputError(
+                f"a master curve of {len(master_curve)} points is too short to fit a spectrum; give 4 or more.",
+                code="too-short",
+            )
+        for name, owner in (("modes", "sparse"), ("largest_error", "sparse"), ("regularisation", "regularised")):
+            value = getattr(self, name)
+            if value is not None and method != owner:
+                raise InputError(
+                    f"{name} = {value!r}: belongs to method={owner!r}, not to {method!r}.", code="other-method"
+                )
+        if isinstance(regularisation, str) and regularisation not in ("l-curve", "cross-validation"):
+            raise InputError(
+                f"regularisation = {regularisation!r}: must be a number, 'l-curve' or 'cross-validation'.",
+                code="wrong-choice",
+            )
+        if not (regularisation is None or isinstance(regularisation, str)):
+            positive(regularisation, "dimensionless", "regularisation")
+        if self.largest_error is not None:
+            positive(self.largest_error, "dimensionless", "largest_error")
+        most = max(1, len(master_curve) // POINTS_PER_MODE)
+        if self.modes is not None:
+            whole_number(self.modes, "modes", 1, most, f"a whole number from 1 to {most}, one for every 3 points")
+
+    def fitted(self, misfit: Misfit, low: Curve) -> tuple[Modes, float | None, tuple[str, ...]]:
+        """Return modes, the strength of regularisation, and notes; `low` is the curve that reaches the lowest rates."""
+        dense = solid_modes(misfit, lattice(misfit, min(self.tau_ratio, math.e)), low)
+        if self.method == "sparse":
+            return self._sparse(misfit)
+        if self.method == "regularised":
+            return self._regularised(misfit, low)
+        wide = self.tau_ratio > math.e
+        return nonnegative_modes(misfit, lattice(misfit, self.tau_ratio)) if wide else dense, None, ()
+
+    def _sparse(self, misfit: Misfit) -> tuple[Modes, None, tuple[str, ...]]:
+        if self.modes is not None and self.largest_error is None:
+            return sparse.few_modes(misfit, self.modes), None, ()
+        dense = nonnegative_modes(misfit, lattice(misfit, self.tau_ratio))
+        attained = sparse.joint_error(misfit, dense)
+        limit = ALLOWANCE * attained if self.largest_error is None else self.largest_error
+        enough = max(1, min(max(int(np.count_nonzero(dense.C)), 2), len(misfit.rates) // POINTS_PER_MODE))
+        fitted = sparse.fewest_modes(misfit, limit, enough if self.modes is None else self.modes)
+        error = sparse.joint_error(misfit, fitted)
+        if error <= limit:
+            return fitted, None, ()
+        note = Note(
+            "error-not-reached",
+            f"{len(fitted.C)} modes leave a joint rms error of {error:.3g} decades, above the requested {limit:.3g}; "
+            f"the non-negative spectrum leaves {attained:.3g}.",
+            values={"modes": len(fitted.C), "error": float(error), "requested": float(limit)},
+        )
+        return fitted, None, (note,)
+
+    def _regularised(self, misfit: Misfit, curve: Curve) -> tuple[Modes, float, tuple[str, ...]]:
+        tau = lattice(misfit, self.tau_ratio)
+        if len(tau) < LEAST_SMOOTH:
+            raise InputError(
+                f"a smooth spectrum needs {LEAST_SMOOTH} retardation times, and tau_ratio = {self.tau_ratio:g} puts "
+                f"only {len(tau)} into the measured frequencies; give a smaller ratio, or method='non-negative'.",
+                code="too-few-modes",
+            )
+        if not (self.regularisation is None or isinstance(self.regularisation, str)):
+            strength = float(self.regularisation)
+            return regularised.smooth_modes(misfit, tau, strength), strength, ()
+        fits = regularised.path(misfit, tau)
+        if self.regularisation == "l-curve" or not isinstance(misfit, CurveMisfit):  # cross-validation needs one curve
+            place = regularised.corner(misfit, fits)
+        else:
+            place = regularised.cross_validated(misfit, tau, by_rate(curve))
+        strength = float(regularised.STRENGTHS[place])
+        if 0 < place < len(fits) - 1:
+            return fits[place], strength, ()
+        end = "largest" if place == 0 else "smallest"
+        return fits[place], strength, (f"The strength of regularisation, {strength:.3g}, is the {end} that was tried.",)
 
 
-def _of_several(
-    joint: JointSuperposition,
-    method: Method,
-    tau_ratio: float,
-    modes: int | None,
-    regularisation: float | Literal["l-curve", "cross-validation"] | None,
-    largest_error: float | None,
-) -> RetardationSpectrum:
+def _of_several(joint: JointSuperposition, asked: _Asked) -> RetardationSpectrum:
     """Fit one spectrum to the master curves of several kinds of tests."""
     curves = [part.master_curve for part in joint.parts]
     for curve in curves:
-        _check(curve, method, tau_ratio, None if modes is None else 1, regularisation, largest_error)
+        replace(asked, modes=None if asked.modes is None else 1).check(curve)
     misfit = joint_misfit(curves)
     low = curves[int(np.argmin([rates_of(curve)[0] for curve in curves]))]
     high = curves[int(np.argmax([frequencies_of(curve)[1] for curve in curves]))]
-    # Cross-validation needs one curve.
-    corner = "l-curve" if method == "regularised" and regularisation in (None, "cross-validation") else regularisation
-    fitted, strength, notes = _fitted(misfit, low, method, tau_ratio, modes, corner, largest_error)
+    fitted, strength, notes = asked.fitted(misfit, low)
     spectrum = as_spectrum(fitted)
-    levels = misfit.levels(misfit.compliance(spectrum))
+    levels = misfit.levels(misfit.compliance(spectrum)) * misfit.free
     on_levels = [
         level_note(str(getattr(curve, "kind", "sweep")), float(level), joint.shift_factors.reference)
-        for curve, level, free in zip(curves, levels, misfit.free, strict=True)
-        if free and abs(level) > LEVEL_WORTH_A_NOTE
-    ]
-    at_level = [
-        _at_level(curve, float(level) if free else 0.0)
-        for curve, level, free in zip(curves, levels, misfit.free, strict=True)
+        for curve, level in zip(curves, levels, strict=True)
+        if abs(level) > LEVEL_WORTH_A_NOTE
     ]
     return judged(
         spectrum,
-        *at_level,
+        *(_at_level(curve, float(level)) for curve, level in zip(curves, levels, strict=True)),
         ends=(curves.index(low), curves.index(high)),
-        method=method,
-        tau_ratio=None if method == "sparse" else tau_ratio,
+        method=asked.method,
+        tau_ratio=asked.ratio,
         regularisation=strength,
         notes=(*on_levels, *notes),
     )
@@ -198,90 +264,3 @@ def as_spectrum(modes: Modes) -> RetardationSpectrum:
     keep = modes.C > 0.0
     C = modes.C[keep]
     return RetardationSpectrum(1.0 / (modes.glass + float(C.sum())), 1.0 / modes.glass, C, modes.tau[keep])
-
-
-def _sparse(
-    misfit: Misfit, tau_ratio: float, modes: int | None, largest_error: float | None
-) -> tuple[Modes, tuple[str, ...]]:
-    if modes is not None and largest_error is None:
-        return sparse.few_modes(misfit, modes), ()
-    dense = nonnegative_modes(misfit, lattice(misfit, tau_ratio))
-    limit = ALLOWANCE * sparse.joint_error(misfit, dense) if largest_error is None else largest_error
-    enough = max(1, min(max(int(np.count_nonzero(dense.C)), 2), len(misfit.rates) // POINTS_PER_MODE))
-    fitted = sparse.fewest_modes(misfit, limit, enough if modes is None else modes)
-    error = sparse.joint_error(misfit, fitted)
-    if error <= limit:
-        return fitted, ()
-    note = Note(
-        "error-not-reached",
-        f"{len(fitted.C)} modes leave a joint rms error of {error:.3g} decades, above the requested {limit:.3g}; "
-        f"the non-negative spectrum leaves {sparse.joint_error(misfit, dense):.3g}.",
-        values={"modes": len(fitted.C), "error": float(error), "requested": float(limit)},
-    )
-    return fitted, (note,)
-
-
-def _regularised(
-    misfit: Misfit, tau_ratio: float, master_curve: Curve, regularisation: float | str | None
-) -> tuple[Modes, float, tuple[str, ...]]:
-    tau = lattice(misfit, tau_ratio)
-    if len(tau) < LEAST_SMOOTH:
-        raise InputError(
-            f"a smooth spectrum needs {LEAST_SMOOTH} retardation times, and tau_ratio = {tau_ratio:g} puts only "
-            f"{len(tau)} into the measured frequencies; give a smaller ratio, or method='non-negative'.",
-            code="too-few-modes",
-        )
-    if not (regularisation is None or isinstance(regularisation, str)):
-        return regularised.smooth_modes(misfit, tau, float(regularisation)), float(regularisation), ()
-    fits = regularised.path(misfit, tau)
-    if regularisation == "l-curve":
-        place = regularised.corner(misfit, fits)
-    else:
-        assert isinstance(misfit, CurveMisfit)  # of several curves the L-curve is used
-        place = regularised.cross_validated(misfit, tau, by_rate(master_curve))
-    strength = float(regularised.STRENGTHS[place])
-    if 0 < place < len(fits) - 1:
-        return fits[place], strength, ()
-    end = "largest" if place == 0 else "smallest"
-    return fits[place], strength, (f"The strength of regularisation, {strength:.3g}, is the {end} that was tried.",)
-
-
-def _check(
-    master_curve: Curve,
-    method: str,
-    tau_ratio: float,
-    modes: int | None,
-    regularisation: float | str | None,
-    largest_error: float | None,
-) -> None:
-    check_choice(method, "method", *METHODS)
-    if positive(tau_ratio, "dimensionless", "tau_ratio") <= 1.0:
-        raise wrong_argument("tau_ratio", tau_ratio, "must be above 1.", "out-of-range")
-    if len(master_curve) < 4:
-        raise InputError(
-            f"a master curve of {len(master_curve)} points is too short to fit a spectrum; give 4 or more.",
-            code="too-short",
-        )
-    if method != "sparse":
-        for name, value in (("modes", modes), ("largest_error", largest_error)):
-            if value is not None:
-                raise InputError(
-                    f"{name} = {value!r}: belongs to method='sparse', not to {method!r}.", code="other-method"
-                )
-    if method != "regularised" and regularisation is not None:
-        raise InputError(
-            f"regularisation = {regularisation!r}: belongs to method='regularised', not to {method!r}.",
-            code="other-method",
-        )
-    if isinstance(regularisation, str) and regularisation not in ("l-curve", "cross-validation"):
-        raise InputError(
-            f"regularisation = {regularisation!r}: must be a number, 'l-curve' or 'cross-validation'.",
-            code="wrong-choice",
-        )
-    if not (regularisation is None or isinstance(regularisation, str)):
-        positive(regularisation, "dimensionless", "regularisation")
-    if largest_error is not None:
-        positive(largest_error, "dimensionless", "largest_error")
-    most = max(1, len(master_curve) // POINTS_PER_MODE)
-    if modes is not None:
-        whole_number(modes, "modes", 1, most, f"a whole number from 1 to {most}, one for every 3 points")

@@ -123,23 +123,11 @@ def knots_for(frequency: Array, points: int = POINTS_PER_KNOT) -> tuple[Array, i
 
 def splines(knots: Array, degree: int, at: Array) -> Array:
     """Return basis functions at points (n,), and their first and second derivatives: (3, n, K)."""
-    # Beyond the ends the outermost polynomials continue. C. de Boor, J. Approx. Theory 6 (1972) 50.
-    size, count = len(knots) - degree - 1, len(at)
-    interval = np.clip(np.searchsorted(knots, at, side="right") - 1, degree, size - 1)
-    around = knots[interval + np.arange(1 - degree, degree + 1)[:, None]]  # from `degree` before to as many after
-    found = np.zeros((3, 1, count))  # values, slopes and bends of the functions that are not zero, order by order
-    found[0] = 1.0
-    for order in range(1, degree + 1):
-        starts, ends = around[degree - order : degree], around[degree : degree + order]
-        parts = found / (ends - starts)
-        found = np.zeros((3, order + 1, count))
-        found[1:, :-1] = -order * parts[:-1]
-        found[1:, 1:] += order * parts[:-1]
-        found[0, :-1] = (ends - at) * parts[0]
-        found[0, 1:] += (at - starts) * parts[0]
-    every = np.zeros((3, count * size))
-    every[:, np.arange(count) * size + interval + np.arange(-degree, 1)[:, None]] = found
-    return every.reshape(3, count, size)
+    from scipy.interpolate import BSpline
+
+    # Beyond the ends the outermost polynomials continue.
+    every = BSpline(knots, np.eye(len(knots) - degree - 1), degree)
+    return np.stack([every(at, order) for order in range(3)])
 
 
 def roughness(knots: Array, degree: int) -> Array:
