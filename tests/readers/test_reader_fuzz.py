@@ -1,4 +1,4 @@
-"""Damaged files of every format: a clear error or sweeps that look right, in bounded time, never anything else."""
+"""Damaged files of every format: a clear error or data that look right, in bounded time, never anything else."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from hypothesis import strategies as st
 
 from marks import slow
 from readers.samples import SAMPLES
+from readers.samples.pcs import TRACTION_SAMPLES
+from readers.samples.pcs_binary import BINARY_SAMPLES
 from readers.samples.workbook import write as write_workbook
-from viscofric import read_dma
+from viscofric import read_dma, read_mtm
 from viscofric.errors import LONGEST_SENTENCE, DataFileError
 from viscofric.readers.dma.read import FORMATS
 
@@ -28,17 +30,20 @@ damage = settings(
     database=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
+TRACTION = {f"traction {name}": write for name, write in TRACTION_SAMPLES.items()}
+EVERY = {**SAMPLES, **TRACTION, **{f"traction {name}": write for name, write in BINARY_SAMPLES.items()}}
 every_sample = pytest.mark.parametrize("name", sorted(SAMPLES))
+every_traction_table = pytest.mark.parametrize("name", sorted(TRACTION))
 #: A workbook takes 40 ms, a hundred damaged ones four seconds.
 _WORKBOOKS = [name for name in sorted(SAMPLES) if name.startswith(("eplexor", "workbook"))]
-every_damaged_sample = pytest.mark.parametrize("name", [*sorted(set(SAMPLES) - set(_WORKBOOKS)), *slow(*_WORKBOOKS)])
+every_damaged_sample = pytest.mark.parametrize("name", [*sorted(set(EVERY) - set(_WORKBOOKS)), *slow(*_WORKBOOKS)])
 
 
 @pytest.fixture(scope="module")
 def sample_bytes(tmp_path_factory):
     """Name of a sample -> ending and content of its file."""
     folder = tmp_path_factory.mktemp("samples")
-    written = {name: write(folder) for name, write in SAMPLES.items()}
+    written = {name: write(folder) for name, write in EVERY.items()}
     return {name: (path.suffix, path.read_bytes()) for name, path in written.items()}
 
 
@@ -50,33 +55,46 @@ def warm():
     registry()
 
 
-def read_or_refuse(tmp_path, suffix, data):
-    """Read what a damaged file holds, and insist on sweeps that look right or one clear sentence."""
+def read_or_refuse(tmp_path, suffix, data, name=""):
+    """Read what a damaged file holds, and insist on data that look right or one clear sentence."""
     path = tmp_path / f"damaged{suffix}"
     path.write_bytes(data)
+    traction = name.startswith("traction")
     before = os.times()
-    sweeps, refusal = None, ""
+    found, refusal = None, ""
     try:
-        sweeps = read_dma(path)
+        found = read_mtm(path) if traction else read_dma(path)
     except DataFileError as error:
         refusal = str(error)
     after = os.times()
     assert sum(after[:4]) - sum(before[:4]) < LONGEST
-    if sweeps is None:
+    if found is None:
         assert str(path) in refusal
         assert "\n" not in refusal
         assert len(refusal) <= LONGEST_SENTENCE
         return
-    assert len(sweeps) >= 1
+    assert len(found) >= 1
+    assert all("\n" not in note for note in found.notes)
+    (assert_runs if traction else assert_sweeps)(found, data)
+
+
+def assert_sweeps(sweeps, data):
     assert np.all(np.isfinite(sweeps.temperatures) & (sweeps.temperatures > 0))
     for isotherm in sweeps.isotherms:
-        columns = (isotherm.angular_frequency, isotherm.storage_modulus, isotherm.loss_modulus)
         assert len(isotherm) >= 1
-        for column in columns:
+        for column in (isotherm.angular_frequency, isotherm.storage_modulus, isotherm.loss_modulus):
             assert np.all(np.isfinite(column) & (column > 0))
     assert sweeps.format
     assert sweeps.notes
-    assert all("\n" not in note for note in sweeps.notes)
+
+
+def assert_runs(runs, data):
+    for column in (runs.disc_speed, runs.ball_speed, runs.traction_force, runs.load, runs.temperature):
+        assert np.all(np.isfinite(column))
+    assert np.all(runs.load > 0.0)
+    assert np.all(runs.temperature > 0.0)
+    assert np.all(runs.replicate >= 1) or b"started at" not in data
+    assert sum(step.readings for step in runs.steps) in (0, len(runs))
 
 
 @every_sample
@@ -103,7 +121,7 @@ def test_every_format_has_a_sample(tmp_path):
 @given(share=st.floats(0.0, 1.0))
 def test_a_file_torn_off_anywhere(tmp_path, sample_bytes, name, share):
     suffix, data = sample_bytes[name]
-    read_or_refuse(tmp_path, suffix, data[: int(share * len(data))])
+    read_or_refuse(tmp_path, suffix, data[: int(share * len(data))], name)
 
 
 @every_damaged_sample
@@ -114,7 +132,7 @@ def test_flipped_bytes(tmp_path, sample_bytes, name, seed, count):
     rng, damaged = random.Random(seed), bytearray(data)
     for _ in range(count):
         damaged[rng.randrange(len(damaged))] = rng.randrange(256)
-    read_or_refuse(tmp_path, suffix, bytes(damaged))
+    read_or_refuse(tmp_path, suffix, bytes(damaged), name)
 
 
 @every_damaged_sample
@@ -131,7 +149,7 @@ def test_lines_out_of_order(tmp_path, sample_bytes, name, seed, kind):
         lines = [line for line in lines if rng.random() < 0.7]
     else:
         lines.reverse()
-    read_or_refuse(tmp_path, suffix, b"".join(lines))
+    read_or_refuse(tmp_path, suffix, b"".join(lines), name)
 
 
 @every_damaged_sample
@@ -139,7 +157,48 @@ def test_lines_out_of_order(tmp_path, sample_bytes, name, seed, kind):
 def test_another_encoding(tmp_path, sample_bytes, name, encoding):
     suffix, data = sample_bytes[name]
     text = data.decode("utf-16" if data.startswith(b"\xff\xfe") else "cp1252", errors="replace")
-    read_or_refuse(tmp_path, suffix, text.encode(encoding, errors="replace"))
+    read_or_refuse(tmp_path, suffix, text.encode(encoding, errors="replace"), name)
+
+
+@every_traction_table
+@damage
+@given(seed=st.integers(0, 10**6), count=st.integers(1, 8))
+@pytest.mark.slow
+def test_printable_characters_changed(tmp_path, sample_bytes, name, seed, count):
+    suffix, data = sample_bytes[name]
+    rng, damaged = random.Random(seed), bytearray(data)
+    for _ in range(count):
+        damaged[rng.randrange(len(damaged))] = rng.choice(b"0123456789-+.,eE_ \tNnaif\n")
+    read_or_refuse(tmp_path, suffix, bytes(damaged), name)
+
+
+@every_traction_table
+@damage
+@given(seed=st.integers(0, 10**6), kind=st.sampled_from(["swapped", "column left out", "emptied", "column moved"]))
+def test_cells_out_of_place(tmp_path, sample_bytes, name, seed, kind):
+    rng = random.Random(seed)
+    mark = b"," if name == "traction delimited" else b"\t"
+    suffix, data = sample_bytes[name]
+    rows = [line.split(mark) for line in data.splitlines()]
+    wide = [row for row in rows if len(row) > 5]
+    place, other = rng.randrange(len(wide[0])), rng.randrange(len(wide[0]))
+    for row in wide if kind.startswith("column") else rng.choices(wide, k=2):
+        here, there = place % len(row), other % len(row)
+        if kind == "swapped":
+            row[here], row[there] = row[there], row[here]
+        elif kind == "emptied":
+            row[here] = b""
+        elif kind == "column moved":
+            row.insert(there, row.pop(here))
+        else:
+            del row[here]
+    read_or_refuse(tmp_path, suffix, b"\r\n".join(mark.join(row) for row in rows) + b"\r\n", name)
+
+
+@damage
+@given(junk=st.binary(max_size=3000))
+def test_junk_after_the_beginning_of_a_step(tmp_path, junk):
+    read_or_refuse(tmp_path, ".txt", b"Step 1 started at 23/03/2018 10:00:00\n" + junk, "traction")
 
 
 @damage
