@@ -215,7 +215,7 @@ def test_runs_that_are_not_separated_yet_are_no_friction_curves(what: str) -> No
         "shifted": lambda: vf.shift_friction(runs),  # type: ignore[arg-type]
         "checked": lambda: vf.check_assumptions(vf.synthetic_fluoroelastomer(), vf.Ball(radius=0.01), runs),  # type: ignore[arg-type]
     }
-    with refused("not-friction-curves"):
+    with refused("wrong-type"):
         uses[what]()
 
 

@@ -324,7 +324,7 @@ def test_senseless_places_are_refused(speed: object, temperature: object, code: 
 
 
 def test_a_shift_is_a_law() -> None:
-    with refused("not-a-shift"):
+    with refused("wrong-type"):
         shift_friction(shifted_curves(), shift="wlf")  # type: ignore[arg-type]
 
 

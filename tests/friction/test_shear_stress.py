@@ -165,7 +165,7 @@ def test_shear_that_changes_friction_is_noted_with_its_size(poisson_ratio, layer
 
 def test_interface_and_slip_belong_together():
     case = {"speeds": 0.1, "temperatures": 333.15, "load": 100.0}
-    for more, code in (({"slip": 0.1}, "interface-needed"), ({"interface": 3e5}, "not-a-law")):
+    for more, code in (({"slip": 0.1}, "interface-needed"), ({"interface": 3e5}, "wrong-type")):
         with pytest.raises(vf.InputError) as refused:
             vf.predict_friction(RUBBER, vf.Cylinder("10 mm"), **case, **more)
         assert refused.value.code == code

@@ -147,7 +147,7 @@ def test_half_a_replicate_is_refused() -> None:
     ("call", "refusal"),
     [
         (lambda: vf.separate(_CURVES), ("wrong-type", "runs", "TractionRuns")),  # type: ignore[arg-type]
-        (lambda: vf.write_friction_curves(_RUNS, "x.csv"), ("not-friction-curves",)),  # type: ignore[arg-type]
+        (lambda: vf.write_friction_curves(_RUNS, "x.csv"), ("wrong-type",)),  # type: ignore[arg-type]
         (lambda: vf.read_friction_curves(None), ("not-a-name",)),  # type: ignore[arg-type]
         (lambda: vf.read_mtm(5), ("not-a-name",)),  # type: ignore[arg-type]
         (lambda: vf.read_mtm(["a.csv", "b.csv"]), ("files-in-a-list",)),  # type: ignore[arg-type]

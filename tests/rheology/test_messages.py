@@ -176,7 +176,7 @@ SAID = [
     (
         lambda: vf.Material(3e6),  # type: ignore[arg-type]
         "wrong-type",
-        "spectrum of a material must be a RetardationSpectrum, a RelaxationSpectrum or a ModulusTable, not float.",
+        "spectrum = 3000000.0: must be a RetardationSpectrum, a RelaxationSpectrum or a ModulusTable.",
     ),
     (
         lambda: vf.Material(SOLID.spectrum, vertical_shift=vf.rheology.DensityShift(303.15)),

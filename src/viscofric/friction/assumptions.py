@@ -122,11 +122,7 @@ def check_assumptions(
     if material.shift is None:
         raise InputError("material has no shift; the effect of warming on friction needs α(T).", code="no-shift")
     for name, body in (("rubber", rubber), ("counterbody", counterbody)):
-        if not isinstance(body, ThermalProperties):
-            raise InputError(
-                f"{name} must be ThermalProperties (conductivity, density …), not {type(body).__name__}.",
-                code="not-thermal-properties",
-            )
+        insist_on(body, name, ThermalProperties, right="ThermalProperties (conductivity, density …)")
     insist_on(layer, "layer", Layer, type(None), right="a Layer, such as Layer(thickness='2 mm')")
     thick = None if thickness is None else positive(thickness, "m", "thickness")
     radii = None if contact_radius is None else _radii(contact_radius, len(curves))

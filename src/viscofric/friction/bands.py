@@ -27,8 +27,9 @@ from statistics import NormalDist
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.arrays import Array
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note
@@ -45,11 +46,8 @@ class DrawnMaterials:
     """Modes of samples of a material in one column, and their shifts at any temperature."""
 
     def __init__(self, samples: MaterialSamples, material: Material) -> None:
-        if not isinstance(samples, MaterialSamples):
-            raise InputError(
-                f"samples = {brief(samples)}: must be MaterialSamples, as sample_materials and identify_material give.",
-                code="wrong-type",
-            )
+        right = "MaterialSamples, as sample_materials and identify_material give"
+        insist_on(samples, "samples", MaterialSamples, right=right)
         if not isinstance(material.spectrum, RetardationSpectrum):
             raise InputError(
                 "material of a prediction with samples must have a spectrum, not a table of moduli: samples scatter "

@@ -8,7 +8,7 @@ from typing import Literal, Self, cast
 
 import numpy as np
 
-from viscofric.arguments import sentences, text
+from viscofric.arguments import insist_on, sentences, text
 from viscofric.arrays import Array, Integers, Mask
 from viscofric.checks import Check
 from viscofric.contact.solution import ContactSolution
@@ -388,12 +388,8 @@ class FrictionCurves(Plotted):
 
 def insist_on_curves(given: object, name: str) -> FrictionCurves:
     """Return friction curves; raise `InputError` for anything else, such as runs not yet separated."""
-    if not isinstance(given, FrictionCurves):
-        raise InputError(
-            f"{name} must be FrictionCurves, as separate() gives them, not {type(given).__name__}.",
-            code="not-friction-curves",
-        )
-    return given
+    insist_on(given, name, FrictionCurves, right="FrictionCurves, as separate() gives them")
+    return given  # type: ignore[return-value]
 
 
 def _column(values: object, name: str, shape: tuple[int, ...], unit: str) -> Array:

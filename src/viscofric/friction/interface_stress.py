@@ -277,10 +277,7 @@ def shear_stress(
             "directions of slip.",
             code="no-coulomb",
         )
-    if shift is not None and not isinstance(shift, ShiftLaw):
-        raise InputError(
-            f"shift must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}.", code="not-a-shift"
-        )
+    insist_on(shift, "shift", ShiftLaw, type(None), right="a law (WLF, …), ShiftFactors or None")
     level, area = shared_error(level_error, "level_error"), shared_error(area_error, "area_error")
     kelvin = None if reference is None else positive(reference, "K", "reference")
     solved = contacts if isinstance(contacts, FrictionCurves) else FrictionCurves.from_solutions(contacts)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import scipy.fft
 
-from viscofric.arguments import insist_on_function
+from viscofric.arguments import insist_on, insist_on_function
 from viscofric.contact.bodies import Layer, indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
@@ -242,16 +242,9 @@ def checked_problem(
 ) -> Problem:
     """Return the problem that the arguments of `solve_transient` describe; InputError where one cannot be used."""
     insist_on_material(material)
-    if not isinstance(indenter, (Indenter, PeriodicSurface)):
-        raise InputError(
-            f"indenter = {brief(indenter)}: must be an indenter, such as Ball(radius='10 mm'), or a PeriodicSurface.",
-            code="wrong-type",
-        )
-    if not isinstance(history, History):
-        raise InputError(
-            f"history = {brief(history)}: must be a History, such as History(time=[0, 1], load='1 N').",
-            code="wrong-type",
-        )
+    right = "an indenter, such as Ball(radius='10 mm'), or a PeriodicSurface"
+    insist_on(indenter, "indenter", Indenter, PeriodicSurface, right=right)
+    insist_on(history, "history", History, right="a History, such as History(time=[0, 1], load='1 N')")
     if not TIGHTEST <= accuracy <= LOOSEST:
         raise InputError(
             f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-3.",

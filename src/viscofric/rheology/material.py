@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, TypeVar
 
 from numpy.typing import ArrayLike
 
-from viscofric.arguments import text
+from viscofric.arguments import insist_on, text
 from viscofric.arrays import ComplexArray
 from viscofric.datasets import Dataset
-from viscofric.errors import InputError, wrong_argument
+from viscofric.errors import InputError
 from viscofric.notes import Remedy, without
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
@@ -87,23 +87,11 @@ class Material(Plotted):
         given: object = self.spectrum
         if isinstance(given, RelaxationSpectrum):
             object.__setattr__(self, "spectrum", given.to_retardation())
-        elif not isinstance(given, (RetardationSpectrum, ModulusTable)):
-            raise InputError(
-                "spectrum of a material must be a RetardationSpectrum, a RelaxationSpectrum or a ModulusTable, not "
-                f"{type(given).__name__}.",
-                code="wrong-type",
-            )
-        if not (self.shift is None or isinstance(self.shift, ShiftLaw)):
-            raise InputError(
-                f"shift of a material must be a law or ShiftFactors, not {type(self.shift).__name__}.",
-                code="wrong-type",
-            )
+        right = "a RetardationSpectrum, a RelaxationSpectrum or a ModulusTable"
+        insist_on(self.spectrum, "spectrum", RetardationSpectrum, ModulusTable, right=right)
+        insist_on(self.shift, "shift", ShiftLaw, type(None), right="a law, ShiftFactors or None")
         if self.vertical_shift is not None:
-            if not isinstance(self.vertical_shift, VerticalShift):
-                kind = type(self.vertical_shift).__name__
-                raise InputError(
-                    f"vertical_shift of a material must be a VerticalShift, not {kind}.", code="wrong-type"
-                )
+            insist_on(self.vertical_shift, "vertical_shift", VerticalShift)
             if self.shift is None:
                 raise InputError(
                     "vertical_shift of a material needs a shift too, which gives its reference.", code="no-shift"
@@ -266,7 +254,4 @@ def alpha_and_b(material: Material, kelvin: float) -> tuple[float, float]:
 
 def insist_on_material(given: object) -> None:
     """Raise `InputError` unless a Material is given."""
-    if not isinstance(given, Material):
-        raise wrong_argument(
-            "material", given, "must be a Material, such as vf.read_card('rubber.json').", "wrong-type"
-        )
+    insist_on(given, "material", Material, right="a Material, such as vf.read_card('rubber.json')")

@@ -10,10 +10,10 @@ from typing import ClassVar, Literal
 import numpy as np
 import scipy.fft
 
-from viscofric.arguments import MOST_PER_DECADE, whole_number
+from viscofric.arguments import MOST_PER_DECADE, insist_on, whole_number
 from viscofric.arrays import Array, non_negative_fit
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
-from viscofric.errors import InputError, brief, check_choice
+from viscofric.errors import InputError, check_choice
 from viscofric.roughness.spectrum import NODES, Density, PowerSpectrum, integral
 from viscofric.roughness.topography import Topography
 from viscofric.showing import Rows
@@ -150,7 +150,7 @@ def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpec
     >>> bool(abs(spectrum.rms_height() / road.rms_height - 1.0) < 0.1)
     True
     """
-    _insist(topography)
+    insist_on(topography, "topography", Topography, right="a Topography; see read_topography")
     if topography.is_line:
         raise InputError("power_spectrum needs a map of heights; line_spectrum takes line scans.", code="line-scan")
     shape = topography.shape
@@ -194,7 +194,7 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     >>> bool(0.5 < (line.moment(0) ** 0.5 / road.rms_height) < 1.5)
     True
     """
-    _insist(topography)
+    insist_on(topography, "topography", Topography, right="a Topography; see read_topography")
     check_choice(axis, "axis", "x", "y")
     place = "xy".index(axis)
     points, step = topography.shape[place], topography.spacing[place]
@@ -209,13 +209,6 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     density = waves * (points * step / (2.0 * np.pi))
     limits = 0.5 * float(q[1]), float(q[1]), np.pi / step
     return LineSpectrum(*_rings(q, density, np.ones(len(q)), limits, per_decade))
-
-
-def _insist(topography: object) -> None:
-    if not isinstance(topography, Topography):
-        raise InputError(
-            f"topography = {brief(topography)}: must be a Topography; see read_topography.", code="wrong-type"
-        )
 
 
 def _windowed(topography: Topography, axes: tuple[int, ...]) -> Array:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscofric.arguments import whole_number
+from viscofric.arguments import insist_on, whole_number
 from viscofric.arrays import Array, Mask
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.datasets import Dataset, dataset
@@ -118,7 +118,7 @@ def contact_statistics(solution: PeriodicSolution) -> ContactStatistics:
     >>> vf.roughness.contact_statistics(solution).patches
     3
     """
-    _insist(solution)
+    insist_on(solution, "solution", PeriodicSolution, right="a PeriodicSolution from solve_periodic()")
     loaded = solution.pressure > 0.0
     borders = tuple(int(np.count_nonzero(loaded != np.roll(loaded, 1, axis))) for axis in (0, 1))
     steps = tuple(float(one[1] - one[0]) if len(one) > 1 else 0.0 for one in (solution.x, solution.y))
@@ -174,7 +174,7 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
     >>> pressure.shape, density.shape
     ((20,), (20,))
     """
-    _insist(solution)
+    insist_on(solution, "solution", PeriodicSolution, right="a PeriodicSolution from solve_periodic()")
     loaded = solution.pressure[solution.pressure > 0.0]
     if isinstance(edges, int):
         whole_number(edges, "edges", 1, MOST_CLASSES, "a number of classes above zero, or their edges")
@@ -187,13 +187,6 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
             )
     counts, found = np.histogram(loaded, limits)
     return 0.5 * (found[1:] + found[:-1]), counts / (solution.pressure.size * np.diff(found))
-
-
-def _insist(solution: object) -> None:
-    if not isinstance(solution, PeriodicSolution):
-        raise InputError(
-            f"solution = {brief(solution)}: must be a PeriodicSolution from solve_periodic().", code="wrong-type"
-        )
 
 
 def _patches(loaded: Mask) -> int:

@@ -36,7 +36,7 @@ from viscofric.arrays import Array
 from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.contact.heated_result import INTERFACE, beyond
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError
 from viscofric.heat.heating import Heating
 from viscofric.heat.interface import SlidingInterface
 from viscofric.notes import Note, counted
@@ -123,10 +123,7 @@ def persson_theory(
     (1, 2)
     """
     insist_on_material(material)
-    if not isinstance(spectrum, PowerSpectrum):
-        raise InputError(
-            f"spectrum = {brief(spectrum)}: must be a PowerSpectrum; see power_spectrum(topography).", code="wrong-type"
-        )
+    insist_on(spectrum, "spectrum", PowerSpectrum, right="a PowerSpectrum; see power_spectrum(topography)")
     velocities = to_si_array(speeds, "m/s", "speeds")
     if not velocities.size or not np.all(velocities >= 0.0):
         raise InputError("speeds must hold at least one value, none of them below zero.", code="empty-list")
@@ -294,8 +291,7 @@ def _flash(
         return Flash(heating.rubber, area, heating, pressure, interface)
     if thermal is None:
         return None
-    if not isinstance(thermal, ThermalProperties):
-        raise InputError(f"thermal = {brief(thermal)}: must be ThermalProperties of the rubber.", code="wrong-type")
+    insist_on(thermal, "thermal", ThermalProperties, right="ThermalProperties of the rubber")
     if interface is not None:
         raise InputError("thermal: not with an interface, which makes heat; give heating.", code="not-with-heating")
     return Flash(thermal, area)

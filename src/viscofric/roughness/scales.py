@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.fft
 
-from viscofric.arguments import MOST_PER_DECADE, whole_number
+from viscofric.arguments import MOST_PER_DECADE, insist_on, whole_number
 from viscofric.arrays import Array
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
 from viscofric.datasets import Dataset, dataset
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantities, to_si_array
 
@@ -105,10 +105,7 @@ def friction_by_wavelength(
     >>> bool(abs(parts.cumulative[-1] / parts.friction_coefficient - 1.0) < 1e-9)
     True
     """
-    if not isinstance(solution, PeriodicSolution):
-        raise InputError(
-            f"solution = {brief(solution)}: must be a PeriodicSolution from solve_periodic().", code="wrong-type"
-        )
+    insist_on(solution, "solution", PeriodicSolution, right="a PeriodicSolution from solve_periodic()")
     whole_number(per_decade, "per_decade", 1, MOST_PER_DECADE)
     shape = solution.pressure.shape[0], solution.pressure.shape[1]
     spacing = tuple(float(one[1] - one[0]) if len(one) > 1 else 1.0 for one in (solution.x, solution.y))

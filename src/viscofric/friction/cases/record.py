@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, Self
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.arrays import Array
 from viscofric.contact.periodic.solution import NUMBERS as SURFACE
 from viscofric.contact.periodic.solution import PeriodicSolution
@@ -289,11 +290,7 @@ def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
     given: object = solutions
     solved = tuple(given) if isinstance(given, Iterable) and given is not np.ma.masked else (given,)
     for solution in solved:
-        if not isinstance(solution, ContactSolution):
-            raise InputError(
-                f"solutions must be ContactSolutions, as solve_steady() gives them, not {type(solution).__name__}.",
-                code="not-solutions",
-            )
+        insist_on(solution, "solutions", ContactSolution, right="ContactSolutions, as solve_steady() gives them")
         if solution.temperature is None:
             raise InputError(
                 "temperature of a contact solution is missing; friction curves need one.", code="no-temperature"

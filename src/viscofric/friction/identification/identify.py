@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscofric.arguments import insist_on_function, text, whole_number
+from viscofric.arguments import insist_on, insist_on_function, text, whole_number
 from viscofric.arrays import Array
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
@@ -243,10 +243,7 @@ def alone_or_many(anchor: Anchor | Sequence[Anchor] | None) -> tuple[Anchor, ...
         return ()
     anchors = tuple(anchor) if isinstance(anchor, (list, tuple)) else (anchor,)
     for one in anchors:
-        if not isinstance(one, (ModulusAnchor, ContactAnchor)):
-            raise InputError(
-                f"anchor must be a ModulusAnchor or a ContactAnchor, not {type(one).__name__}.", code="wrong-type"
-            )
+        insist_on(one, "anchor", ModulusAnchor, ContactAnchor)
     return anchors
 
 
@@ -256,10 +253,7 @@ def shifts_of(
     """Return the shifts as unknowns, and the points at temperatures whose shifts are known or can be found."""
     # `reference` is the one requested, K; `others` are the temperatures of anchors, K.
     if shift is not None:
-        if not isinstance(shift, ShiftLaw):
-            raise InputError(
-                f"shift must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}.", code="wrong-type"
-            )
+        insist_on(shift, "shift", ShiftLaw, right="a law (WLF, …) or ShiftFactors")
         law = shift if reference is None else shift.at_reference(reference)
         everywhere = np.unique(np.concatenate([points.temperatures, [law.reference], others]))
         number = np.searchsorted(everywhere, points.temperatures)[points.number]

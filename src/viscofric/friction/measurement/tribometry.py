@@ -8,8 +8,9 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.arrays import Array
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import check_choice
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
 from viscofric.friction.measurement.conditions import Condition
@@ -147,10 +148,7 @@ def separate(
     >>> curves.offset.round(6), curves.viscoelastic.round(6), curves.coulomb.round(6)
     (array([0.1]), array([0.02]), array([0.04]))
     """
-    if not isinstance(runs, TractionRuns):
-        raise InputError(
-            f"runs must be TractionRuns, as read_mtm() gives them, not {type(runs).__name__}.", code="wrong-type"
-        )
+    insist_on(runs, "runs", TractionRuns, right="TractionRuns, as read_mtm() gives them")
     check_choice(outliers, "outliers", "keep", "leave out")
     gap = share(speed_tolerance, "speed_tolerance", example=0.05)
     assumed = Assumed.of(coulomb)

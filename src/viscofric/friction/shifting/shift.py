@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
@@ -191,17 +192,8 @@ def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: An
     insist_on_curves(curves, "curves")
     if not len(curves):
         raise InputError("friction curves contain no points; there is nothing to shift.", code="no-points")
-    if shift is not None and not hasattr(shift, "log10"):
-        raise InputError(
-            f"shift of friction curves must be a law (WLF, …) or ShiftFactors, not {type(shift).__name__}; leave it "
-            "out to find it from the curves.",
-            code="not-a-shift",
-        )
-    if vertical_shift is not None and not isinstance(vertical_shift, VerticalShift):
-        raise InputError(
-            f"vertical_shift must be DensityShift or VerticalShiftFactors, not {type(vertical_shift).__name__}.",
-            code="not-a-vertical-shift",
-        )
+    insist_on(shift, "shift", ShiftLaw, type(None), right="a law (WLF, …), ShiftFactors or None, to find it")
+    insist_on(vertical_shift, "vertical_shift", VerticalShift, type(None), right="a VerticalShift or None")
     if indenter is not None:
         return
     if vertical_shift is not None or load is not None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
@@ -172,20 +173,14 @@ def compare_shift_factors(
     """
     from scipy.special import gammaincc
 
-    table = getattr(found, "shift_factors", found)
-    if not isinstance(table, ShiftFactors):
-        raise InputError(
-            f"found must be ShiftFactors or a FrictionMasterCurve, not {type(found).__name__}.", code="no-shift"
-        )
+    table: Any = getattr(found, "shift_factors", found)
+    insist_on(table, "found", ShiftFactors, right="ShiftFactors or a FrictionMasterCurve")
     reference = table.reference
     keep = np.abs(table.temperatures - reference) > AT_REFERENCE
     law: Any = getattr(other, "shift", None)
     if law is None:
         law = getattr(other, "shift_factors", other)
-    if not hasattr(law, "at_reference"):
-        raise InputError(
-            f"other must be ShiftFactors, a law, or have shift factors, not {type(other).__name__}.", code="no-shift"
-        )
+    insist_on(law, "other", ShiftLaw, right="ShiftFactors, a law, or have shift factors")
     law = law.at_reference(reference)
     keep &= law.valid_at(table.temperatures)
     if not np.any(keep):

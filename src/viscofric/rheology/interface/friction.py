@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.arrays import Array
 from viscofric.errors import InputError
 from viscofric.heat.heating import Heating
@@ -22,15 +23,10 @@ SAME_PRESSURE = 1.5
 OF_LIMIT = 1.0 / LEVEL_95
 
 
-def insist_on_interface(given: object) -> InterfaceLaw:
-    """Return a law of shear stress; raise `InputError` for anything else."""
-    if not isinstance(given, InterfaceLaw):
-        raise InputError(
-            "interface must be a law of shear stress, such as GaussianShearStress or what ShearStress.law() gives, not "
-            f"{type(given).__name__}.",
-            code="not-a-law",
-        )
-    return given
+def insist_on_interface(given: object) -> None:
+    """Raise `InputError` for anything else than a law of shear stress."""
+    right = "a law of shear stress, such as GaussianShearStress or what ShearStress.law() gives"
+    insist_on(given, "interface", InterfaceLaw, right=right)
 
 
 def check_interface_heat(heating: Heating, interface: object, slip: object = None) -> None:

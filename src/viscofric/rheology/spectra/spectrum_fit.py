@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from viscofric.arguments import whole_number
+from viscofric.arguments import insist_on, whole_number
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
@@ -249,14 +249,10 @@ def _at_level(curve: Curve, decades: float) -> Curve:
 
 
 def _curve_of(given: object) -> Curve:
-    curve = getattr(given, "master_curve", given)
-    if not isinstance(curve, (MasterCurve, StepMasterCurve)):
-        raise InputError(
-            "a spectrum is fitted to a MasterCurve or StepMasterCurve, or to the Superposition that superpose(…) "
-            f"returns, not to {type(given).__name__}.",
-            code="wrong-type",
-        )
-    return curve
+    curve: Any = getattr(given, "master_curve", given)
+    right = "a MasterCurve or StepMasterCurve, or the Superposition that superpose(…) returns"
+    insist_on(curve, "master_curve", MasterCurve, StepMasterCurve, right=right)
+    return curve  # type: ignore[no-any-return]
 
 
 def as_spectrum(modes: Modes) -> RetardationSpectrum:

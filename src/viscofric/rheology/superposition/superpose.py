@@ -171,12 +171,8 @@ def superpose(
             for one in sweeps
         ]
         return joined_kinds(alone, positive(reference, "K", "reference"))
-    if not isinstance(sweeps, (IsothermalSweeps, StepTests)):
-        raise InputError(
-            f"sweeps must be IsothermalSweeps, not {type(sweeps).__name__}; read them with read_dma(…), as in "
-            "superpose(read_dma('sweeps.csv'), '20 degC').",
-            code="wrong-type",
-        )
+    right = "IsothermalSweeps or StepTests; read them with read_dma(…), as in superpose(read_dma('a.csv'), '20 degC')"
+    insist_on(sweeps, "sweeps", IsothermalSweeps, StepTests, right=right)
     kelvin = positive(reference, "K", "reference")
     ratio = checked_poisson_ratio(poisson_ratio)
     insist_on(shift, "shift", ShiftLaw, type(None), right="a shift law, ShiftFactors or None")
@@ -200,6 +196,7 @@ def superpose(
         curve = _step_master_curve(steps.joined, steps.factors, tests.kind)
         rest = steps.joined.isotherms, steps.vertical, steps.cross, steps.offsets, steps.unidentified
         return StepSuperposition(steps.factors, curve, steps.quality, notes, *rest)
+    assert isinstance(sweeps, IsothermalSweeps)
     tensile = sweeps.in_tension(ratio)
     quantities = Quantities.chosen(by, weights)
     quantities.insist_on_use(vertical, shift)
