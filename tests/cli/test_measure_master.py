@@ -78,7 +78,7 @@ def test_what_cannot_be_known_is_null_and_a_question_mark(tmp_path: Path) -> Non
     assert point["viscoelastic"] == pytest.approx(viscoelastic(30.0, 20.0), rel=1e-9)  # no noise
     assert point["coulomb"] == pytest.approx(COULOMB, rel=1e-9)
     assert "consistency" not in point
-    assert found["inputs"]["zero"] == "0.3 N"
+    assert found["inputs"]["zero"] == 0.3
     assert call("measure", path, "--zero", "0.3 N").exit_code == 0
 
 
@@ -152,7 +152,7 @@ def test_measure_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) -
     [
         (["measure", "nothing.csv"], "no-file"),
         (["measure", "runs.csv", "--zero", "0.1 mm"], "wrong-unit"),
-        (["measure", "runs.csv", "--speed-tolerance", "2"], "out-of-range"),
+        (["measure", "runs.csv", "--speed-tolerance", "2"], "less-than"),
         (["measure", "runs.csv", "--except-steps", "2"], "no-steps"),
     ],
     ids=lambda value: str(value)[:40],

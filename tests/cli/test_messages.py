@@ -172,18 +172,18 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("measure runs.csv --picture a.txt", 2, "Invalid value for --picture: a.txt: must end in .png, .svg, .pdf."),
         (
             "measure runs.csv --coulomb much",
-            2,
-            "Invalid value for --coulomb: 'much': must be a coefficient, such as 0.05, or the word 'constant'.",
+            1,
+            "--coulomb: 'much' is neither a friction coefficient, such as 0.05, nor the word 'constant'.",
         ),
         (
             "measure runs.csv --zero-error '0.1 N'",
-            2,
-            "--zero-error is the standard error of --zero, which is not given.",
+            1,
+            "--zero-error is the standard error of zero, which is not given.",
         ),
         (
             "measure runs.csv --coulomb constant --coulomb-error 0.1",
-            2,
-            "--coulomb-error goes with a number, not with 'constant'.",
+            1,
+            "--coulomb-error is the standard error of a coulomb number, which is not given.",
         ),
         (
             "measure runs.csv --except-steps two",
@@ -195,18 +195,18 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("measur", 2, "No such command 'measur'. Did you mean 'measure'?"),
         (
             "master curves.csv --zero '0.1 N'",
-            2,
-            "--zero: only runs are separated; curves.csv holds friction curves, which are already.",
+            1,
+            "--zero cannot be chosen for friction curves, which are already separated.",
         ),
         (
             "master curves.csv --leave-out-outliers",
-            2,
-            "--leave-out-outliers: only runs are separated; curves.csv holds friction curves, which are already.",
+            1,
+            "--leave-out-outliers cannot be chosen for friction curves, which are already separated.",
         ),
         (
             "identify curves.csv --ball '1 mm' --speed-tolerance 0.2",
-            2,
-            "--speed-tolerance: only runs are separated; curves.csv holds friction curves, which are already.",
+            1,
+            "--speed-tolerance cannot be chosen for friction curves, which are already separated.",
         ),
         ("master curves.csv --out alpha.json", 2, "Invalid value for --out: alpha.json: must end in .csv."),
         (

@@ -76,6 +76,7 @@ _TYPED_AS = {
     "height unit": ("height_unit",),
     "sheet": ("history_sheet", "shift_factor_sheet"),
     "fixed_shift_factors": ("fix",),
+    "outliers": ("leave_out_outliers",),
 }
 
 

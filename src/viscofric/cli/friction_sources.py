@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
 from viscofric.cli.files import plainly
 from viscofric.cli.output import together
@@ -19,8 +20,9 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.shifts.shift_law import ShiftLaw
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
+    from viscofric.study.run_file.measurement import MeasurementTable
 
-#: Settings of `viscofric.friction.measurement.tribometry.separate`.
+#: Keys of [measurement] of a run file, which checks them.
 separation_options = together(
     column_options("'disc_speed=V1 (mm/s)'"),
     click.option(
@@ -59,53 +61,34 @@ separation_options = together(
 )
 
 
-#: Settings of a separation of which nothing was chosen.
-_DEFAULTS: dict[str, Any] = {
-    "columns": {},
-    "sheet": None,
-    "zero": None,
-    "coulomb": None,
-    "outliers": "keep",
-    "speed_tolerance": 0.05,
-    "temperature_tolerance": "1 delta_degC",
-    "except_steps": None,
-}
-#: Setting -> its option, where that is not its name.
-_TYPED = {"outliers": "leave-out-outliers", "columns": "column"}
+#: Keys of [measurement] that have options of their names.
+_KEYS = (
+    *("columns", "sheet", "zero", "zero_error", "coulomb_error"),
+    *("speed_tolerance", "temperature_tolerance"),
+)
 
 
-def settings_of(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Return the settings of `separated` among the parameters of a command."""
-    for name in ("zero", "coulomb"):
-        if parameters[f"{name}_error"] is not None and parameters[name] is None:
-            raise click.UsageError(f"--{name}-error is the standard error of --{name}, which is not given.")
-    coulomb: Any = parameters["coulomb"]
-    if coulomb is not None and coulomb != "constant":
-        try:
-            coulomb = float(coulomb)
-        except ValueError:
-            raise click.BadParameter(
-                f"{coulomb!r}: must be a coefficient, such as 0.05, or the word 'constant'.", param_hint="--coulomb"
-            ) from None
-        if parameters["coulomb_error"] is not None:
-            coulomb = (coulomb, parameters["coulomb_error"])
-    elif parameters["coulomb_error"] is not None:
-        raise click.UsageError("--coulomb-error goes with a number, not with 'constant'.")
-    return {name: parameters[name] for name in ("columns", "sheet") if parameters[name]} | {
-        "zero": parameters["zero"]
-        if parameters["zero_error"] is None
-        else (parameters["zero"], parameters["zero_error"]),
-        "coulomb": coulomb,
-        "outliers": "leave out" if parameters["leave_out_outliers"] else "keep",
-        "speed_tolerance": parameters["speed_tolerance"],
-        "temperature_tolerance": parameters["temperature_tolerance"],
-        "except_steps": _steps(parameters["except_steps"]),
-    }
+def _given(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return the keys of [measurement] that the options of a command give."""
+    source = click.get_current_context().get_parameter_source
+    chosen = {name: parameters[name] for name in _KEYS if source(name) is not ParameterSource.DEFAULT}
+    if parameters["coulomb"] is not None:
+        chosen["coulomb"] = _number_or_word(parameters["coulomb"])
+    if parameters["leave_out_outliers"]:
+        chosen["outliers"] = "leave out"
+    if parameters["except_steps"] is not None:
+        chosen["except_steps"] = _steps(parameters["except_steps"])
+    return chosen
 
 
-def _steps(text: str | None) -> list[int] | None:
-    if text is None:
-        return None
+def _number_or_word(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _steps(text: str) -> list[int]:
     try:
         return [int(number) for number in text.split(",")]
     except ValueError:
@@ -114,30 +97,34 @@ def _steps(text: str | None) -> list[int] | None:
         ) from None
 
 
-def _refuse_settings(settings: dict[str, Any], table: object) -> None:
-    """Stop where something was chosen of a separation that has nothing to separate."""
-    chosen = [name for name, value in settings.items() if value != _DEFAULTS[name]]
-    if chosen:
-        options = " and ".join(f"--{_TYPED.get(name, name.replace('_', '-'))}" for name in chosen)
-        raise click.UsageError(f"{options}: only runs are separated; {table} holds friction curves, which are already.")
+def separation_record(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return the options of a separation in plain types, SI."""
+    names = {"zero", "coulomb", "outliers", "speed_tolerance", "temperature_tolerance", "except_steps"}
+    table = _measurement(parameters, mtm=["runs"])
+    return table.model_dump(mode="json", include=names | table.model_fields_set - {"mtm"})
+
+
+def _measurement(parameters: dict[str, Any], **source: Any) -> MeasurementTable:
+    """Return the options of a separation as a run file's [measurement] of some files."""
+    from viscofric.study.run_file.measurement import MeasurementTable
+    from viscofric.study.run_file.study import validated
+
+    return validated(MeasurementTable, source | _given(parameters))
 
 
 _TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")
 
-#: Settings that tables of friction curves take too.
-_OF_TABLES = ("columns", "sheet")
 
-
-def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
+def friction_curves(paths: Sequence[Path], parameters: dict[str, Any]) -> FrictionCurves:
     """Return the friction curves of files: tables of curves, or runs that are separated here."""
     from viscofric.errors import DataFileError, InputError
-    from viscofric.friction.curve_files import holds_friction_curves, read_friction_curves
+    from viscofric.friction.curve_files import holds_friction_curves
+    from viscofric.study.measurement import read_measurement
 
-    headings, sheet = settings.get("columns"), settings.get("sheet")
-    tables = [path for path in paths if holds_friction_curves(path, headings)]
+    tables = [path for path in paths if holds_friction_curves(path, parameters["columns"])]
     if not tables:
         try:
-            return separated(paths, settings)
+            return separated_runs(paths, parameters)
         except DataFileError as error:
             if error.code != "missing-columns":
                 raise
@@ -151,30 +138,27 @@ def friction_curves(paths: Sequence[Path], settings: dict[str, Any]) -> Friction
             "a tribometer.",
             code="mixed-inputs",
         )
-    _refuse_settings({name: value for name, value in settings.items() if name not in _OF_TABLES}, tables[0])
-    return joined([_plain(read_friction_curves(path, columns=headings, sheet=sheet)) for path in tables])
+    return joined([_plain(read_measurement(_measurement(parameters, curves=str(path)))) for path in tables])
 
 
-def separated(paths: Sequence[Path], settings: dict[str, Any]) -> FrictionCurves:
+def separated_runs(paths: Sequence[Path], parameters: dict[str, Any]) -> FrictionCurves:
     """Return the friction curves of the runs in files of a tribometer."""
     from viscofric.errors import InputError
     from viscofric.friction.curve_files import holds_friction_curves
-    from viscofric.friction.measurement.tribometry import separate
     from viscofric.readers.mtm.read import read_mtm
+    from viscofric.study.measurement import separated
 
-    settings = dict(settings)
-    headings, sheet = settings.pop("columns", None), settings.pop("sheet", None)
+    table = _measurement(parameters, mtm=list(map(str, paths)))
     try:
-        runs = read_mtm(*paths, columns=headings, sheet=sheet)
+        runs = read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet)
     except InputError as error:
-        curves = [path for path in paths if holds_friction_curves(path, headings)]
+        curves = [path for path in paths if holds_friction_curves(path, parameters["columns"])]
         no_runs = error.code in ("missing-columns", "unknown-quantity")
         if not (curves and no_runs) or "traction force" in error.note.values.get("known", ()):
             raise
         problem = f"{curves[0]} holds friction curves, not runs to be separated; viscofric master and identify take it."
         raise InputError(problem, code="friction-curves") from None
-    steps = settings.pop("except_steps")
-    return _plain(separate(runs if steps is None else runs.select(except_steps=steps), **settings))
+    return _plain(separated(runs, table))
 
 
 def _plain(curves: FrictionCurves) -> FrictionCurves:

@@ -9,7 +9,7 @@ import click
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
 from viscofric.cli.errors import print_notes, reported_errors, typed_as
 from viscofric.cli.files import FILE, JSON, Source, plainly, refuse_to_overwrite
-from viscofric.cli.friction_sources import friction_curves, separation_options, settings_of, shifts
+from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
 from viscofric.cli.output import (
     drawing,
     json_option,
@@ -189,7 +189,7 @@ def command(
     refuse_to_overwrite(sources, out, picture)
     if beside is not None and picture is None:
         raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
-    settings, anchor = settings_of(parameters), check_anchor(parameters)
+    anchor = check_anchor(parameters)
     with reported_errors():
         from viscofric.cli.progress import contact_bar
         from viscofric.friction.identification.identify import identify_material
@@ -206,7 +206,7 @@ def command(
             options["shift"], _ = shifts(
                 parameters["shift"], parameters["shift_factor_columns"], parameters["shift_factor_sheet"]
             )
-        curves = friction_curves(sources, settings)
+        curves = friction_curves(sources, parameters)
         with contact_bar("Shift factors", quiet=as_json) as bar:
 
             def show(step: int, done: int, total: int) -> None:
@@ -215,7 +215,7 @@ def command(
             found = identify_material(curves, indenter=shape.indenter, progress=show, **options)
         if as_json:
             inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
-            inputs |= chosen(parameters) | settings
+            inputs |= chosen(parameters) | separation_record(parameters)
             record = identification_record(found, inputs) | listed("notes", curves.notes)
             print_json(record)
         else:

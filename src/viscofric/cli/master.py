@@ -8,7 +8,7 @@ import click
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import CSV, DASH, Source, plainly, refusal, refuse_to_overwrite
-from viscofric.cli.friction_sources import friction_curves, separation_options, settings_of, shifts
+from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
 from viscofric.cli.output import (
     drawing,
     json_option,
@@ -82,12 +82,11 @@ def command(
     used; without --shift, that is an error.
     """
     refuse_to_overwrite(sources, out, picture)
-    settings = settings_of(parameters)
     with reported_errors():
         from viscofric.friction.shifting.shift import chosen_law
         from viscofric.report.texts.inverse import shift_record
 
-        curves = friction_curves(sources, settings)
+        curves = friction_curves(sources, parameters)
         known, vertical = (
             (None, None)
             if parameters["known"] is None
@@ -109,7 +108,9 @@ def command(
             inputs |= {"shift": parameters["known"]} | {
                 name: parameters[name] for name in ("reference", "law", "ball", "level_error")
             }
-            record = shift_record(master, law, agreement, inputs | settings) | {"law_explanation": why or None}
+            record = shift_record(master, law, agreement, inputs | separation_record(parameters)) | {
+                "law_explanation": why or None
+            }
             print_json(record)
         elif out != DASH:
             _print(master, known, law, why, agreement)

@@ -8,7 +8,7 @@ import click
 
 from viscofric.cli.errors import print_notes, reported_errors
 from viscofric.cli.files import CSV, DASH, Source, plainly, refuse_to_overwrite
-from viscofric.cli.friction_sources import separated, separation_options, settings_of
+from viscofric.cli.friction_sources import separated_runs, separation_options, separation_record
 from viscofric.cli.output import (
     drawing,
     json_option,
@@ -50,14 +50,13 @@ def command(
     test; `-` is standard input.
     """
     refuse_to_overwrite(runs, out, picture)
-    settings = settings_of(parameters)
     with reported_errors():
         from viscofric.friction.curve_files import write_friction_curves
         from viscofric.report.texts.friction import friction_record
 
-        curves = separated(runs, settings)
+        curves = separated_runs(runs, parameters)
         if as_json:
-            inputs = {"runs": [plainly(str(path)) for path in runs], **settings}
+            inputs = {"runs": [plainly(str(path)) for path in runs], **separation_record(parameters)}
             record = friction_record(curves, inputs)
             print_json(record)
         elif out != DASH:

@@ -24,6 +24,7 @@ from viscofric.study.run_file.tables import (
     Words,
     listed,
     one_or_more,
+    with_options,
 )
 
 
@@ -67,7 +68,7 @@ class MeasurementTable(Table):
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
         for words in self._doubts():
-            yield "", words
+            yield "", with_options(words, type(self).model_fields)
 
     def _doubts(self) -> Iterator[str]:
         if not self.mtm and self.curves is None:
