@@ -105,8 +105,7 @@ def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
     mesh = pressure_mesh(axes, x, y, pressure, highest)
     draw_outline(axes, x, y, pressure)
     axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
-    axes.set_xlabel(_label_along(solution))
-    axes.set_ylabel(f"across $y$ ({unit.name})")
+    axes.set(xlabel=_label_along(solution), ylabel=f"across $y$ ({unit.name})")
     _draw_motion(axes, solution)
     return mesh
 
@@ -135,8 +134,7 @@ def plot_pressure_profile(axes: Axes, solution: ContactSolution) -> None:
     axes.axvline(0.0, color=GREY, linewidth=0.8)
     axes.axvline(centre, color=VERMILION, linewidth=1.2, linestyle=(0, (4, 2)), label="centre of pressure")
     axes.set_ylim(bottom=0.0)
-    axes.set_ylabel(f"pressure $p$ ({pressure_unit.name})")
-    axes.set_xlabel(_label_along(solution))
+    axes.set(ylabel=f"pressure $p$ ({pressure_unit.name})", xlabel=_label_along(solution))
     axes.legend(loc="best")
 
 
@@ -167,8 +165,7 @@ def plot_surface_profile(axes: Axes, solution: ContactSolution, indenter: Indent
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle=(0, (1.5, 1.5)))
     axes.set_ylim(bottom - 0.12 * reach, ceiling)
     axes.set_xlim(float(x[0]), float(x[-1]))
-    axes.set_xlabel(_label_along(solution))
-    axes.set_ylabel(f"height ({depth_unit.name})")
+    axes.set(xlabel=_label_along(solution), ylabel=f"height ({depth_unit.name})")
     axes.legend(loc="upper center", ncols=2)
 
 

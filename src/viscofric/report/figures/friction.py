@@ -254,8 +254,7 @@ def plot_measured(axes: Axes, points: Measured, nominal: Array) -> None:
 
 
 def _finish(axes: Axes, handles: list[Any], title: str, label: str) -> None:
-    axes.set_xscale("log")
-    axes.set_ylabel(label)
+    axes.set(xscale="log", ylabel=label)
     if axes.get_ylim()[1] > 0.0 and axes.dataLim.y0 >= 0.0:
         axes.set_ylim(0.0, max(axes.get_ylim()[1], _HEADROOM * axes.dataLim.y1))
     speed_ticks(axes.xaxis)

@@ -106,8 +106,7 @@ def plot_transient(axes: Axes, data: Dataset, quantity: str = "friction_coeffici
             axes.fill_between(along, values - bound, values + bound, color=line.colour, alpha=0.2, linewidth=0.0)
         axes.plot(along, values, color=line.colour, label=line.words)
     axes.axhline(0.0, color=GREY, linewidth=0.8)
-    axes.set_xlabel(label)
-    axes.set_ylabel(f"{title} ({unit.name})" if unit.name else title)
+    axes.set(xlabel=label, ylabel=f"{title} ({unit.name})" if unit.name else title)
     if len(lines) > 1:
         axes.legend(loc="best")
 
@@ -128,8 +127,7 @@ def plot_force_depth(axes: Axes, data: Dataset) -> None:
     if np.any(y > 0.0):  # flights between contacts reach far above the surface
         low, high = min(0.0, float(x[y > 0.0].min())), float(x[y > 0.0].max())
         axes.set_xlim(low - _BESIDE * (high - low), high + _BESIDE * (high - low))
-    axes.set_xlabel(f"{_title(data, 'indentation')} ({depth.name})")
-    axes.set_ylabel(f"{_title(data, 'load')} ({load.name})")
+    axes.set(xlabel=f"{_title(data, 'indentation')} ({depth.name})", ylabel=f"{_title(data, 'load')} ({load.name})")
 
 
 def plot_friction_loop(axes: Axes, data: Dataset) -> None:

@@ -98,8 +98,7 @@ def plot_pressure_profiles(axes: Axes, run: TransientSolution, times: Quantities
         axes.plot(x / frames.length.size, pressure / frames.pressure.size, color=look.colour, label=words)
     axes.set_xlim(*frames.reach[0])
     axes.set_ylim(0.0, 1.05 * frames.highest)
-    axes.set_xlabel(f"$x$ ({frames.length.name})")
-    axes.set_ylabel(f"pressure $p$ ({frames.pressure.name})")
+    axes.set(xlabel=f"$x$ ({frames.length.name})", ylabel=f"pressure $p$ ({frames.pressure.name})")
     axes.legend(loc="best", title="time")
 
 

@@ -56,8 +56,7 @@ def plot_temperature_ramps(
             axes.plot(celsius, loss / storage, label=label, **points)
     axes.set_xlabel("temperature (°C)")
     if quantity == "moduli":
-        axes.set_yscale("log")
-        axes.set_ylabel(f"{letter}\u2032 (filled), {letter}\u2033 (open) (MPa)")
+        axes.set(yscale="log", ylabel=f"{letter}\u2032 (filled), {letter}\u2033 (open) (MPa)")
     else:
         axes.set_ylabel(r"tan $\delta$")
         for peak in json.loads(str(found.attrs.get("glass_transitions", "[]"))):

@@ -34,8 +34,7 @@ _MOST_POINTS = 512
 def _axes_of_map(axes: Axes, unit: Unit) -> None:
     axes.set_aspect("equal")
     axes.grid(visible=False)
-    axes.set_xlabel(f"$x$ ({unit.name})")
-    axes.set_ylabel(f"$y$ ({unit.name})")
+    axes.set(xlabel=f"$x$ ({unit.name})", ylabel=f"$y$ ({unit.name})")
 
 
 def plot_topography(axes: Axes, topography: Topography) -> tuple[QuadMesh, str]:
@@ -72,8 +71,7 @@ def plot_line_scan(axes: Axes, topography: Topography) -> None:
     z = topography.heights[:, 0] - np.nanmean(topography.heights[:, 0])
     unit, depth = unit_for(topography.size[0]), unit_for(float(np.nanmax(np.abs(z))) or 1.0)
     axes.plot(topography.x / unit.size, z / depth.size, color=INK, linewidth=0.9)
-    axes.set_xlabel(f"$x$ ({unit.name})")
-    axes.set_ylabel(f"height ({depth.name})")
+    axes.set(xlabel=f"$x$ ({unit.name})", ylabel=f"height ({depth.name})")
     axes.margins(x=0.0)
 
 
@@ -127,8 +125,7 @@ def plot_power_spectra(axes: Axes, spectra: Mapping[str, PowerSpectrum]) -> None
         marker = look.marker if len(spectrum.wave_number) <= 60 else ""
         style: dict[str, Any] = {"color": look.colour, "linestyle": look.dashes, "marker": marker, "markersize": 3.5}
         axes.loglog(spectrum.wave_number, spectrum.density, label=name, **style)
-    axes.set_xlabel("wave number $q$ (rad/m)")
-    axes.set_ylabel(r"$C(q)$ (m$^4$)")
+    axes.set(xlabel="wave number $q$ (rad/m)", ylabel=r"$C(q)$ (m$^4$)")
     axes.tick_params(which="both", top=False)
     for axis in (axes.xaxis, axes.yaxis):
         decade_ticks(axis)
@@ -158,8 +155,7 @@ def plot_friction_by_wavelength(axes: Axes, parts: Mapping[str, FrictionByWavele
         axes.stairs(per_decade[::-1], part.edges[::-1], color=look.colour, linestyle=look.dashes, label=name)
     axes.set_xscale("log")
     axes.set_ylim(bottom=0.0)
-    axes.set_xlabel("wavelength (m)")
-    axes.set_ylabel("friction per decade of wavelength")
+    axes.set(xlabel="wavelength (m)", ylabel="friction per decade of wavelength")
     decade_ticks(axes.xaxis)
     if len(parts) > 1:
         axes.legend()
@@ -233,6 +229,5 @@ def _speed_axes(axes: Axes, quantity: str) -> None:
     axes.set_xscale("log")
     axes.set_ylim(bottom=0.0)
     speed_ticks(axes.xaxis)
-    axes.set_xlabel("speed (m/s)")
-    axes.set_ylabel(quantity)
+    axes.set(xlabel="speed (m/s)", ylabel=quantity)
     axes.legend()

@@ -70,8 +70,7 @@ def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "l
     order = np.argsort(measured.angular_frequency, kind="stable")
     columns = (measured.temperature, measured.angular_frequency, value)
     scale = draw_by_temperature(axes, *(column[order] for column in columns), marker=marker)
-    axes.set_xlabel(r"angular frequency $\omega$ (rad/s)")
-    axes.set_ylabel(modulus_label(measured.symbol, modulus))
+    axes.set(xlabel=r"angular frequency $\omega$ (rad/s)", ylabel=modulus_label(measured.symbol, modulus))
     logarithmic(axes)
     return scale
 
@@ -149,12 +148,10 @@ def plot_master_curve(
             lower, upper = getattr(bounds, name) / _PASCAL_PER_MEGAPASCAL
             look: dict[str, Any] = {"color": colour, "alpha": 0.25, "linewidth": 0, "zorder": 1}
             bands.append(axes.fill_between(bounds.angular_frequency, lower, upper, label=f"{symbol}, 95 %", **look))
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     if bands and frequency.size:
         bands += _shade_beyond(axes, float(frequency.min()), float(frequency.max()))
-    axes.set_xlabel(_reduced_label(measured, reference_temperature))
-    axes.set_ylabel("modulus (MPa)")
+    axes.set(xlabel=_reduced_label(measured, reference_temperature), ylabel="modulus (MPa)")
     logarithmic(axes)
     legend_above(axes, handles + bands, columns=3 if bands else 2)
 
@@ -266,8 +263,7 @@ def plot_retardation_spectrum(
         handles += _shade_beyond(axes, 1.0 / frequencies[1], 1.0 / frequencies[0])
     if handles:
         legend_above(axes, handles)
-    axes.set_xlabel(r"retardation time $\tau_k$ (s)")
-    axes.set_ylabel(r"compliance of a mode $C_k$ (1/MPa)")
+    axes.set(xlabel=r"retardation time $\tau_k$ (s)", ylabel=r"compliance of a mode $C_k$ (1/MPa)")
 
 
 def plot_relaxation_spectrum(axes: Axes, spectrum: RelaxationSpectrum | RetardationSpectrum) -> None:
@@ -282,15 +278,13 @@ def plot_relaxation_spectrum(axes: Axes, spectrum: RelaxationSpectrum | Retardat
     series = as_dataset(spectrum.to_relaxation() if isinstance(spectrum, RetardationSpectrum) else spectrum)
     modulus = values(series, "modulus") / _PASCAL_PER_MEGAPASCAL
     _draw_modes(axes, values(series, "relaxation_time"), modulus, VERMILION, "s")
-    axes.set_xlabel(r"relaxation time $\tau_k$ (s)")
-    axes.set_ylabel(r"modulus of a mode $E_k$ (MPa)")
+    axes.set(xlabel=r"relaxation time $\tau_k$ (s)", ylabel=r"modulus of a mode $E_k$ (MPa)")
 
 
 def _draw_modes(axes: Axes, tau: Array, strength: Array, colour: str, marker: str) -> None:
     """Draw a stem for each mode above zero, on logarithmic axes."""
     shown = np.flatnonzero(strength > 10.0**-_DECADES_SHOWN * np.max(strength, initial=0.0))
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     if not shown.size:
         return
     low, high = np.log10(strength[shown].min()), np.log10(strength[shown].max())

@@ -80,8 +80,7 @@ def plot_vertical_shift(
     else:
         axes.plot(warm, b, color=VERMILION)
     axes.axhline(1.0, color=GREY, linewidth=0.8, zorder=0)
-    axes.set_xlabel("temperature (°C)")
-    axes.set_ylabel(r"vertical shift $b_T$")
+    axes.set(xlabel="temperature (°C)", ylabel=r"vertical shift $b_T$")
     plain_numbers(axes, "x")
     plain_numbers(axes, "y")
 
@@ -128,8 +127,7 @@ def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLa
         )
         every.append(left)
     axes.set_ylim(*_limits_of_residuals(every, doubt))
-    axes.set_xlabel("temperature (°C)")
-    axes.set_ylabel(r"$\log_{10}$ of measured over law's $\alpha_T$")
+    axes.set(xlabel="temperature (°C)", ylabel=r"$\log_{10}$ of measured over law's $\alpha_T$")
     plain_numbers(axes, "x")
     legend_above(axes, handles, columns=2)
 
@@ -178,8 +176,7 @@ def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -
 def _finish(axes: Axes, low: float, high: float, room: float, handles: list[Any], at: str = "") -> None:
     """Give axes of shift factors their limits (log10), with room beyond them, and their labels."""
     axes.set_ylim(10.0 ** (low - room), 10.0 ** (high + room))
-    axes.set_xlabel("temperature (°C)")
-    axes.set_ylabel(r"shift factor $\alpha_T$" + at)
+    axes.set(xlabel="temperature (°C)", ylabel=r"shift factor $\alpha_T$" + at)
     plain_numbers(axes, "x")
     logarithmic(axes, "y")
     legend_above(axes, handles, columns=1)
