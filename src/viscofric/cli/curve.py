@@ -26,8 +26,6 @@ from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, spee
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from matplotlib.figure import Figure
-
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -100,7 +98,7 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
         print_notes(curves.notes)
         write_files(
             ("curves", out, partial(write_friction_curves, curves)),
-            ("picture", picture, drawing(partial(_drawn, curves), "friction", synthetic=rubber.synthetic)),
+            ("picture", picture, drawing(_figure_of(curves), curves, mark=rubber.synthetic)),
             quiet=as_json or out == DASH,
         )
     beyond = _beyond_accuracy(curves, parameters["accuracy"])
@@ -178,12 +176,11 @@ def _of_heat(curves: FrictionCurves, rows: slice) -> list[list[str]]:
     ]
 
 
-def _drawn(curves: FrictionCurves) -> Figure:
+def _figure_of(curves: FrictionCurves) -> str:
     from viscofric.friction.heating import HeatedFrictionCurves
-    from viscofric.report.figures.friction import predicted_figure
-    from viscofric.report.figures.heating import heated_curves_figure
 
-    return heated_curves_figure(curves) if isinstance(curves, HeatedFrictionCurves) else predicted_figure(curves)
+    heated = isinstance(curves, HeatedFrictionCurves)
+    return "heating.heated_curves_figure" if heated else "friction.predicted_figure"
 
 
 def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:

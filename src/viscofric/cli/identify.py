@@ -26,8 +26,6 @@ from viscofric.notes import listed
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from matplotlib.figure import Figure
-
     from viscofric.friction.identification.anchors import Anchor
     from viscofric.friction.identification.result import IdentifiedMaterial
 
@@ -221,15 +219,9 @@ def command(
         else:
             _print(found)
         print_notes(curves.notes)
-
-        def draw() -> Figure:
-            from viscofric.report.figures.identified import identified_figure
-
-            return identified_figure(found, known)
-
         write_files(
             ("rubber", out, lambda path: write_card(found.material, path, format="json")),
-            ("picture", picture, drawing(draw, "identified modulus", synthetic=synthetic)),
+            ("picture", picture, drawing("identified.identified_figure", found, known, mark=synthetic)),
             quiet=as_json,
         )
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -24,8 +23,6 @@ from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, spee
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from matplotlib.figure import Figure
 
     from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
 
@@ -95,7 +92,7 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
             _print(result, seconds)
         write_files(
             ("data", out, lambda path: write_dataset(path, result.to_dataset())),
-            ("picture", picture, drawing(partial(_drawn, name, result), "impact", synthetic=rubber.synthetic)),
+            ("picture", picture, drawing("pressures.impact_figure", result, name, mark=rubber.synthetic)),
             quiet=as_json or out == DASH,
         )
         print_notes(result.warnings, word="Warning")
@@ -129,12 +126,3 @@ def _print(result: ImpactSolution | RestitutionCurve, seconds: float) -> None:
             click.echo(line)
         return
     print_pairs(impact_lines(result, seconds))
-
-
-def _drawn(name: str, result: ImpactSolution | RestitutionCurve) -> Figure:
-    from viscofric.motion.impact_solution import RestitutionCurve
-    from viscofric.report.figures.pressures import restitution_figure, transient_figure
-
-    if isinstance(result, RestitutionCurve):
-        return restitution_figure(result, name)
-    return transient_figure(result.run, name)

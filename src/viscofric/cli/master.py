@@ -24,8 +24,6 @@ from viscofric.cli.rubber_options import shift_factor_options
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from matplotlib.figure import Figure
-
     from viscofric.friction.curves import FrictionCurves
     from viscofric.friction.shifting.master_curve import FrictionMasterCurve
     from viscofric.friction.shifting.shift_agreement import ShiftAgreement
@@ -115,15 +113,10 @@ def command(
         elif out != DASH:
             _print(master, known, law, why, agreement)
         print_notes((*curves.notes, *master.notes))
-
-        def draw() -> Figure:
-            from viscofric.report.figures.friction import shifted_figure
-
-            return shifted_figure(master, known, synthetic=synthetic)
-
+        draw = drawing("friction.shifted_figure", master, known, mark=synthetic, synthetic=synthetic)
         write_files(
             ("factors", out, lambda path: master.shift_factors.save(path)),  # noqa: PLW0108 - not of all of them
-            ("picture", picture, drawing(draw, "friction master curve", synthetic=synthetic)),
+            ("picture", picture, draw),
             quiet=as_json or out == DASH,
         )
 

@@ -23,8 +23,6 @@ from viscofric.cli.output import (
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from matplotlib.figure import Figure
-
     from viscofric.friction.curves import FrictionCurves
 
 _EXAMPLE = """\b
@@ -62,15 +60,10 @@ def command(
         elif out != DASH:
             _print(curves)
         print_notes(curves.notes)
-
-        def draw() -> Figure:
-            from viscofric.report.figures.friction import friction_figure
-
-            return friction_figure(curves, synthetic=synthetic)
-
+        draw = drawing("friction.friction_figure", curves, mark=synthetic, synthetic=synthetic)
         write_files(
             ("curves", out, lambda path: write_friction_curves(curves, path)),
-            ("picture", picture, drawing(draw, "friction", synthetic=synthetic)),
+            ("picture", picture, draw),
             quiet=as_json or out == DASH,
         )
 

@@ -5,16 +5,15 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from viscofric.cli.files import DASH, FILE, OUT, PICTURES, Named, check_ending, to_be_written
 from viscofric.cli.overview import TYPED
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
@@ -112,13 +111,15 @@ def write_files(*files: tuple[str, Path | None, Callable[[Path], object]], quiet
                 click.echo(f"{word:<8} {path}", err=quiet)
 
 
-def drawing(draw: Callable[[], Figure], name: str, *, synthetic: bool) -> Callable[[Path], None]:
-    """Return what writes a figure into a file; see `save_picture`."""
+def drawing(figure: str, *results: Any, mark: bool, **settings: Any) -> Callable[[Path], None]:
+    """Return what draws results into a file, by "module.function" of `report.figures`; `mark`: as synthetic data."""
 
     def write(path: Path) -> None:
         from viscofric.report.figures.saving import save_picture
 
-        save_picture(path, draw, name=name, synthetic=synthetic)
+        module, _, function = figure.partition(".")
+        draw = getattr(import_module(f"viscofric.report.figures.{module}"), function)
+        save_picture(path, partial(draw, *results, **settings), name=figure, synthetic=mark)
 
     return write
 

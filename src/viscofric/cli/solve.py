@@ -27,8 +27,6 @@ from viscofric.contact.settings import ContactSettings
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from matplotlib.figure import Figure
-
     from viscofric.contact.solution import ContactSolution
 
 _INFINITE = ("inf", "infinite", "infinity", "∞")
@@ -106,14 +104,9 @@ def command(as_json: bool, picture: Path | None, out: Path | None, **parameters:
             print_json(record)
         elif out != DASH:
             _print(name, rubber, solution, seconds)
-
-        def draw() -> Figure:
-            from viscofric.report.figures.contact import contact_figure
-
-            return contact_figure(solution, shape.indenter, name)
-
+        draw = drawing("contact.contact_figure", solution, shape.indenter, name, mark=rubber.synthetic)
         write_files(
-            ("picture", picture, drawing(draw, "contact", synthetic=rubber.synthetic)),
+            ("picture", picture, draw),
             ("fields", out, lambda path: write_fields(path, solution)),
             quiet=as_json or out == DASH,
         )

@@ -28,8 +28,6 @@ from viscofric.cli.output import drawing, json_option, out_option, picture_optio
 from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from viscofric.contact.bodies import Layer
     from viscofric.motion.cycle_solution import CycleSolution
     from viscofric.motion.history import History
@@ -229,15 +227,8 @@ def _write(
     """Write the requested files; pressures `at_times` are those at all times of the solution."""
     run: Any = getattr(result, "run", result)
 
-    def whole() -> Figure:
-        from viscofric.report.figures.pressures import transient_figure
-
-        return transient_figure(run, name)
-
-    def strip() -> Figure:
-        from viscofric.report.figures.pressures import pressure_strip
-
-        return pressure_strip(run, run.time if at_times else None, name)
+    whole = drawing("pressures.transient_figure", run, name, mark=synthetic)
+    strip = drawing("pressures.pressure_strip", run, run.time if at_times else None, name, mark=synthetic)
 
     def animate(path: Path) -> None:
         from viscofric.report.figures.animation import save_animation
@@ -246,8 +237,8 @@ def _write(
 
     write_files(
         ("data", out, lambda path: write_dataset(path, result.to_dataset())),
-        ("picture", drawings["picture"], drawing(whole, "contact over time", synthetic=synthetic)),
-        ("picture", drawings["pressures"], drawing(strip, "contact over time", synthetic=synthetic)),
+        ("picture", drawings["picture"], whole),
+        ("picture", drawings["pressures"], strip),
         ("animation", drawings["animation"], animate),
         quiet=quiet or out == DASH,
     )

@@ -23,8 +23,6 @@ from viscofric.cli.rubber_options import reading_options
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from matplotlib.figure import Figure
-
     from viscofric.friction.contact_strain import ContactAtStrain
     from viscofric.rheology.payne.kraus_fit import PayneFit
 
@@ -88,17 +86,8 @@ def command(files: tuple[Path, ...], as_json: bool, picture: Path | None, out: P
             for line in lines:
                 click.echo(line)
             print_notes(notes)
-
-        def draw() -> Figure:
-            from viscofric.report.figures.ramps import plot_amplitude_sweep
-            from viscofric.report.figures.style import new_figure
-
-            figure = new_figure()
-            plot_amplitude_sweep(figure.subplots(), fit)
-            return figure
-
-        write = drawing(draw, "amplitude_sweep", synthetic=chosen["synthetic"])
-        write_files(("picture", picture, write), quiet=as_json)
+        draw = drawing("ramps.amplitude_figure", fit, mark=chosen["synthetic"])
+        write_files(("picture", picture, draw), quiet=as_json)
 
 
 def _fitted(fit: PayneFit) -> tuple[dict[str, Any], list[str]]:

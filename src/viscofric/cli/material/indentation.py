@@ -23,8 +23,6 @@ from viscofric.cli.rubber_options import column_options, find_rubber
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from matplotlib.figure import Figure
-
 _EXAMPLE = """\b
 Example:
   viscofric material indentation creep.csv --control load --ball "10 mm" \\
@@ -127,16 +125,10 @@ def command(
             print_json(said)
         else:
             click.echo(str(found))
-
-        def draw() -> Figure:
-            from viscofric.report.figures.identified import indentation_figure
-
-            return indentation_figure(found, known)
-
         write_files(
             ("material", out, lambda path: write_card(found.material, path, format="json")),
             ("table", table, data.to_dataframe().to_csv),
-            ("picture", picture, drawing(draw, "identified modulus", synthetic=synthetic)),
+            ("picture", picture, drawing("identified.indentation_figure", found, known, mark=synthetic)),
             quiet=as_json,
         )
 

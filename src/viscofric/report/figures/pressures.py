@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from viscofric.arrays import Array
 from viscofric.datasets import DataArray
-from viscofric.motion.impact_solution import RestitutionCurve
+from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
 from viscofric.motion.solution import TransientSolution
 from viscofric.report.figures.contact import draw_profile, pressure_mesh
 from viscofric.report.figures.motion import (
@@ -205,10 +205,12 @@ def _plot_pressures(axes: Axes, run: TransientSolution) -> None:
     axes.figure.colorbar(mesh, ax=axes).set_label(f"pressure $p$ ({frames.pressure.name})")
 
 
-def restitution_figure(curve: RestitutionCurve, title: str = "") -> Figure:
-    """Return a figure of the restitution of impacts."""
+def impact_figure(found: ImpactSolution | RestitutionCurve, title: str = "") -> Figure:
+    """Return a figure of an impact over time, or of the restitution of several."""
+    if isinstance(found, ImpactSolution):
+        return transient_figure(found.run, title)
     figure = new_figure()
-    plot_restitution(figure.subplots(), curve.to_dataset())
+    plot_restitution(figure.subplots(), found.to_dataset())
     if title:
         figure.suptitle(title, fontsize=10.5)
     return figure

@@ -7,12 +7,13 @@ from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from viscofric.arguments import insist_on
 from viscofric.datasets import Dataset
 from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamps
-from viscofric.report.figures.style import BLUE, GREY, VERMILION, sequential_looks
+from viscofric.report.figures.style import BLUE, GREY, VERMILION, new_figure, sequential_looks
 from viscofric.report.results import values
 from viscofric.rheology.payne.kraus_fit import PayneFit
 from viscofric.rheology.ramps.glass_transition import glass_transition
@@ -103,3 +104,10 @@ def plot_amplitude_sweep(axes: Axes, fit: PayneFit) -> None:
             axes.axvline(100.0 * one.strain, color=GREY, linewidth=0.8, linestyle=":")
     axes.set(xscale="log", yscale="log", xlabel="strain amplitude (%)", ylabel="modulus (MPa)")
     axes.legend()
+
+
+def amplitude_figure(fit: PayneFit) -> Figure:
+    """Return a figure of an amplitude sweep with Kraus's law."""
+    figure = new_figure()
+    plot_amplitude_sweep(figure.subplots(), fit)
+    return figure
