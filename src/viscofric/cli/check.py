@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.commands import as_command
+from viscofric.cli.errors import print_notes
 from viscofric.cli.output import json_option, print_json
 from viscofric.notes import listed
 
@@ -24,7 +25,7 @@ _NOT_SHOWN = {"material", "sample"}
 _PLURAL = {"radius": "radii", "radius x": "radii x", "radius y": "radii y", "thickness": "thicknesses"}
 
 
-@click.command(name="check")
+@as_command("check", reader="run_file")
 @click.argument("study", metavar="[STUDY|-]", required=False, type=click.Path(path_type=Path, allow_dash=True))
 @click.option(
     "--results",
@@ -46,16 +47,15 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
         _check_results(results, as_json)
         return
     assert study is not None
-    with reported_errors("run_file"):
-        from viscofric.study.checking import check_study
-        from viscofric.study.run_file.study import decoded, parse_study, read_study_text
+    from viscofric.study.checking import check_study
+    from viscofric.study.run_file.study import decoded, parse_study, read_study_text
 
-        if str(study) == "-":
-            study = _STDIN
-            text = decoded(sys.stdin.buffer.read(), study)
-        else:
-            text = read_study_text(study)
-        found = check_study(parse_study(text, study), study)
+    if str(study) == "-":
+        study = _STDIN
+        text = decoded(sys.stdin.buffer.read(), study)
+    else:
+        text = read_study_text(study)
+    found = check_study(parse_study(text, study), study)
     record = _record(found, study)
     if as_json:
         print_json(record)
@@ -67,10 +67,9 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
 
 def _check_results(folder: Path, as_json: bool) -> None:
     """Say which files of a folder of results are damaged; exit status 1 if any is."""
-    with reported_errors():
-        from viscofric.study.running.folder import check_results
+    from viscofric.study.running.folder import check_results
 
-        found = check_results(folder)
+    found = check_results(folder)
     if as_json:
         record = {
             "results": str(folder),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.commands import as_command
 from viscofric.cli.errors import words_of
 from viscofric.cli.files import CSV, DASH
 from viscofric.cli.output import json_option, out_option, print_json, write_rows
@@ -24,7 +25,7 @@ Example:
 """
 
 
-@click.command(name="compare", epilog=_EXAMPLE)
+@as_command("compare", epilog=_EXAMPLE)
 @click.argument("first", type=click.Path(path_type=Path))
 @click.argument("second", type=click.Path(path_type=Path))
 @click.option(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import click
 
+from viscofric.cli.commands import as_command
+
 _VARIABLE = "_VISCOFRIC_COMPLETE"
 _EXAMPLE = """\b
 Install for all new shells:
@@ -13,7 +15,7 @@ Install for all new shells:
 """
 
 
-@click.command(name="completion", epilog=_EXAMPLE)
+@as_command("completion", epilog=_EXAMPLE)
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 def command(shell: str) -> None:
     """Print the completion script for SHELL: commands, options and files of viscofric."""

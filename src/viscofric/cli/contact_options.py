@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
+from viscofric.cli.commands import together
 from viscofric.cli.errors import placed_at, print_notes, typed_as
 from viscofric.cli.files import FILE
-from viscofric.cli.output import together
 
 if TYPE_CHECKING:
     from viscofric.roughness.topography import Topography
@@ -49,6 +49,7 @@ indenter_options = together(
     click.option(
         "--height-unit", metavar="UNIT", help="Unit of the heights if the file does not state it [default: m]."
     ),
+    heading="Indenter",
 )
 #: Options, one of which says what shape it is.
 SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")
@@ -65,6 +66,7 @@ surface_options = together(
         metavar="STEP",
         help="With --surface: preparation step, such as 'remove tilt', 'window' or 'shortest 40 um'; repeatable.",
     ),
+    heading="Rough surface",
 )
 
 
@@ -212,6 +214,7 @@ elastic_options = together(
         metavar="ν",
         help="Poisson's ratio of an elastic indenter [default: 0.3].",
     ),
+    heading="Elastic indenter",
 )
 contact_options = together(
     direction_option,
@@ -229,6 +232,7 @@ contact_options = together(
     click.option(
         "--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda."
     ),
+    heading="Contact",
 )
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import (
     chosen_indenter,
     contact_options,
@@ -15,7 +16,7 @@ from viscofric.cli.contact_options import (
     indenter_options,
     inputs_of,
 )
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, DASH, refuse_to_overwrite
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, write_files
@@ -38,7 +39,7 @@ Example:
 """
 
 
-@click.command(name="curve", epilog=_EXAMPLE)
+@as_command("curve", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
 @speed_options("Speed")
@@ -67,40 +68,39 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     Quantities carry their unit. Each contact is solved to the requested accuracy.
     """
     refuse_to_overwrite(inputs_of(parameters), out, picture)
-    with reported_errors():
-        from viscofric.cli.progress import contact_bar
-        from viscofric.friction.curve_files import write_friction_curves
-        from viscofric.friction.prediction import predict_friction
+    from viscofric.cli.progress import contact_bar
+    from viscofric.friction.curve_files import write_friction_curves
+    from viscofric.friction.prediction import predict_friction
 
-        velocities = chosen_speeds(parameters)
-        rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
-        kelvins = _kelvins(rubber.material, chosen_temperatures(parameters))
-        settings = contact_settings(parameters) | {"layer": chosen_layer(parameters)}
-        samples = _samples(rubber, parameters["samples"])
-        name = in_contact(shape.words, rubber, settings["layer"])
-        with contact_bar("Contacts", quiet=as_json) as bar:
-            curves = predict_friction(
-                _at_one_temperature(rubber.material, kelvins),
-                shape.indenter,
-                speeds=velocities,
-                temperatures=kelvins,
-                load=parameters["load"],
-                samples=samples,
-                workers=parameters["workers"],
-                progress=bar,
-                heating=chosen_heating(parameters),
-                **settings,
-            )
-        if as_json:
-            print_json(_record(curves, rubber, shape.record, parameters))
-        elif out != DASH:
-            _print(name, rubber, curves)
-        print_notes(curves.notes)
-        write_files(
-            ("curves", out, partial(write_friction_curves, curves)),
-            ("picture", picture, drawing(_figure_of(curves), curves, mark=rubber.synthetic)),
-            quiet=as_json or out == DASH,
+    velocities = chosen_speeds(parameters)
+    rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
+    kelvins = _kelvins(rubber.material, chosen_temperatures(parameters))
+    settings = contact_settings(parameters) | {"layer": chosen_layer(parameters)}
+    samples = _samples(rubber, parameters["samples"])
+    name = in_contact(shape.words, rubber, settings["layer"])
+    with contact_bar("Contacts", quiet=as_json) as bar:
+        curves = predict_friction(
+            _at_one_temperature(rubber.material, kelvins),
+            shape.indenter,
+            speeds=velocities,
+            temperatures=kelvins,
+            load=parameters["load"],
+            samples=samples,
+            workers=parameters["workers"],
+            progress=bar,
+            heating=chosen_heating(parameters),
+            **settings,
         )
+    if as_json:
+        print_json(_record(curves, rubber, shape.record, parameters))
+    elif out != DASH:
+        _print(name, rubber, curves)
+    print_notes(curves.notes)
+    write_files(
+        ("curves", out, partial(write_friction_curves, curves)),
+        ("picture", picture, drawing(_figure_of(curves), curves, mark=rubber.synthetic)),
+        quiet=as_json or out == DASH,
+    )
     beyond = _beyond_accuracy(curves, parameters["accuracy"])
     if beyond:
         said = f"{beyond} of {len(curves)} points have an estimated error beyond --accuracy {parameters['accuracy']:g}."

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import click
 
+from viscofric.cli.commands import as_command
 from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option
 
 
-@click.command(name="demo")
+@as_command("demo")
 @out_option("Folder for the results.", FOLDER, default=Path("viscofric-demo"))
 @json_option(RUN_JSON)
 def command(out: Path, as_json: bool) -> None:

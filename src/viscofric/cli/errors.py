@@ -19,17 +19,6 @@ if TYPE_CHECKING:
     from viscofric.notes import Note, Reader
 
 
-@contextmanager
-def reported_errors(reader: Reader = "shell") -> Iterator[None]:
-    """Turn what viscofric raises on purpose into a message, in the words of its reader, and exit status 1."""
-    from viscofric.errors import ViscofricError
-
-    try:
-        yield
-    except ViscofricError as error:
-        raise click.ClickException(words_of(error, reader)) from error
-
-
 def words_of(error: ViscofricError, reader: Reader = "shell") -> str:
     """Return the message of an error; for users of commands, with their options."""
     return plainly((_with_options(error) if reader == "shell" else error).listing(reader))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.commands import as_command
 from viscofric.cli.files import DASH, check_ending
 from viscofric.cli.output import json_option, out_option, print_json
 
@@ -19,7 +19,7 @@ Example:
 """
 
 
-@click.command(name="export", epilog=_EXAMPLE)
+@as_command("export", epilog=_EXAMPLE)
 @click.argument("results", type=click.Path(path_type=Path))
 @click.option(
     "--to",
@@ -47,18 +47,17 @@ def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bo
     if out == DASH and forms != ("csv",):
         raise click.BadParameter(f"{forms[0]} cannot be printed; name a file.", param_hint="--out")
     check_ending(out, "--out", (_ENDINGS[forms[0]],))
-    with reported_errors():
-        from viscofric.study.results.columns import table_text
-        from viscofric.study.results.export import FORMS
-        from viscofric.study.results.results import open_results
+    from viscofric.study.results.columns import table_text
+    from viscofric.study.results.export import FORMS
+    from viscofric.study.results.results import open_results
 
-        found = open_results(results)
-        if out == DASH:
-            click.echo(table_text(found.dataset), nl=False)
-            return
-        written = {form: found.export(FORMS[list(_ENDINGS).index(form)], out) for form in forms}
-        if as_json:
-            print_json({"results": results, "files": written})
-            return
-        for form, path in written.items():
-            click.echo(f"{form:<8} {path}")
+    found = open_results(results)
+    if out == DASH:
+        click.echo(table_text(found.dataset), nl=False)
+        return
+    written = {form: found.export(FORMS[list(_ENDINGS).index(form)], out) for form in forms}
+    if as_json:
+        print_json({"results": results, "files": written})
+        return
+    for form, path in written.items():
+        click.echo(f"{form:<8} {path}")

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
+from viscofric.cli.commands import together
 from viscofric.cli.files import plainly
-from viscofric.cli.output import together
 from viscofric.cli.rubber_options import column_options, find_rubber
 from viscofric.notes import Note, Remedy, dumped, note_of
 
@@ -58,6 +58,7 @@ separation_options = together(
         show_default=True,
         help="Gap between different nominal temperatures.",
     ),
+    heading="Separation of runs",
 )
 
 

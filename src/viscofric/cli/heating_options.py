@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.commands import Decorator, together
 from viscofric.cli.contact_options import option
 from viscofric.cli.errors import placed_at, typed_as
-from viscofric.cli.output import Decorator, together
 
 if TYPE_CHECKING:
     from viscofric.heat.heating import Heating
@@ -61,7 +61,11 @@ _NAMES = ("rubber", "coulomb", "slip", "track", "average", "branch")
 
 def heating_options(*, steady: bool) -> Decorator:
     """Return a decorator that adds the options of heating, of steady contacts or of those over time."""
-    return together(*_BODIES, *(_STEADY if steady else ()))
+    return together(
+        *_BODIES,
+        *(_STEADY if steady else ()),
+        heading="Heating",
+    )
 
 
 def chosen_heating(parameters: dict[str, Any]) -> Heating | None:

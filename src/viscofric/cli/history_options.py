@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.commands import together
 from viscofric.cli.contact_options import chosen_direction, option
 from viscofric.cli.files import Source
-from viscofric.cli.output import together
 from viscofric.cli.rubber_options import column_options
 
 if TYPE_CHECKING:
@@ -59,6 +59,7 @@ history_options = together(
         type=click.IntRange(2, _MOST_POINTS),
         help="Number of times to report, instead of --times; dense after each change of load or speed.",
     ),
+    heading="History",
 )
 
 

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.commands import as_command, together
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
-from viscofric.cli.errors import print_notes, reported_errors, typed_as
+from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import FILE, JSON, Source, plainly, refuse_to_overwrite
 from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
 from viscofric.cli.output import (
@@ -17,7 +18,6 @@ from viscofric.cli.output import (
     picture_option,
     print_json,
     synthetic_option,
-    together,
     write_files,
 )
 from viscofric.cli.rubber_options import find_rubber, shift_factor_options
@@ -52,6 +52,7 @@ anchor_options = together(
     click.option(
         "--anchor-error", type=float, metavar="SHARE", help="Relative standard error of the anchor [default: 0.01]."
     ),
+    heading="Anchor: a known modulus or contact size",
 )
 
 
@@ -129,11 +130,12 @@ _shared_options = together(
             help=f"Relative standard error {words}.",
         )
         for name, words in _SHARED.items()
-    )
+    ),
+    heading="Errors that points have in common",
 )
 
 
-@click.command(name="identify", epilog=_EXAMPLE)
+@as_command("identify", epilog=_EXAMPLE)
 @click.argument("sources", nargs=-1, required=True, type=Source())
 @indenter_options
 @click.option("--load", metavar="F", help="Normal load of all points, e.g. '25 N' [default: each point's own].")
@@ -188,42 +190,41 @@ def command(
     if beside is not None and picture is None:
         raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
     anchor = check_anchor(parameters)
-    with reported_errors():
-        from viscofric.cli.progress import contact_bar
-        from viscofric.friction.identification.identify import identify_material
-        from viscofric.report.texts.inverse import identification_record
-        from viscofric.rheology.cards import write_card
+    from viscofric.cli.progress import contact_bar
+    from viscofric.friction.identification.identify import identify_material
+    from viscofric.report.texts.inverse import identification_record
+    from viscofric.rheology.cards import write_card
 
-        shape = chosen_indenter(parameters)
-        known = None if beside is None else find_rubber(beside, "beside")
-        options = {name: parameters[name] for name in (*_SETTINGS, *_SHARED)}
-        options |= _prior(parameters)
-        if anchor is not None:
-            options["anchor"] = make_anchor(parameters, anchor, shape.indenter.geometry.load_unit)
-        if parameters["shift"] is not None:
-            options["shift"], _ = shifts(
-                parameters["shift"], parameters["shift_factor_columns"], parameters["shift_factor_sheet"]
-            )
-        curves = friction_curves(sources, parameters)
-        with contact_bar("Shift factors", quiet=as_json) as bar:
-
-            def show(step: int, done: int, total: int) -> None:
-                bar(done, total, f"Step {step}: contacts")
-
-            found = identify_material(curves, indenter=shape.indenter, progress=show, **options)
-        if as_json:
-            inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
-            inputs |= chosen(parameters) | separation_record(parameters)
-            record = identification_record(found, inputs) | listed("notes", curves.notes)
-            print_json(record)
-        else:
-            _print(found)
-        print_notes(curves.notes)
-        write_files(
-            ("rubber", out, lambda path: write_card(found.material, path, format="json")),
-            ("picture", picture, drawing("identified.identified_figure", found, known, mark=synthetic)),
-            quiet=as_json,
+    shape = chosen_indenter(parameters)
+    known = None if beside is None else find_rubber(beside, "beside")
+    options = {name: parameters[name] for name in (*_SETTINGS, *_SHARED)}
+    options |= _prior(parameters)
+    if anchor is not None:
+        options["anchor"] = make_anchor(parameters, anchor, shape.indenter.geometry.load_unit)
+    if parameters["shift"] is not None:
+        options["shift"], _ = shifts(
+            parameters["shift"], parameters["shift_factor_columns"], parameters["shift_factor_sheet"]
         )
+    curves = friction_curves(sources, parameters)
+    with contact_bar("Shift factors", quiet=as_json) as bar:
+
+        def show(step: int, done: int, total: int) -> None:
+            bar(done, total, f"Step {step}: contacts")
+
+        found = identify_material(curves, indenter=shape.indenter, progress=show, **options)
+    if as_json:
+        inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
+        inputs |= chosen(parameters) | separation_record(parameters)
+        record = identification_record(found, inputs) | listed("notes", curves.notes)
+        print_json(record)
+    else:
+        _print(found)
+    print_notes(curves.notes)
+    write_files(
+        ("rubber", out, lambda path: write_card(found.material, path, format="json")),
+        ("picture", picture, drawing("identified.identified_figure", found, known, mark=synthetic)),
+        quiet=as_json,
+    )
 
 
 def chosen(parameters: dict[str, Any]) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import (
     chosen_indenter,
     elastic_options,
@@ -15,7 +16,7 @@ from viscofric.cli.contact_options import (
     indenter_options,
     inputs_of,
 )
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_dataset
 from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
 from viscofric.cli.rubber_options import chosen_rubber, rubber_options
@@ -36,7 +37,7 @@ Examples:
 """
 
 
-@click.command(name="impact", epilog=_EXAMPLE)
+@as_command("impact", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
 @click.option("--mass", required=True, metavar="M", help="Mass of the indenter, e.g. '4 g'.")
@@ -64,38 +65,37 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
     refuse_to_overwrite(inputs_of(parameters), out, picture)
     if parameters["layer"] is not None or parameters["sliding_base"]:
         raise click.UsageError("impacts are solved on a half-space only; leave out --layer and --sliding-base.")
-    with reported_errors():
-        rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
-        speeds = chosen_speeds(parameters)
-        reference = rubber.material.reference
-        kelvins = chosen_temperatures(parameters) or (None if reference is None else [reference])
-        several = len(speeds) > 1 or len(kelvins or []) > 1
-        if several and parameters["rebounds"] > 1:
-            raise click.UsageError("--rebounds is for one speed and one temperature.")
-        began = time.perf_counter()
-        result = _solved(rubber.material, shape.indenter, speeds, kelvins, parameters)
-        seconds = time.perf_counter() - began
-        name = f"{shape.words} on {rubber.name}"
-        if as_json:
-            inputs = {
-                "material": rubber.record(None if kelvins is None else kelvins[0]),
-                "indenter": shape.record | {"elastic": elastic_record(parameters)},
-                **{key: parameters[key] for key in ("mass", "gravity", "rebounds", "accuracy")},
-                "speed": speeds,
-                "temperature": kelvins,
-            }
-            from viscofric.report.texts.motion import impact_record
+    rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
+    speeds = chosen_speeds(parameters)
+    reference = rubber.material.reference
+    kelvins = chosen_temperatures(parameters) or (None if reference is None else [reference])
+    several = len(speeds) > 1 or len(kelvins or []) > 1
+    if several and parameters["rebounds"] > 1:
+        raise click.UsageError("--rebounds is for one speed and one temperature.")
+    began = time.perf_counter()
+    result = _solved(rubber.material, shape.indenter, speeds, kelvins, parameters)
+    seconds = time.perf_counter() - began
+    name = f"{shape.words} on {rubber.name}"
+    if as_json:
+        inputs = {
+            "material": rubber.record(None if kelvins is None else kelvins[0]),
+            "indenter": shape.record | {"elastic": elastic_record(parameters)},
+            **{key: parameters[key] for key in ("mass", "gravity", "rebounds", "accuracy")},
+            "speed": speeds,
+            "temperature": kelvins,
+        }
+        from viscofric.report.texts.motion import impact_record
 
-            print_json(impact_record(inputs, result, seconds), indent=None)
-        elif out != DASH:
-            click.echo(f"{name}{rubber.mark}, {parameters['mass']}\n")
-            _print(result, seconds)
-        write_files(
-            ("data", out, lambda path: write_dataset(path, result.to_dataset())),
-            ("picture", picture, drawing("pressures.impact_figure", result, name, mark=rubber.synthetic)),
-            quiet=as_json or out == DASH,
-        )
-        print_notes(result.warnings, word="Warning")
+        print_json(impact_record(inputs, result, seconds), indent=None)
+    elif out != DASH:
+        click.echo(f"{name}{rubber.mark}, {parameters['mass']}\n")
+        _print(result, seconds)
+    write_files(
+        ("data", out, lambda path: write_dataset(path, result.to_dataset())),
+        ("picture", picture, drawing("pressures.impact_figure", result, name, mark=rubber.synthetic)),
+        quiet=as_json or out == DASH,
+    )
+    print_notes(result.warnings, word="Warning")
 
 
 def _solved(

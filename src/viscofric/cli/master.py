@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.commands import as_command
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, DASH, Source, plainly, refusal, refuse_to_overwrite
 from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
 from viscofric.cli.output import (
@@ -38,7 +39,7 @@ Example:
 """
 
 
-@click.command(name="master", epilog=_EXAMPLE)
+@as_command("master", epilog=_EXAMPLE)
 @click.argument("sources", nargs=-1, required=True, type=Source())
 @click.option(
     "--shift",
@@ -80,45 +81,44 @@ def command(
     used; without --shift, that is an error.
     """
     refuse_to_overwrite(sources, out, picture)
-    with reported_errors():
-        from viscofric.friction.shifting.shift import chosen_law
-        from viscofric.report.texts.inverse import shift_record
+    from viscofric.friction.shifting.shift import chosen_law
+    from viscofric.report.texts.inverse import shift_record
 
-        curves = friction_curves(sources, parameters)
-        known, vertical = (
-            (None, None)
-            if parameters["known"] is None
-            else shifts(
-                parameters["known"],
-                parameters["shift_factor_columns"],
-                parameters["shift_factor_sheet"],
-                parameter="known",
-            )
+    curves = friction_curves(sources, parameters)
+    known, vertical = (
+        (None, None)
+        if parameters["known"] is None
+        else shifts(
+            parameters["known"],
+            parameters["shift_factor_columns"],
+            parameters["shift_factor_sheet"],
+            parameter="known",
         )
-        master = _shifted(curves, known, vertical, parameters)
-        law, why, refused = chosen_law(master, parameters["law"])
-        print_notes([] if refused is None else [refused])
-        agreement = _agreement(master, known)
-        if out is not None and not master.found:
-            raise refusal("no-factors", f"{out} is not written: friction determines no shift factors.")
-        if as_json:
-            inputs = {"sources": [plainly(str(path)) for path in sources]}
-            inputs |= {"shift": parameters["known"]} | {
-                name: parameters[name] for name in ("reference", "law", "ball", "level_error")
-            }
-            record = shift_record(master, law, agreement, inputs | separation_record(parameters)) | {
-                "law_explanation": why or None
-            }
-            print_json(record)
-        elif out != DASH:
-            _print(master, known, law, why, agreement)
-        print_notes((*curves.notes, *master.notes))
-        draw = drawing("friction.shifted_figure", master, known, mark=synthetic, synthetic=synthetic)
-        write_files(
-            ("factors", out, lambda path: master.shift_factors.save(path)),  # noqa: PLW0108 - not of all of them
-            ("picture", picture, draw),
-            quiet=as_json or out == DASH,
-        )
+    )
+    master = _shifted(curves, known, vertical, parameters)
+    law, why, refused = chosen_law(master, parameters["law"])
+    print_notes([] if refused is None else [refused])
+    agreement = _agreement(master, known)
+    if out is not None and not master.found:
+        raise refusal("no-factors", f"{out} is not written: friction determines no shift factors.")
+    if as_json:
+        inputs = {"sources": [plainly(str(path)) for path in sources]}
+        inputs |= {"shift": parameters["known"]} | {
+            name: parameters[name] for name in ("reference", "law", "ball", "level_error")
+        }
+        record = shift_record(master, law, agreement, inputs | separation_record(parameters)) | {
+            "law_explanation": why or None
+        }
+        print_json(record)
+    elif out != DASH:
+        _print(master, known, law, why, agreement)
+    print_notes((*curves.notes, *master.notes))
+    draw = drawing("friction.shifted_figure", master, known, mark=synthetic, synthetic=synthetic)
+    write_files(
+        ("factors", out, lambda path: master.shift_factors.save(path)),  # noqa: PLW0108 - not of all of them
+        ("picture", picture, draw),
+        quiet=as_json or out == DASH,
+    )
 
 
 def _shifted(

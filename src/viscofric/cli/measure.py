@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.commands import as_command
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, DASH, Source, plainly, refuse_to_overwrite
 from viscofric.cli.friction_sources import separated_runs, separation_options, separation_record
 from viscofric.cli.output import (
@@ -31,7 +32,7 @@ Example:
 """
 
 
-@click.command(name="measure", epilog=_EXAMPLE)
+@as_command("measure", epilog=_EXAMPLE)
 @click.argument("runs", nargs=-1, required=True, type=Source())
 @separation_options
 @out_option("Write the friction curves (CSV); `-` prints them instead of the table.", endings=CSV)
@@ -48,24 +49,23 @@ def command(
     test; `-` is standard input.
     """
     refuse_to_overwrite(runs, out, picture)
-    with reported_errors():
-        from viscofric.friction.curve_files import write_friction_curves
-        from viscofric.report.texts.friction import friction_record
+    from viscofric.friction.curve_files import write_friction_curves
+    from viscofric.report.texts.friction import friction_record
 
-        curves = separated_runs(runs, parameters)
-        if as_json:
-            inputs = {"runs": [plainly(str(path)) for path in runs], **separation_record(parameters)}
-            record = friction_record(curves, inputs)
-            print_json(record)
-        elif out != DASH:
-            _print(curves)
-        print_notes(curves.notes)
-        draw = drawing("friction.friction_figure", curves, mark=synthetic, synthetic=synthetic)
-        write_files(
-            ("curves", out, lambda path: write_friction_curves(curves, path)),
-            ("picture", picture, draw),
-            quiet=as_json or out == DASH,
-        )
+    curves = separated_runs(runs, parameters)
+    if as_json:
+        inputs = {"runs": [plainly(str(path)) for path in runs], **separation_record(parameters)}
+        record = friction_record(curves, inputs)
+        print_json(record)
+    elif out != DASH:
+        _print(curves)
+    print_notes(curves.notes)
+    draw = drawing("friction.friction_figure", curves, mark=synthetic, synthetic=synthetic)
+    write_files(
+        ("curves", out, lambda path: write_friction_curves(curves, path)),
+        ("picture", picture, draw),
+        quiet=as_json or out == DASH,
+    )
 
 
 def _print(curves: FrictionCurves) -> None:

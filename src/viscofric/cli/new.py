@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from viscofric.cli.commands import as_command
 from viscofric.cli.files import refusal
 from viscofric.cli.output import FOLDER, json_option, out_option, print_json
 
@@ -36,7 +37,7 @@ _WITH_DATA = {"example": "example", "paper": "templates/paper"}
 _EPILOG = "\b\nTemplates:\n" + "\n".join(f"  {name:12} {words}" for name, words in TEMPLATES.items())
 
 
-@click.command(name="new", epilog=_EPILOG)
+@as_command("new", epilog=_EPILOG)
 @click.argument("folder", required=False, metavar="[FOLDER|-]", type=click.Path(path_type=Path, allow_dash=True))
 @click.option(
     "--template",

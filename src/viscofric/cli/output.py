@@ -12,22 +12,9 @@ from typing import Any
 
 import click
 
+from viscofric.cli.commands import Decorator
 from viscofric.cli.files import DASH, FILE, OUT, PICTURES, Named, check_ending, to_be_written
 from viscofric.cli.overview import TYPED
-
-Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
-
-
-def together(*options: Decorator) -> Decorator:
-    """Return a decorator that adds several options, in the order of the help."""
-
-    def add(function: Callable[..., Any]) -> Callable[..., Any]:
-        for option in reversed(options):
-            function = option(function)
-        return function
-
-    return add
-
 
 FOLDER = Named(file_okay=False)
 

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import click
 
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.commands import as_command
 from viscofric.cli.output import FOLDER, json_option, out_option, pdf_option, print_json
 
 
-@click.command(name="report")
+@as_command("report", reader="run_file")
 @click.argument("results", type=click.Path(path_type=Path))
 @out_option("Folder for report.html and figures [default: RESULTS].", FOLDER)
 @pdf_option
@@ -23,17 +23,16 @@ def command(results: Path, out: Path | None, pdf: bool, as_json: bool) -> None:
     from viscofric.report.html import write_pdf
     from viscofric.study.results.results import open_results
 
-    with reported_errors("run_file"):
-        found = open_results(results)
-        figures, report = write_figures_and_report(found.tree, found.folder if out is None else out)
-        print_outcome(found, quiet=True)
-        if not as_json:
-            for figure in figures:
-                click.echo(f"figure   {figure}")
-            click.echo(f"report   {report}")
-        printed = {"pdf": write_pdf(report)} if pdf else {}
-        if as_json:
-            print_json(outcome_record(found, figures, report) | printed)
-        elif printed:
-            click.echo(f"pdf      {printed['pdf']}")
+    found = open_results(results)
+    figures, report = write_figures_and_report(found.tree, found.folder if out is None else out)
+    print_outcome(found, quiet=True)
+    if not as_json:
+        for figure in figures:
+            click.echo(f"figure   {figure}")
+        click.echo(f"report   {report}")
+    printed = {"pdf": write_pdf(report)} if pdf else {}
+    if as_json:
+        print_json(outcome_record(found, figures, report) | printed)
+    elif printed:
+        click.echo(f"pdf      {printed['pdf']}")
     sys.exit(status_of(found))

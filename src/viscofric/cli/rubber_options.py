@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from viscofric.cli.commands import Decorator, together
 from viscofric.cli.contact_options import option
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import DASH, Source, plainly
-from viscofric.cli.output import Decorator, together
 
 if TYPE_CHECKING:
     from viscofric.contact.bodies import Layer
@@ -36,6 +36,7 @@ def _headings(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
 
 def column_options(example: str, of: str = "", condition: str = "") -> Decorator:
     """Return a decorator that adds the options of a table whose header is not understood, their names begun by `of`."""
+    heading, the = (f"{condition}heading", f"{condition}the") if condition else ("Heading", "The")
     return together(
         click.option(
             f"--{of}column",
@@ -43,10 +44,10 @@ def column_options(example: str, of: str = "", condition: str = "") -> Decorator
             metavar="NAME=HEADING",
             multiple=True,
             callback=_headings,
-            help=f"{condition}Heading of a column whose header is not understood, e.g. {example}; repeatable. "
-            "A unit may follow in brackets; '#2 (Hz)' is the second column.",
+            help=f"{heading} of a column whose header is not understood, e.g. "
+            f"{example}; repeatable. A unit may follow in brackets; '#2 (Hz)' is the second column.",
         ),
-        click.option(f"--{of}sheet", metavar="NAME", help=f"{condition}The only sheet of a workbook to read."),
+        click.option(f"--{of}sheet", metavar="NAME", help=f"{the} only sheet of a workbook to read."),
     )
 
 
@@ -83,6 +84,7 @@ rubber_options = together(
     click.option("--poisson-ratio", type=float, metavar="ν", help="Poisson's ratio with --E0 or --dma [default: 0.5]."),
     click.option("--layer", metavar="H", help="Thickness of a layer on a rigid base [default: half-space]."),
     click.option("--sliding-base", is_flag=True, help="The layer slides on its base instead of being bonded."),
+    heading="Material",
 )
 
 
@@ -226,6 +228,7 @@ reading_options = together(
     ),
     modulus_unit_option,
     column_options("'frequency=f in Hz'"),
+    heading="Reading of the files",
 )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
+from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option, pdf_option
 from viscofric.notes import listed
@@ -33,7 +34,7 @@ _REPORTED_OTHERWISE = (
 )
 
 
-@click.command(name="run")
+@as_command("run")
 @click.argument("study", type=click.Path(path_type=Path))
 @out_option("Folder for the results [default: STUDY.results beside the run file].", FOLDER)
 @click.option(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import (
     NamedIndenter,
     chosen_indenter,
@@ -17,7 +18,7 @@ from viscofric.cli.contact_options import (
     indenter_options,
     inputs_of,
 )
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
@@ -40,7 +41,7 @@ Example:
 """
 
 
-@click.command(name="solve", epilog=_EXAMPLE)
+@as_command("solve", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
 @click.option(
@@ -83,33 +84,32 @@ def command(as_json: bool, picture: Path | None, out: Path | None, **parameters:
     refuse_to_overwrite(inputs_of(parameters), picture, out)
     if (parameters["load"] is None) == (parameters["indentation"] is None):
         raise click.UsageError("give either --load or --indentation, one of them.")
-    with reported_errors():
-        from viscofric.contact.steady import solve_steady
+    from viscofric.contact.steady import solve_steady
 
-        rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
-        settings = {name: parameters[name] for name in _SETTINGS} | contact_settings(parameters)
-        settings["layer"] = chosen_layer(parameters)
-        settings["window"] = parameters["window"] and [length.strip() for length in parameters["window"].split(",")]
-        settings["heating"] = heating = chosen_heating(parameters)
-        if heating is not None and parameters["temperature"] is None:
-            settings["temperature"] = rubber.material.reference
-        began = time.perf_counter()
-        solution = solve_steady(rubber.material, shape.indenter, speed=_speed(parameters["speed"]), **settings)
-        seconds = time.perf_counter() - began
-        name = in_contact(shape.words, rubber, settings["layer"])
-        if as_json:
-            from viscofric.report.texts.contact import contact_record
+    rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
+    settings = {name: parameters[name] for name in _SETTINGS} | contact_settings(parameters)
+    settings["layer"] = chosen_layer(parameters)
+    settings["window"] = parameters["window"] and [length.strip() for length in parameters["window"].split(",")]
+    settings["heating"] = heating = chosen_heating(parameters)
+    if heating is not None and parameters["temperature"] is None:
+        settings["temperature"] = rubber.material.reference
+    began = time.perf_counter()
+    solution = solve_steady(rubber.material, shape.indenter, speed=_speed(parameters["speed"]), **settings)
+    seconds = time.perf_counter() - began
+    name = in_contact(shape.words, rubber, settings["layer"])
+    if as_json:
+        from viscofric.report.texts.contact import contact_record
 
-            record = contact_record(_inputs(parameters, rubber, shape, solution), solution, seconds)
-            print_json(record)
-        elif out != DASH:
-            _print(name, rubber, solution, seconds)
-        draw = drawing("contact.contact_figure", solution, shape.indenter, name, mark=rubber.synthetic)
-        write_files(
-            ("picture", picture, draw),
-            ("fields", out, lambda path: write_fields(path, solution)),
-            quiet=as_json or out == DASH,
-        )
+        record = contact_record(_inputs(parameters, rubber, shape, solution), solution, seconds)
+        print_json(record)
+    elif out != DASH:
+        _print(name, rubber, solution, seconds)
+    draw = drawing("contact.contact_figure", solution, shape.indenter, name, mark=rubber.synthetic)
+    write_files(
+        ("picture", picture, draw),
+        ("fields", out, lambda path: write_fields(path, solution)),
+        quiet=as_json or out == DASH,
+    )
 
 
 def _speed(text: str) -> float | str:

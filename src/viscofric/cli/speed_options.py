@@ -8,7 +8,7 @@ from typing import Any
 import click
 import numpy as np
 
-from viscofric.cli.output import Decorator, together
+from viscofric.cli.commands import Decorator, together
 
 _MOST_POINTS = 10_000
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
+from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import (
     NamedIndenter,
     chosen_body,
@@ -20,7 +21,7 @@ from viscofric.cli.contact_options import (
     inputs_of,
     surface_options,
 )
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DASH, DATA, FILE, PICTURES, Source, check_ending, refuse_to_overwrite, write_dataset
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.history_options import chosen_history, chosen_times, history_options
@@ -45,7 +46,7 @@ Examples:
 """
 
 
-@click.command(name="transient", epilog=_EXAMPLE)
+@as_command("transient", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
 @surface_options
@@ -84,32 +85,29 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     drawings = {name: parameters.pop(name) for name in ("picture", "pressures", "animation")}
     _check_targets(parameters, out, drawings)
     _check_pairs(parameters)
-    with reported_errors():
-        from viscofric.motion.cycle_solution import CycleSolution
+    from viscofric.motion.cycle_solution import CycleSolution
 
-        rubber, shape = chosen_rubber(parameters), chosen_body(parameters)
-        layer = chosen_layer(parameters)
-        geometry = getattr(shape.indenter, "geometry", None)  # a rough surface has none
-        line = geometry is not None and geometry.dimension == 1
-        history = chosen_history(parameters, line, rubber.material.reference)
-        began = time.perf_counter()
-        film, drawn = drawings["animation"] is not None, any(drawings.values())
-        result = _solved(
-            parameters, rubber.material, shape.indenter, history, layer, film=film, drawn=drawn, quiet=as_json
-        )
-        seconds = time.perf_counter() - began
-        run = result.run if isinstance(result, CycleSolution) else result
-        if not len(run.time):  # nothing was reached
-            raise KeyboardInterrupt
-        name = in_contact(shape.words, rubber, layer)
-        if as_json:
-            print_json(_record(parameters, rubber, shape, history, result, seconds), indent=None)
-        elif out != DASH:
-            _print(name, rubber, history, result, seconds)
-        _write(name, rubber.synthetic, result, parameters["times"] is not None, out, drawings, quiet=as_json)
-        if parameters["state"] is not None:
-            click.echo(f"state    {parameters['state']}", err=as_json or out == DASH)
-        print_notes(run.warnings, word="Warning")
+    rubber, shape = chosen_rubber(parameters), chosen_body(parameters)
+    layer = chosen_layer(parameters)
+    geometry = getattr(shape.indenter, "geometry", None)  # a rough surface has none
+    line = geometry is not None and geometry.dimension == 1
+    history = chosen_history(parameters, line, rubber.material.reference)
+    began = time.perf_counter()
+    film, drawn = drawings["animation"] is not None, any(drawings.values())
+    result = _solved(parameters, rubber.material, shape.indenter, history, layer, film=film, drawn=drawn, quiet=as_json)
+    seconds = time.perf_counter() - began
+    run = result.run if isinstance(result, CycleSolution) else result
+    if not len(run.time):  # nothing was reached
+        raise KeyboardInterrupt
+    name = in_contact(shape.words, rubber, layer)
+    if as_json:
+        print_json(_record(parameters, rubber, shape, history, result, seconds), indent=None)
+    elif out != DASH:
+        _print(name, rubber, history, result, seconds)
+    _write(name, rubber.synthetic, result, parameters["times"] is not None, out, drawings, quiet=as_json)
+    if parameters["state"] is not None:
+        click.echo(f"state    {parameters['state']}", err=as_json or out == DASH)
+    print_notes(run.warnings, word="Warning")
     if run.interrupted:
         word, status = ("Terminated", TERMINATED) if Terminated.received else ("Interrupted", INTERRUPTED)
         click.echo(f"{word} after {run.time[-1]:.4g} s of the history; the results end there.", err=True)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import placed_at, reported_errors
+from viscofric.cli.commands import as_command
+from viscofric.cli.errors import placed_at
 from viscofric.cli.files import CSV, DASH
 from viscofric.cli.output import json_option, out_option, print_json, write_rows
 from viscofric.notes import listed
@@ -42,8 +43,7 @@ def compare_test(folder: Path, as_json: bool) -> None:
     from viscofric.study.friction_test import open_friction_test
     from viscofric.study.results.results import open_results
 
-    with reported_errors():
-        run_file, study = open_friction_test(folder)
+    run_file, study = open_friction_test(folder)
     output = run_file.with_suffix(".results")
     status = 0
     try:
@@ -92,7 +92,7 @@ _COLUMNS = ("case", "quantity", "computed", "expected", "error", "bound", "measu
 _SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
 
 
-@click.command(name="verify")
+@as_command("verify")
 @click.option("--published", is_flag=True, help="Compare with published results and other programs instead.")
 @click.option(
     "--test",
@@ -132,27 +132,26 @@ def command(
         return
     if listed and (as_json or out is not None):
         raise click.UsageError("--list only prints; give it without --json and --out.")
-    with reported_errors():
-        from viscofric.cli.progress import contact_bar
-        from viscofric.verification import CHECKS, run_checks, select
-        from viscofric.verification.published import PUBLISHED
+    from viscofric.cli.progress import contact_bar
+    from viscofric.verification import CHECKS, run_checks, select
+    from viscofric.verification.published import PUBLISHED
 
-        with placed_at("--only"):
-            checks = select(PUBLISHED if published else CHECKS, names)
-        if listed:
-            _list(checks)
-            return
-        quiet = as_json or out == DASH
-        as_table = not quiet and sys.stdout.isatty() and shutil.get_terminal_size().columns >= _TABLE_WIDTH
-        outcomes: list[Outcome] = []
-        with contact_bar("", quiet=quiet) as bar:
-            for outcome in run_checks(checks, lambda one: bar(len(outcomes), len(checks), one.title), backend):
-                outcomes.append(outcome)
-                if not quiet and not as_table:
-                    click.echo(_line(outcome))
-                    if details:
-                        _print_details(outcome)
-        _write_table(out, outcomes)
+    with placed_at("--only"):
+        checks = select(PUBLISHED if published else CHECKS, names)
+    if listed:
+        _list(checks)
+        return
+    quiet = as_json or out == DASH
+    as_table = not quiet and sys.stdout.isatty() and shutil.get_terminal_size().columns >= _TABLE_WIDTH
+    outcomes: list[Outcome] = []
+    with contact_bar("", quiet=quiet) as bar:
+        for outcome in run_checks(checks, lambda one: bar(len(outcomes), len(checks), one.title), backend):
+            outcomes.append(outcome)
+            if not quiet and not as_table:
+                click.echo(_line(outcome))
+                if details:
+                    _print_details(outcome)
+    _write_table(out, outcomes)
     if as_json:
         print_json({"backend": backend} | _record(outcomes))
     elif out != DASH:

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import click
 
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.commands import as_command
 
 _EPILOG = "The page is private: its address contains a token, and it connects to no other host."
 
 
-@click.command(name="web", epilog=_EPILOG)
+@as_command("web", epilog=_EPILOG)
 @click.argument("study", required=False, metavar="[STUDY]", type=click.Path(path_type=Path))
 @click.option(
     "--port",
@@ -29,25 +29,24 @@ def command(study: Path | None, port: int, host: str, no_browser: bool) -> None:
 
     With a run file STUDY, the page opens that study with copies of its data files.
     """
-    with reported_errors():
-        from viscofric.web.server import is_local, serve
+    from viscofric.web.server import is_local, serve
 
-        document, files = None, None
-        if study is not None:
-            from viscofric.web.study_files import opened_study
+    document, files = None, None
+    if study is not None:
+        from viscofric.web.study_files import opened_study
 
-            document, files = opened_study(study)
-        if not is_local(host):
-            click.echo(
-                f"Warning: at {host}, other machines can reach the page, and the token goes to them unencrypted; "
-                "whoever reads it on the way can read and change what you do here.",
-                err=True,
-            )
+        document, files = opened_study(study)
+    if not is_local(host):
+        click.echo(
+            f"Warning: at {host}, other machines can reach the page, and the token goes to them unencrypted; "
+            "whoever reads it on the way can read and change what you do here.",
+            err=True,
+        )
 
-        def print_address(address: str, actual: int) -> None:
-            if port not in (0, actual):
-                click.echo(f"Note: port {port} is taken; the page is at {actual}.", err=True)
-            click.echo(f"page {address}\nCtrl-C ends it.")
+    def print_address(address: str, actual: int) -> None:
+        if port not in (0, actual):
+            click.echo(f"Note: port {port} is taken; the page is at {actual}.", err=True)
+        click.echo(f"page {address}\nCtrl-C ends it.")
 
-        serve(host, port, study=document, files=files, browser=not no_browser, on_start=print_address)
+    serve(host, port, study=document, files=files, browser=not no_browser, on_start=print_address)
     click.echo("The page is closed.")

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import chosen_indenter, indenter_options
-from viscofric.cli.errors import print_notes, reported_errors, typed_as
+from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import FILE, Source, refuse_to_overwrite
 from viscofric.cli.output import (
     drawing,
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 _PERCENT = click.FloatRange(0.0, 1000.0)
 
 
-@click.command(name="amplitude")
+@as_command("amplitude")
 @click.argument("files", nargs=-1, required=True, type=Source())
 @reading_options
 @click.option("--material", metavar="NAME|FILE", help="Material of frequency sweeps, to be scaled to a larger strain.")
@@ -65,29 +66,28 @@ def command(files: tuple[Path, ...], as_json: bool, picture: Path | None, out: P
     refuse_to_overwrite(files, picture, out)
     if out is not None and chosen["material"] is None:
         raise click.UsageError("--out needs --material, and --strain or a contact.")
-    with reported_errors():
-        reading = {name: chosen[name] for name in ("deformation", "modulus_unit", "columns", "sheet")}
-        sweep = read_kind("amplitude", files, reading | {"temperature": next(iter(chosen["temperature"]), None)})
-        fit = fit_kraus(sweep)
-        record, lines = _fitted(fit)
-        notes = list(fit.notes)
-        if chosen["material"] is not None:
-            more, said, material = _scaled(fit, chosen, notes)
-            record |= more
-            lines += said
-            if out is not None:
-                from viscofric.rheology.cards import write_card
+    reading = {name: chosen[name] for name in ("deformation", "modulus_unit", "columns", "sheet")}
+    sweep = read_kind("amplitude", files, reading | {"temperature": next(iter(chosen["temperature"]), None)})
+    fit = fit_kraus(sweep)
+    record, lines = _fitted(fit)
+    notes = list(fit.notes)
+    if chosen["material"] is not None:
+        more, said, material = _scaled(fit, chosen, notes)
+        record |= more
+        lines += said
+        if out is not None:
+            from viscofric.rheology.cards import write_card
 
-                lines.append(f"file     {write_card(material, out, format='json')}")
-        record["notes"] = [str(note) for note in notes]
-        if as_json:
-            print_json(record)
-        else:
-            for line in lines:
-                click.echo(line)
-            print_notes(notes)
-        draw = drawing("ramps.amplitude_figure", fit, mark=chosen["synthetic"])
-        write_files(("picture", picture, draw), quiet=as_json)
+            lines.append(f"file     {write_card(material, out, format='json')}")
+    record["notes"] = [str(note) for note in notes]
+    if as_json:
+        print_json(record)
+    else:
+        for line in lines:
+            click.echo(line)
+        print_notes(notes)
+    draw = drawing("ramps.amplitude_figure", fit, mark=chosen["synthetic"])
+    write_files(("picture", picture, draw), quiet=as_json)
 
 
 def _fitted(fit: PayneFit) -> tuple[dict[str, Any], list[str]]:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.commands import as_command
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import FILE, refuse_to_overwrite
 from viscofric.cli.output import json_option, out_option, print_json
 
@@ -18,7 +19,7 @@ CARD_LAWS = ("best", "wlf", "vft", "arrhenius")
 FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json")
 
 
-@click.command(name="convert")
+@as_command("convert")
 @click.argument("rubber", metavar="MATERIAL")
 @click.argument("output", required=False, type=FILE)
 @out_option("File to write, instead of OUTPUT.", FILE)
@@ -63,10 +64,9 @@ def command(
     if target is None or (output is not None and out is not None):
         raise click.UsageError("give the file to write, OUTPUT or --out, once.")
     refuse_to_overwrite([Path(rubber)], target)
-    with reported_errors():
-        material = find_rubber(rubber, "rubber")
-        with warned() as notes:
-            write_card(material, target, format=form, law=card_law, **more)
+    material = find_rubber(rubber, "rubber")
+    with warned() as notes:
+        write_card(material, target, format=form, law=card_law, **more)
     if as_json:
         print_json({"card": target, "format": form, **listed("notes", notes)})
     else:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.errors import print_doubtful_checks, print_notes, reported_errors
+from viscofric.cli.commands import as_command
+from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.files import FILE
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
 from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option, typed_command
@@ -25,7 +26,7 @@ _BESIDE = ("with_creep", "with_relaxation")
 _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")
 
 
-@click.command(name="fit")
+@as_command("fit")
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option(
     "--reference", metavar="T", required=True, help="Reference temperature of the master curve, e.g. '20 degC'."
@@ -122,22 +123,20 @@ def command(
         raise click.UsageError(" and ".join(f"--{one.replace('_', '-')}" for one in kinds) + " exclude each other.")
     if parameters["master_curve"] and len(files) > 1:
         raise click.BadParameter("is one file, not several.", param_hint="--master-curve")
-    with reported_errors():
-        from viscofric.cli.run import outcome_record, status_of
-        from viscofric.report import write_figures_and_report
-        from viscofric.study.rubber_results import run_material
+    from viscofric.cli.run import outcome_record, status_of
+    from viscofric.report import write_figures_and_report
+    from viscofric.study.rubber_results import run_material
 
-        folder = files[0].with_suffix(".material") if out is None else out
-        results, rubber, written = run_material(
-            _table(files, parameters),
-            folder,
-            title=parameters["name"]
-            or f"Rubber of {files[0].name}" + (f" and {len(files) - 1} more" if files[1:] else ""),
-            command=typed_command(),
-            samples=samples,
-            synthetic=synthetic,
-        )
-        figures, report = write_figures_and_report(results.tree, results.folder)
+    folder = files[0].with_suffix(".material") if out is None else out
+    results, rubber, written = run_material(
+        _table(files, parameters),
+        folder,
+        title=parameters["name"] or f"Rubber of {files[0].name}" + (f" and {len(files) - 1} more" if files[1:] else ""),
+        command=typed_command(),
+        samples=samples,
+        synthetic=synthetic,
+    )
+    figures, report = write_figures_and_report(results.tree, results.folder)
     print_notes(results.notes)
     print_doubtful_checks(results.tree)
     said = [*(("file", path) for path in written), *(("figure", path) for path in figures), ("report", report)]

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, indenter_options
-from viscofric.cli.errors import reported_errors, typed_as
+from viscofric.cli.errors import typed_as
 from viscofric.cli.files import CSV, FILE, JSON, Source, check_ending, refuse_to_overwrite
 from viscofric.cli.output import (
     drawing,
@@ -30,7 +31,7 @@ Example:
 """
 
 
-@click.command(name="indentation", epilog=_EXAMPLE)
+@as_command("indentation", epilog=_EXAMPLE)
 @click.argument("files", nargs=-1, required=True, type=Source())
 @click.option(
     "--control",
@@ -108,29 +109,28 @@ def command(
         raise click.UsageError("give one of --control, --depth and --mass.")
     if beside is not None and picture is None:
         raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
-    with reported_errors():
-        from viscofric.datasets import record
-        from viscofric.friction.identification.indentation.identify import identify_from_indentation
-        from viscofric.notes import listed
-        from viscofric.rheology.cards import write_card
+    from viscofric.datasets import record
+    from viscofric.friction.identification.indentation.identify import identify_from_indentation
+    from viscofric.notes import listed
+    from viscofric.rheology.cards import write_card
 
-        shape = chosen_indenter(parameters)
-        known = None if beside is None else find_rubber(beside, "beside")
-        kelvin = temperatures if len(temperatures) == len(files) else (temperatures or (None,)) * len(files)
-        records = [one for path, at in zip(files, kelvin, strict=True) for one in _records(path, at, parameters)]
-        found = identify_from_indentation(records, shape.indenter, **_settings(parameters))
-        data = found.to_dataset()
-        if as_json:
-            said = {"results": record(data), **listed("notes", found.notes)}
-            print_json(said)
-        else:
-            click.echo(str(found))
-        write_files(
-            ("material", out, lambda path: write_card(found.material, path, format="json")),
-            ("table", table, data.to_dataframe().to_csv),
-            ("picture", picture, drawing("identified.indentation_figure", found, known, mark=synthetic)),
-            quiet=as_json,
-        )
+    shape = chosen_indenter(parameters)
+    known = None if beside is None else find_rubber(beside, "beside")
+    kelvin = temperatures if len(temperatures) == len(files) else (temperatures or (None,)) * len(files)
+    records = [one for path, at in zip(files, kelvin, strict=True) for one in _records(path, at, parameters)]
+    found = identify_from_indentation(records, shape.indenter, **_settings(parameters))
+    data = found.to_dataset()
+    if as_json:
+        said = {"results": record(data), **listed("notes", found.notes)}
+        print_json(said)
+    else:
+        click.echo(str(found))
+    write_files(
+        ("material", out, lambda path: write_card(found.material, path, format="json")),
+        ("table", table, data.to_dataframe().to_csv),
+        ("picture", picture, drawing("identified.indentation_figure", found, known, mark=synthetic)),
+        quiet=as_json,
+    )
 
 
 def _records(path: Path, temperature: str | None, parameters: dict[str, Any]) -> list[Any]:

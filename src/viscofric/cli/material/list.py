@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import click
 
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.commands import as_command
 from viscofric.cli.output import json_option, print_json
 
 
-@click.command(name="list")
+@as_command("list")
 @json_option("Print the materials as JSON.")
 def command(as_json: bool) -> None:
     """List the materials of the catalogue, with their sources."""
     from viscofric.rheology.catalogue import catalogue
 
-    with reported_errors():
-        if as_json:
-            names = ("name", "kind", "holds", "citation", "remarks")
-            print_json({"materials": [{name: getattr(entry, name) for name in names} for entry in catalogue()]})
-            return
-        for entry in catalogue():
-            click.echo(f"{entry.name}  [{entry.kind}]")
-            for line in (entry.holds, entry.citation, entry.remarks):
-                if line:
-                    click.echo(f"    {line}")
+    if as_json:
+        names = ("name", "kind", "holds", "citation", "remarks")
+        print_json({"materials": [{name: getattr(entry, name) for name in names} for entry in catalogue()]})
+        return
+    for entry in catalogue():
+        click.echo(f"{entry.name}  [{entry.kind}]")
+        for line in (entry.holds, entry.citation, entry.remarks):
+            if line:
+                click.echo(f"    {line}")

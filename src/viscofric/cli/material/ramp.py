@@ -7,13 +7,14 @@ from typing import Any
 
 import click
 
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.commands import as_command
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import Source
 from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option, typed_command
 from viscofric.cli.rubber_options import column_options, deformation_option, modulus_unit_option
 
 
-@click.command(name="ramp")
+@as_command("ramp")
 @click.argument("files", nargs=-1, required=True, type=Source())
 @column_options("'frequency=f in Hz'")
 @modulus_unit_option
@@ -51,32 +52,31 @@ def command(files: tuple[Path, ...], as_json: bool, out: Path | None, **chosen: 
 
     if chosen["reference"] is None and (out is not None or chosen["assumed_shift"] is not None):
         raise click.UsageError("--out and --assumed-shift need --reference.")
-    with reported_errors():
-        reading = {name: chosen[name] for name in ("deformation", "modulus_unit", "columns", "sheet")}
-        ramps = read_kind("ramps", files, reading | {name: chosen[name] for name in ("direction", "heating_rate")})
-        peaks = [
-            one
-            for ramp in ramps.ramps
-            for by in ("tan delta", "loss modulus")
-            if (one := glass_transition(ramp, by)) is not None
-        ]
-        if as_json:
-            record: dict[str, Any] = {
-                "format": ramps.format,
-                "deformation": ramps.deformation,
-                "angular_frequency": ramps.angular_frequencies.tolist(),
-                "temperature_range": list(ramps.temperature_range),
-                "glass_transitions": [vars(one) for one in peaks],
-                "notes": [str(note) for note in ramps.notes],
-            }
-            print_json(record)
-        else:
-            for line in [*described("ramps", ramps, map(str, files))[1], *map(str, peaks)]:
-                click.echo(line)
-            if chosen["reference"] is None:
-                print_notes(ramps.notes)
-        if chosen["reference"] is not None:
-            _material(files, reading, out, chosen, as_json)
+    reading = {name: chosen[name] for name in ("deformation", "modulus_unit", "columns", "sheet")}
+    ramps = read_kind("ramps", files, reading | {name: chosen[name] for name in ("direction", "heating_rate")})
+    peaks = [
+        one
+        for ramp in ramps.ramps
+        for by in ("tan delta", "loss modulus")
+        if (one := glass_transition(ramp, by)) is not None
+    ]
+    if as_json:
+        record: dict[str, Any] = {
+            "format": ramps.format,
+            "deformation": ramps.deformation,
+            "angular_frequency": ramps.angular_frequencies.tolist(),
+            "temperature_range": list(ramps.temperature_range),
+            "glass_transitions": [vars(one) for one in peaks],
+            "notes": [str(note) for note in ramps.notes],
+        }
+        print_json(record)
+    else:
+        for line in [*described("ramps", ramps, map(str, files))[1], *map(str, peaks)]:
+            click.echo(line)
+        if chosen["reference"] is None:
+            print_notes(ramps.notes)
+    if chosen["reference"] is not None:
+        _material(files, reading, out, chosen, as_json)
 
 
 def _material(

@@ -7,13 +7,14 @@ from typing import Any
 
 import click
 
-from viscofric.cli.errors import print_notes, reported_errors
+from viscofric.cli.commands import as_command
+from viscofric.cli.errors import print_notes
 from viscofric.cli.files import FILE, Source, plainly, refuse_to_overwrite
 from viscofric.cli.output import json_option, out_option, print_json
 from viscofric.cli.rubber_options import reading_options
 
 
-@click.command(name="read")
+@as_command("read")
 @click.argument("files", nargs=-1, required=True, type=Source())
 @reading_options
 @out_option("Also write the points used of frequency sweeps to a table (CSV).", FILE)
@@ -28,26 +29,25 @@ def command(files: tuple[Path, ...], out: Path | None, as_json: bool, **reading:
     from viscofric.readers.recognise import by_kind
 
     refuse_to_overwrite(files, out)
-    with reported_errors():
-        stated = {name: reading[name] or None for name in ("modulus_unit", "columns", "sheet")}
-        kinds = by_kind(files, temperatures=reading["temperature"], **stated)
-        records = []
-        for kind, own in kinds.items():
-            given = reading["temperature"]
-            if len(given) == len(files) > 1:
-                given = tuple(given[files.index(path)] for path in own)
-            test = read_kind(kind, own, reading | {"temperature": given})
-            record, lines = described(kind, test, [plainly(str(path)) for path in own])
-            records.append(record)
-            if not as_json:
-                for line in lines:
-                    click.echo(line)
-            print_notes(test.notes)
-            if out is not None and kind == "dma":
-                from viscofric.study.rubber_results import write_sweeps
+    stated = {name: reading[name] or None for name in ("modulus_unit", "columns", "sheet")}
+    kinds = by_kind(files, temperatures=reading["temperature"], **stated)
+    records = []
+    for kind, own in kinds.items():
+        given = reading["temperature"]
+        if len(given) == len(files) > 1:
+            given = tuple(given[files.index(path)] for path in own)
+        test = read_kind(kind, own, reading | {"temperature": given})
+        record, lines = described(kind, test, [plainly(str(path)) for path in own])
+        records.append(record)
+        if not as_json:
+            for line in lines:
+                click.echo(line)
+        print_notes(test.notes)
+        if out is not None and kind == "dma":
+            from viscofric.study.rubber_results import write_sweeps
 
-                click.echo(f"table    {write_sweeps(test, out)}", err=as_json)
-        if as_json:
-            print_json({"tests": records})
-        if out is not None and "dma" not in kinds:
-            raise click.UsageError("--out is for frequency sweeps.")
+            click.echo(f"table    {write_sweeps(test, out)}", err=as_json)
+    if as_json:
+        print_json({"tests": records})
+    if out is not None and "dma" not in kinds:
+        raise click.UsageError("--out is for frequency sweeps.")

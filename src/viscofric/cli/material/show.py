@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viscofric.cli.errors import reported_errors
+from viscofric.cli.commands import as_command
 from viscofric.cli.files import DASH, DATA, to_be_written, write_dataset
 from viscofric.cli.output import json_option, out_option, print_json
 from viscofric.datasets import Dataset
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.material import Material
 
 
-@click.command(name="show")
+@as_command("show")
 @click.argument("rubber", metavar="MATERIAL")
 @click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference].")
 @click.option(
@@ -36,19 +36,18 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], ou
     from viscofric.cli.rubber_options import find_rubber
     from viscofric.datasets import record
 
-    with reported_errors():
-        material = find_rubber(rubber, "rubber")
-        moduli = _moduli(material, temperature, frequency)
-        if out is not None:
-            with to_be_written(out) as path:
-                write_dataset(path, moduli)
-        if as_json:
-            about = {name: getattr(material, name) for name in ("name", "citation", "poisson_ratio", "reference")}
-            spectrum = material.to_dataset(temperature)
-            print_json({"material": about, "spectrum": record(spectrum), "modulus": record(moduli)})
-        elif out != DASH:
-            for line in [*_about(material), *_lines(moduli)]:
-                click.echo(line)
+    material = find_rubber(rubber, "rubber")
+    moduli = _moduli(material, temperature, frequency)
+    if out is not None:
+        with to_be_written(out) as path:
+            write_dataset(path, moduli)
+    if as_json:
+        about = {name: getattr(material, name) for name in ("name", "citation", "poisson_ratio", "reference")}
+        spectrum = material.to_dataset(temperature)
+        print_json({"material": about, "spectrum": record(spectrum), "modulus": record(moduli)})
+    elif out != DASH:
+        for line in [*_about(material), *_lines(moduli)]:
+            click.echo(line)
 
 
 def _about(material: Material) -> list[str]:

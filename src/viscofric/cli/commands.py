@@ -1,0 +1,66 @@
+"""Commands: an error is one sentence, and the help has its options under headings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from viscofric.cli.errors import words_of
+
+if TYPE_CHECKING:
+    from viscofric.notes import Reader
+
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+#: Options that stand under a heading of their own in the help.
+_HEADINGS: dict[click.Parameter, str] = {}
+
+
+class Command(click.Command):
+    """A command whose errors are printed in the words of its reader: of options, or of run files."""
+
+    def __init__(self, *args: Any, reader: Reader = "shell", **extra: Any) -> None:
+        super().__init__(*args, **extra)
+        self.reader: Reader = reader
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command; what viscofric raises on purpose becomes a message, and exit status 1."""
+        from viscofric.errors import ViscofricError
+
+        try:
+            return super().invoke(ctx)
+        except ViscofricError as error:
+            raise click.ClickException(words_of(error, self.reader)) from error
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options under their headings."""
+        sections: dict[str, list[tuple[str, str]]] = {}
+        for one in self.get_params(ctx):
+            if (record := one.get_help_record(ctx)) is not None:
+                sections.setdefault(_HEADINGS.get(one, "Options"), []).append(record)
+        for heading, records in sections.items():
+            with formatter.section(heading):
+                formatter.write_dl(records)
+
+
+def as_command(
+    name: str, *, epilog: str | None = None, reader: Reader = "shell"
+) -> Callable[[Callable[..., Any]], Command]:
+    """Return a decorator that makes a function a `Command`."""
+    return click.command(name=name, cls=Command, epilog=epilog, reader=reader)
+
+
+def together(*options: Decorator, heading: str = "") -> Decorator:
+    """Return a decorator that adds several options, in the order of the help, under a heading if one is given."""
+
+    def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        before = len(getattr(function, "__click_params__", ()))
+        for option in reversed(options):
+            function = option(function)
+        if heading:
+            _HEADINGS.update(dict.fromkeys(getattr(function, "__click_params__", ())[before:], heading))
+        return function
+
+    return add
