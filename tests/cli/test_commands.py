@@ -105,7 +105,7 @@ def finished(once: Path, tmp_path: Path) -> Path:
 def test_run_names_the_files_it_wrote(run: tuple[Result, Path]) -> None:
     result, _ = run
     assert result.exit_code == 0, result.output
-    for words in ("figure ", "data ", "report "):
+    for words in ("figures ", "data ", "report "):
         paths = [line.split(maxsplit=1)[1] for line in result.stdout.splitlines() if line.startswith(words)]
         assert paths
         assert all(Path(path).stat().st_size > 0 for path in paths)

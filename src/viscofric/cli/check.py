@@ -47,6 +47,8 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
         _check_results(results, as_json)
         return
     assert study is not None
+    if study.is_dir():
+        raise click.UsageError(f"{study} is a folder; give a run file, or --results {study} for stored results.")
     from viscofric.study.checking import check_study
     from viscofric.study.run_file.study import decoded, parse_study, read_study_text
 

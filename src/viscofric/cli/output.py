@@ -95,7 +95,15 @@ def write_files(*files: tuple[str, Path | None, Callable[[Path], object]], quiet
             with to_be_written(path) as target:
                 write(target)
             if path != DASH:
-                click.echo(f"{word:<8} {path}", err=quiet)
+                print_written((word, path), err=quiet)
+
+
+def print_written(*written: tuple[str, object], figures: Sequence[Path] = (), err: bool = False) -> None:
+    """Name written files, a line each; figures, which are many, by their folder."""
+    if figures:
+        written = (("figures", figures[0].parent), *written)
+    for word, path in written:
+        click.echo(f"{word:<8} {path}", err=err)
 
 
 def drawing(figure: str, *results: Any, mark: bool, **settings: Any) -> Callable[[Path], None]:

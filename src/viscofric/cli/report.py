@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.output import FOLDER, json_option, out_option, pdf_option, print_json
+from viscofric.cli.output import FOLDER, json_option, out_option, pdf_option, print_json, print_written
 
 
 @as_command("report", reader="run_file")
@@ -26,13 +26,9 @@ def command(results: Path, out: Path | None, pdf: bool, as_json: bool) -> None:
     found = open_results(results)
     figures, report = write_figures_and_report(found.tree, found.folder if out is None else out)
     print_outcome(found, quiet=True)
-    if not as_json:
-        for figure in figures:
-            click.echo(f"figure   {figure}")
-        click.echo(f"report   {report}")
     printed = {"pdf": write_pdf(report)} if pdf else {}
     if as_json:
         print_json(outcome_record(found, figures, report) | printed)
-    elif printed:
-        click.echo(f"pdf      {printed['pdf']}")
+    else:
+        print_written(("report", report), *printed.items(), figures=figures)
     sys.exit(status_of(found))

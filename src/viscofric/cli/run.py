@@ -11,7 +11,7 @@ import click
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
-from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option, pdf_option
+from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option, pdf_option, print_written
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -102,12 +102,8 @@ def run_and_report(
     listener.write("finished", **outcome_record(results, figures, report), **printed)
     print_outcome(results, quiet=quiet or as_json)
     if not (quiet or as_json):
-        for figure in figures:
-            click.echo(f"figure   {figure}")
-        click.echo(f"data     {results.folder / 'results.nc'}")
-        click.echo(f"report   {report}")
-        for path in printed.values():
-            click.echo(f"pdf      {path}")
+        data = results.folder / "results.nc"
+        print_written(("data", data), ("report", report), *printed.items(), figures=figures)
     if status := status_of(results):
         sys.exit(status)
 

@@ -12,7 +12,15 @@ from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.files import FILE
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
-from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option, typed_command
+from viscofric.cli.output import (
+    FOLDER,
+    json_option,
+    out_option,
+    print_json,
+    print_written,
+    synthetic_option,
+    typed_command,
+)
 from viscofric.cli.rubber_options import reading_options, shift_factor_options
 
 if TYPE_CHECKING:
@@ -139,20 +147,18 @@ def command(
     figures, report = write_figures_and_report(results.tree, results.folder)
     print_notes(results.notes)
     print_doubtful_checks(results.tree)
-    said = [*(("file", path) for path in written), *(("figure", path) for path in figures), ("report", report)]
     made = [_write_card(rubber.material, folder, form, card_law) for form in cards]
-    said += [("card", path) for path in made if path is not None]
+    cards_made = [path for path in made if path is not None]
     status = 1 if None in made else status_of(results)
     if as_json:
         from viscofric.datasets import record
 
         found = {"spectrum": record(rubber.material.to_dataset())} | outcome_record(results, figures, report)
-        cards_made = [path for path in made if path is not None]
         print_json(found | {"files": written, "cards": cards_made, "exit_status": status})
     else:
         _print(results)
-        for word, path in said:
-            click.echo(f"{word:<8} {path}")
+        said = [*(("file", path) for path in written), *(("card", path) for path in cards_made)]
+        print_written(*said, ("report", report), figures=figures)
     raise click.exceptions.Exit(status)
 
 

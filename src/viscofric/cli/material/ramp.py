@@ -10,7 +10,15 @@ import click
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import Source
-from viscofric.cli.output import FOLDER, json_option, out_option, print_json, synthetic_option, typed_command
+from viscofric.cli.output import (
+    FOLDER,
+    json_option,
+    out_option,
+    print_json,
+    print_written,
+    synthetic_option,
+    typed_command,
+)
 from viscofric.cli.rubber_options import column_options, deformation_option, modulus_unit_option
 
 
@@ -106,8 +114,6 @@ def _material(
         synthetic=chosen["synthetic"],
     )
     figures, report = write_figures_and_report(results.tree, results.folder)
-    said = [str(rubber.material.shift)]
     print_notes(results.notes)
-    said += [f"file     {path}" for path in written] + [f"figure   {path}" for path in figures] + [f"report   {report}"]
-    for line in said:
-        click.echo(line, err=quiet)
+    click.echo(str(rubber.material.shift), err=quiet)
+    print_written(*(("file", path) for path in written), ("report", report), figures=figures, err=quiet)

@@ -93,9 +93,9 @@ def _lines(moduli: Dataset) -> list[str]:
     from viscofric.units import shown_celsius
 
     at = moduli.attrs.get("temperature")
-    heading = "" if at is None else f" at {shown_celsius(at)} °C"
     headings = zip(("ω (rad/s)", "f (Hz)", "E' (MPa)", "E'' (MPa)", "tan δ"), (12, 10, 10, 10, 8), strict=True)
-    lines = ["  ".join(f"{name:>{width}}" for name, width in headings) + heading]
+    lines = ["modulus:" if at is None else f"modulus at {shown_celsius(at)} °C:"]
+    lines.append("  ".join(f"{name:>{width}}" for name, width in headings))
     columns = (moduli[name].values for name in ("angular_frequency", "storage_modulus", "loss_modulus"))
     for frequency, storage, loss in zip(*columns, strict=True):
         lines.append(
