@@ -197,15 +197,14 @@ SAID = [
         lambda: vf.write_card(SOLID, "card", "ansys"),
         "incompressible",
         (
-            "poisson_ratio = 0.5: ANSYS needs a Poisson ratio below 0.5 (MP,PRXY); choose a nearly incompressible"
-            " one for the card, write_card(…, poisson_ratio=0.4995) for instance (E stays as it is, 2(1+ν)G "
-            "changes with it)."
+            "ANSYS needs a Poisson ratio below 0.5 (MP,PRXY), and this material has 0.5; give the card a nearly "
+            "incompressible one, poisson_ratio=0.4995 for instance (E stays as it is, 2(1+ν)G changes with it)."
         ),
     ),
     (
         lambda: vf.write_card(SOLID, "card", "ls-dyna", poisson_ratio=0.49),
         "no-density",
-        "LS-DYNA needs a density, such as write_card(…, density=1100) for 1100 kg/m³.",
+        "LS-DYNA needs a density, such as density=1100 for 1100 kg/m³.",
     ),
     (
         lambda: vf.write_card(SOLID, "card", "comsol", modulus_unit="MPa"),

@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.errors import InputError
 from viscofric.files import parse_json
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.cards.card import Solid, Writing, card_law
 from viscofric.rheology.cards.native import VERSION, about, assembled, shift_of
 from viscofric.rheology.material import Material
@@ -63,11 +63,10 @@ def contents_of(
         )
     ratio = material.poisson_ratio if writing.poisson_ratio is None else writing.poisson_ratio
     if ratio == 0.5 and incompressible:
-        raise InputError(
-            f"poisson_ratio = 0.5: {program} {incompressible}; choose a nearly incompressible one for the card, "
-            "write_card(…, poisson_ratio=0.4995) for instance (E stays as it is, 2(1+ν)G changes with it).",
-            code="incompressible",
-        )
+        advice = Remedy("poisson_ratio=0.4995", "--poisson-ratio 0.4995", page="“Poisson's ratio”: 0.4995")
+        advice += " for instance (E stays as it is, 2(1+ν)G changes with it)."
+        said = f"{program} {incompressible}, and this material has 0.5; give the card a nearly incompressible one, "
+        raise InputError(Note("incompressible", said, remedy=advice))
     law = card_law(material.shift) if with_shift else None
     card = {
         "poisson_ratio": ratio,

@@ -17,7 +17,7 @@ import re
 from typing import Any
 
 from viscofric.errors import InputError
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.cards.card import Reading, Solid, Writing, number_text, tensile
 from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
@@ -53,9 +53,8 @@ def write(material: Material, writing: Writing) -> str:
             code="too-many-modes",
         )
     if writing.written_density is None:
-        raise InputError(
-            f"{NAME} needs a density, such as write_card(…, density=1100) for 1100 kg/m³.", code="no-density"
-        )
+        advice = Remedy("density=1100 for 1100 kg/m³.", "--density '1100 kg/m^3'.", page="“Density”: 1100 kg/m^3.")
+        raise InputError(Note("no-density", f"{NAME} needs a density, such as ", remedy=advice))
     if writing.temperature_unit != "K" and isinstance(law, Arrhenius):
         raise InputError(
             f"{NAME} counts temperatures of an Arrhenius law in K; leave temperature_unit out.", code="temperature-unit"
