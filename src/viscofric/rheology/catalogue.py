@@ -238,7 +238,7 @@ _ENTRIES = (
         "SYNTHETIC",
         "Retardation spectrum, 37 modes; WLF above and Arrhenius below the glass transition.",
         "Assumed for tests and examples; not a measurement.",
-        "A glass transition and a slow relaxation below the rubber plateau, at 30 °C; see synthetic_fluoroelastomer.",
+        "A glass transition and a slow relaxation below the rubber plateau, at 30 °C.",
         synthetic_fluoroelastomer,
     ),
     CatalogueEntry(

@@ -171,7 +171,9 @@ export default view(() => {
       <div>
         <${Source} result=${of} error=${sweeps.error} />
         <div class="row" hidden=${!of}>
-          <${Button} kind="main" onClick=${() => goTo("shift")}>Shift the isotherms<//>
+          <${Button} kind="main" onClick=${() => goTo(isMeasured() ? "shift" : "contact")}>
+            ${isMeasured() ? "Shift the isotherms" : "Predict friction"}
+          <//>
         </div>
       </div>
       <div>
