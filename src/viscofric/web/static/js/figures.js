@@ -264,7 +264,7 @@ export const Figure = view((given, self) => {
       <p class="plot-empty" hidden=${there}>${spec.empty ?? "Nothing to draw yet."}</p>
     </div>
     <figcaption>
-      <span class="badge small" hidden=${!spec.synthetic}>synthetic</span>
+      <span class="badge small" hidden=${!there || !spec.synthetic}>synthetic</span>
       <span class="figure-caption" hidden=${!spec.caption}>${spec.caption}</span>
       ${strong && html`<${Button} kind="quiet small" symbol="close" onClick=${() => pick(null)}>${units.show(spec.picked, "temperature")} picked<//>`}
     </figcaption>

@@ -5,7 +5,7 @@ import { announce } from "../page.js";
 import { html, view } from "../reactive.js";
 import { Card, Checks, Folded, Notes, Numbers, Table } from "../views.js";
 import { Identification, MasterCurve, master } from "./measurement_analysis.js";
-import { Run, Source, agreement, measured, shownMeasured } from "./measurement_source.js";
+import { Run, Source, agreement, emptyOf, measured, shownMeasured } from "./measurement_source.js";
 
 agreement.done = ({ sentences }) => sentences.length && announce(sentences[0]);
 for (const job of [measured, agreement, master]) job.start();
@@ -18,7 +18,7 @@ const Comparison = view(() => {
   return html`<${Card} title="Measured against predicted">
     <${Run} job=${agreement} label="Predicting" />
     <${Figure} id="measured-friction" title="Viscoelastic friction" of=${of ?? shownMeasured()}
-      empty="Drop the files of a traction test, or use the synthetic example." />
+      empty=${emptyOf("Drop the files of a traction test, or use the synthetic example.")} />
     <${Numbers} of=${of} />
     <${Notes} of=${of} list=${of ? [of.sentences[0], ...of.notes] : []} />
     <${Notes} of=${of} kind="warning" list=${of ? [...of.failures, ...of.warnings] : []} />

@@ -9,7 +9,7 @@ import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Table } from "../views.js";
-import { Facts, Run, agreement, alone, ofMeasured, shownMeasured } from "./measurement_source.js";
+import { Facts, Run, agreement, alone, emptyOf, ofMeasured, shownMeasured } from "./measurement_source.js";
 
 const fields = page.start.forms.master;
 export const master = ofMeasured("master", () => ({ beside: !alone(), law: given(fields).law }));
@@ -36,9 +36,9 @@ export const MasterCurve = view(() => {
     <${Run} job=${master} label="Shifting" />
     <div class="grid">
       <${Figure} id="friction-master-curve" title="Friction at one temperature" height=${340} of=${of}
-        spec=${specOf(of, drawn)} empty="Drop a traction test above: its temperatures are shifted onto one curve here." />
+        spec=${specOf(of, drawn)} empty=${emptyOf("Drop a traction test above: its temperatures are shifted onto one curve here.")} />
       <${Figure} id="friction-shift-factors" title="Shift factors" height=${340} of=${of}
-        empty="Friction determines shift factors: drop a traction test at two temperatures or more." />
+        empty=${emptyOf("Friction determines shift factors: drop a traction test at two temperatures or more.")} />
     </div>
     <${Notes} of=${of} list=${[refused, ...notes]} />
     <${Facts} of=${of} list=${found?.words ?? byRubber?.words} />

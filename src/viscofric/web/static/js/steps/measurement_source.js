@@ -19,6 +19,10 @@ export const measured = new Job("measured", {
 /** What is shown of it: also that of earlier inputs, while it is read again. */
 export const shownMeasured = () => (measured.error ? null : measured.result);
 
+/** What stands in an empty figure: these words, or that the files that were dropped have no friction to draw yet. */
+export const emptyOf = (words) =>
+  shownMeasured()?.refusal ? "The friction of these files cannot be separated yet: see Measured friction." : words;
+
 /** Whether friction is looked at alone, without the page's material. */
 export const alone = () => state.view("friction.beside", "rubber") === "nothing";
 
