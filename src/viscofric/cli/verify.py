@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -85,8 +84,6 @@ def compare_test(folder: Path, as_json: bool) -> None:
     sys.exit(status)
 
 
-#: Columns that the table needs; a narrower terminal gets lines, as a file does.
-_TABLE_WIDTH = 110
 #: What is written of a comparison, in the order in which it is printed.
 _COLUMNS = ("case", "quantity", "computed", "expected", "error", "bound", "measure", "passed")
 _SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
@@ -142,12 +139,11 @@ def command(
         _list(checks)
         return
     quiet = as_json or out == DASH
-    as_table = not quiet and sys.stdout.isatty() and shutil.get_terminal_size().columns >= _TABLE_WIDTH
     outcomes: list[Outcome] = []
     with contact_bar("", quiet=quiet) as bar:
         for outcome in run_checks(checks, lambda one: bar(len(outcomes), len(checks), one.title), backend):
             outcomes.append(outcome)
-            if not quiet and not as_table:
+            if not quiet:
                 click.echo(_line(outcome))
                 if details:
                     _print_details(outcome)
@@ -155,8 +151,6 @@ def command(
     if as_json:
         print_json({"backend": backend} | _record(outcomes))
     elif out != DASH:
-        if as_table:
-            _table(outcomes, details)
         _print_verdict(outcomes)
     if not all(outcome.passed for outcome in outcomes):
         sys.exit(1)
@@ -192,7 +186,7 @@ def _numbers(one: Comparison) -> tuple[str, str, str, str]:
 
 
 def _line(outcome: Outcome) -> str:
-    """Return one line for a file or a pipe: name, numbers of the worst comparison, verdict, time."""
+    """Return one line: name, verdict, time, and numbers of the worst comparison."""
     start = f"{outcome.check.name:<18} {'passed' if outcome.passed else 'FAILED'} {outcome.seconds:6.1f} s"
     worst = outcome.worst
     if outcome.trouble or worst is None:
@@ -222,33 +216,6 @@ def _print_details(outcome: Outcome) -> None:
         click.echo(
             f"  {mark} {one.case}, {one.quantity}: {computed}, expected {expected}, error {error}, bound {bound}"
         )
-
-
-def _table(outcomes: list[Outcome], details: bool) -> None:
-    """Print a table for a wide terminal."""
-    from rich import box
-    from rich.console import Console
-    from rich.markup import escape
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    table.add_column("check", no_wrap=True)
-    table.add_column("what, and against what; " + ("all" if details else "the worst") + " of its comparisons", ratio=1)
-    for heading in ("computed", "expected", "error", "bound", "", "s"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    for outcome in outcomes:
-        mark = "[green]passed[/green]" if outcome.passed else "[bold red]FAILED[/bold red]"
-        words = f"{escape(outcome.check.title)}\n[dim]{escape(outcome.check.source)}[/dim]"
-        if details:
-            words += f"\n[dim]Bounds: {escape(outcome.check.reason)}[/dim]"
-            for about, text in _origin(outcome.check).items():
-                words += f"\n[dim]{about.capitalize()}: {escape(text)}[/dim]"
-        if outcome.trouble or outcome.worst is None:
-            words += f"\n{escape(outcome.trouble or 'nothing to compare')}"
-        table.add_row(outcome.check.name, words, "", "", "", "", mark, f"{outcome.seconds:.1f}")
-        for one in outcome.comparisons if details else [one for one in (outcome.worst,) if one is not None]:
-            table.add_row("", escape(f"{one.case}: {one.quantity}"), *_numbers(one), "" if one.passed else "!", "")
-    Console().print(table)
 
 
 def _print_verdict(outcomes: list[Outcome]) -> None:
