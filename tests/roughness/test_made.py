@@ -81,6 +81,23 @@ def test_measured_spectrum_is_the_one_the_surface_was_made_of():
     assert wide.density[-1] == pytest.approx(float(spectrum(wide.wave_number[-1])), rel=0.2)
 
 
+def test_few_points_a_decade_give_the_same_slope_and_friction():
+    rubber, conditions = vf.synthetic_fluoroelastomer(), {"speeds": [0.01, 1.0], "pressure": 2e5, "temperatures": 303.0}
+    # A whole surface without a bend, and a scan of one with it, whose points could hold shorter waves than there are.
+    spectra = [
+        vf.roughness.PowerSpectrum.self_affine(0.8, longest=800.0, rolloff=bend, shortest=6.0, rms_slope=0.4)
+        for bend in (800.0, 100.0)
+    ]
+    plain, bent = (vf.roughness.surface_from_spectrum(one, shape=(512, 512), spacing=1.0, seed=1) for one in spectra)
+    for surface, limit in ((plain, 0.01), (bent.crop(x=(0.0, 300.0), y=(50.0, 400.0)).remove("tilt"), 0.05)):
+        surface = vf.Topography(1e-6 * surface.heights, 1e-6, periodic=surface.periodic)
+        exact, few = (vf.roughness.power_spectrum(surface, per_decade=count) for count in (40, 2))
+        friction = [vf.persson_theory(rubber, one, **conditions).friction_coefficient for one in (exact, few)]
+        np.testing.assert_allclose(friction[1], friction[0], rtol=limit)
+        assert few.rms_slope() == pytest.approx(surface.rms_slope, rel=0.01 + limit)
+        assert few.shortest == pytest.approx(6e-6, rel=0.1)  # some waves of the scan further, which the window blurs
+
+
 def test_a_windowed_scan_shows_the_spectrum_of_the_surface_it_was_cut_from():
     spectrum = vf.roughness.PowerSpectrum.self_affine(0.8, longest=512.0, rolloff=64.0, shortest=6.0, rms_height=1.0)
     ratios = []
