@@ -235,9 +235,6 @@ def unit_direction(direction: Sequence[float]) -> tuple[float, float]:
     except (TypeError, ValueError):
         length = math.nan
     if not (math.isfinite(length) and length > 0.0):
-        raise InputError(
-            f"direction = {direction!r}: must be two numbers, not both zero, such as (1.0, 0.0).",
-            code="wrong-count",
-            values={"argument": "direction"},
-        )
+        words = "must be two numbers, not both zero, such as (1.0, 0.0)."
+        raise wrong_argument("direction", direction, words, "wrong-count")
     return x / length, y / length

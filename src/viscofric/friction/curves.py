@@ -14,7 +14,7 @@ from viscofric.checks import Check
 from viscofric.contact.solution import ContactSolution
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.datasets import Dataset, dataset, on_grid
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.friction.cases.record import columns_of
 from viscofric.friction.curve_words import LABELS, LOADS
 from viscofric.friction.intervals import consistency_check, half_widths
@@ -270,8 +270,8 @@ class FrictionCurves(Plotted):
         check_choice(of, "of", "viscoelastic", "coulomb")
         value, error, freedom = (getattr(self, name) for name in (of, f"{of}_error", f"{of}_freedom"))
         if value is None or error is None:
-            raise InputError(
-                f"of = {of!r}: these friction curves have no such coefficient with a standard error.", code="not-known"
+            raise wrong_argument(
+                "of", of, "these friction curves have no such coefficient with a standard error.", "not-known"
             )
         half = half_widths(error, freedom, level)
         return value - half, value + half

@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.arguments import exactly_one
 from viscofric.arrays import Array
 from viscofric.contact.bodies import unit_direction
-from viscofric.errors import InputError, brief, check_choice
+from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.motion.schedule import Schedule, make_schedule
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.material import Material, insist_on_material
@@ -250,9 +250,8 @@ def _wrong_at(index: int, code: str, sentence: str, **values: str) -> InputError
 def _checked_time(time: Quantities) -> Array:
     seconds = to_si_array(time, "s", "time")
     if len(seconds) < 2 or seconds[0] == seconds[-1]:
-        raise InputError(
-            f"time = {brief(time)}: a history needs at least two different times, such as [0, '1 s'].",
-            code="too-few-points",
+        raise wrong_argument(
+            "time", time, "a history needs at least two different times, such as [0, '1 s'].", "too-few-points"
         )
     steps = np.diff(seconds)
     if np.any(steps < 0.0):

@@ -12,7 +12,7 @@ from viscofric.arrays import Array
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
-from viscofric.errors import ConvergenceError, InputError, brief, wrong_argument
+from viscofric.errors import ConvergenceError, InputError, wrong_argument
 from viscofric.motion.bounce import Bounce, Springs
 from viscofric.motion.impact_solution import ImpactContact, ImpactSolution, RestitutionCurve
 from viscofric.motion.memory import Modes
@@ -200,10 +200,8 @@ def restitution_curve(
 
 def _checked_accuracy(accuracy: Quantity) -> float:
     if not TIGHTEST <= (found := number(accuracy, "accuracy")) <= LOOSEST:
-        raise InputError(
-            f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-4.",
-            code="out-of-range",
-            values={"argument": "accuracy"},
+        raise wrong_argument(
+            "accuracy", accuracy, f"must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-4.", "out-of-range"
         )
     return found
 

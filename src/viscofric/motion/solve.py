@@ -19,7 +19,7 @@ from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic.solve import beyond_measured
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
-from viscofric.errors import InputError, brief, wrong_argument
+from viscofric.errors import InputError, wrong_argument
 from viscofric.motion.history import History
 from viscofric.motion.march import march
 from viscofric.motion.problem import Problem
@@ -205,9 +205,7 @@ def _resumed(
     elif isinstance(resume, (str, PathLike)):
         restart = read_restart(resume)
     else:
-        raise InputError(
-            f"resume = {brief(resume)}: must be a TransientSolution, or the file of its state.", code="wrong-type"
-        )
+        raise wrong_argument("resume", resume, "must be a TransientSolution, or the file of its state.", "wrong-type")
     method, on_cells = restart.method, needs_grid(problem, history)
     if (method == "waves") != (problem.kind == "periodic"):
         raise InputError(
@@ -246,10 +244,8 @@ def checked_problem(
     insist_on(indenter, "indenter", Indenter, PeriodicSurface, right=right)
     insist_on(history, "history", History, right="a History, such as History(time=[0, 1], load='1 N')")
     if not TIGHTEST <= accuracy <= LOOSEST:
-        raise InputError(
-            f"accuracy = {brief(accuracy)}: must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-3.",
-            code="out-of-range",
-            values={"argument": "accuracy"},
+        raise wrong_argument(
+            "accuracy", accuracy, f"must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-3.", "out-of-range"
         )
     kind = "periodic" if isinstance(indenter, PeriodicSurface) else ("line", "point")[indenter.geometry.dimension - 1]
     schedule = history.schedule(material, kind)

@@ -9,7 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError
+from viscofric.errors import DataFileError, InputError, wrong_argument
 from viscofric.files import read_bytes
 from viscofric.notes import Remedy
 from viscofric.readers.headings import Vocabulary
@@ -52,8 +52,8 @@ def _kelvin(value: Quantity) -> float:
     kelvin = positive(value, "K", "temperature")
     hint = kelvin_hint(kelvin) if isinstance(value, (int, float)) else ""
     if hint:
-        raise InputError(
-            f"temperature = {value!r}: is {shown_celsius(kelvin, 'z.4g')} °C{hint}.", code="looks-like-celsius"
+        raise wrong_argument(
+            "temperature", value, f"is {shown_celsius(kelvin, 'z.4g')} °C{hint}.", "looks-like-celsius"
         )
     return kelvin
 

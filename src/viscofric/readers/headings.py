@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any, Literal
 
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, brief, wrong_argument
 
 # "E' (MPa)", "T [degC]", then "E' / MPa", then "T_C", "f in Hz", "Temperature, °C": tried in this order.
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
@@ -151,10 +151,12 @@ class Vocabulary:
         """Return the user's own headings by quantity, which may be written with underscores, or raise `InputError`."""
         named: dict[str, str] = {}
         if columns is not None and not isinstance(columns, Mapping):
-            raise InputError(
-                f"columns = {brief(columns)}: must map quantities to headings, such as {{'frequency': 'f in Hz'}}.",
-                code="wrong-columns",
-                field=self.key,
+            raise wrong_argument(
+                "columns",
+                columns,
+                "must map quantities to headings, such as {'frequency': 'f in Hz'}.",
+                "wrong-columns",
+                self.key,
             )
         given = columns or {}
         for key, said in given.items():

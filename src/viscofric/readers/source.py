@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 
 from viscofric.arguments import insist_on
-from viscofric.errors import DataFileError, InputError, brief
+from viscofric.errors import DataFileError, InputError, wrong_argument
 from viscofric.files import decoded
 from viscofric.units import conversion
 
@@ -54,7 +54,7 @@ def insist_on_content(source: Source) -> None:
 def checked_sheet(sheet: object) -> str:
     """Return the name of a sheet that the user asks for, "" for none, or raise `InputError`."""
     if sheet is not None and not isinstance(sheet, str):
-        raise InputError(f"sheet = {brief(sheet)}: must be the name of a sheet as text.", code="wrong-sheet")
+        raise wrong_argument("sheet", sheet, "must be the name of a sheet as text.", "wrong-sheet")
     return sheet or ""
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscofric.arguments import insist_on, text
 from viscofric.arrays import ComplexArray
 from viscofric.datasets import Dataset
-from viscofric.errors import InputError
+from viscofric.errors import InputError, brief
 from viscofric.notes import Remedy, without
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
@@ -168,7 +168,8 @@ class Material(Plotted):
             return spectrum
         if self.shift is None:
             raise InputError(
-                f"temperature = {temperature!r}: this material has no shift, so its temperature cannot be chosen; ",
+                f"temperature = {brief(temperature)}: this material has no shift, so its temperature cannot be "
+                "chosen; ",
                 code="no-shift",
                 remedy=Remedy("give Material(spectrum, shift=WLF(…)) or ") + without("temperature"),
                 values={"argument": "temperature"},

@@ -22,7 +22,7 @@ from viscofric.contact.periodic.heating import ACCURACY, MEAN_LEFT_OUT, Periodic
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.errors import ConvergenceError, InputError, brief
+from viscofric.errors import ConvergenceError, InputError, brief, wrong_argument
 from viscofric.heat.heating import Heating
 from viscofric.notes import Note, counted
 from viscofric.processes import Workers, at_work, call_all
@@ -334,9 +334,8 @@ def _states(speeds: Quantities, temperatures: Quantities | None) -> tuple[Array,
 def _named(surfaces: object) -> list[tuple[str, PeriodicSurface]]:
     each = [surfaces] if isinstance(surfaces, (Topography, PeriodicSurface)) else surfaces
     if not isinstance(each, Sequence) or not each:
-        raise InputError(
-            f"surfaces = {brief(surfaces)}: must be a Topography or PeriodicSurface, or a list of them.",
-            code="wrong-type",
+        raise wrong_argument(
+            "surfaces", surfaces, "must be a Topography or PeriodicSurface, or a list of them.", "wrong-type"
         )
     found = []
     for place, one in enumerate(each, 1):

@@ -12,7 +12,7 @@ import scipy.fft
 from viscofric.arguments import check_cost, flag, numbers, whole_number
 from viscofric.arrays import Array, ComplexArray
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, wrong_argument
 from viscofric.notes import Note
 from viscofric.roughness.measured_spectrum import LineSpectrum
 from viscofric.roughness.spectrum import PowerSpectrum, hurst_exponent, wanted_rms
@@ -180,9 +180,8 @@ def surface_from_spectrum(
     wanted = LineSpectrum if points[1] == 1 else PowerSpectrum
     other = PowerSpectrum if wanted is LineSpectrum else LineSpectrum
     if isinstance(spectrum, other) or not hasattr(spectrum, "__call__"):  # noqa: B004 - mypy knows callable() too well
-        raise InputError(
-            f"spectrum = {brief(spectrum)}: must be a {wanted.__name__} for this shape, or a function.",
-            code="wrong-type",
+        raise wrong_argument(
+            "spectrum", spectrum, f"must be a {wanted.__name__} for this shape, or a function.", "wrong-type"
         )
     waves = _Waves(points, steps, seed, aspect, angle)
     if not waves.expected(spectrum, 0.0) > 0.0:
@@ -205,7 +204,7 @@ def _grid(
     points: tuple[int, ...] = shape if isinstance(shape, (tuple, list)) else (shape, 1)
     right = "the points along x (four at least) and y, or of a profile"
     if len(points) != 2:
-        raise InputError(f"shape = {brief(shape)}: must be {right}.", code="wrong-shape")
+        raise wrong_argument("shape", shape, f"must be {right}.", "wrong-shape")
     points = tuple(whole_number(n, "shape", least, right=right) for n, least in zip(points, (4, 1), strict=True))
     check_cost(points, "shape: the surface")
     return (points[0], points[1]), two_lengths(spacing)

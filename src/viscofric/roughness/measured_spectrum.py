@@ -13,7 +13,7 @@ import scipy.fft
 from viscofric.arguments import MOST_PER_DECADE, insist_on, whole_number
 from viscofric.arrays import Array, non_negative_fit
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.roughness.spectrum import NODES, Density, PowerSpectrum, integral
 from viscofric.roughness.topography import Topography
 from viscofric.showing import Rows
@@ -203,9 +203,8 @@ def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_
     place = "xy".index(axis)
     points, step = topography.shape[place], topography.spacing[place]
     if points < 4:
-        raise InputError(
-            f"axis = {axis!r}: a spectrum needs four points at least; there are {points} along it.",
-            code="too-few-points",
+        raise wrong_argument(
+            "axis", axis, f"a spectrum needs four points at least; there are {points} along it.", "too-few-points"
         )
     heights: Array = np.moveaxis(_windowed(topography, (place,)), place, 0)
     waves = np.square(np.abs(scipy.fft.rfft(heights, axis=0) / points)).mean(axis=1)

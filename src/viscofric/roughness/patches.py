@@ -12,7 +12,7 @@ from viscofric.arguments import insist_on, whole_number
 from viscofric.arrays import Array, Mask
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.datasets import Dataset, dataset
-from viscofric.errors import InputError, brief
+from viscofric.errors import wrong_argument
 from viscofric.showing import Rows, Shown
 from viscofric.units import in_si
 
@@ -182,9 +182,7 @@ def pressure_distribution(solution: PeriodicSolution, edges: ArrayLike | int = 5
     else:
         limits = in_si(edges, "Pa", "edges", infinite=True)
         if limits.ndim != 1 or len(limits) < 2 or not np.all(np.diff(limits) > 0.0):
-            raise InputError(
-                f"edges = {brief(edges)}: must be two pressures at least, Pa, that increase.", code="not-ascending"
-            )
+            raise wrong_argument("edges", edges, "must be two pressures at least, Pa, that increase.", "not-ascending")
     counts, found = np.histogram(loaded, limits)
     return 0.5 * (found[1:] + found[:-1]), counts / (solution.pressure.size * np.diff(found))
 

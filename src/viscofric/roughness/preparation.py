@@ -10,7 +10,7 @@ from viscofric.arrays import Array, Mask
 from viscofric.contact.free.geometry import LINE
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
-from viscofric.errors import InputError, brief, check_choice
+from viscofric.errors import InputError, brief, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.units import Quantity, to_si
 
@@ -200,7 +200,7 @@ def rough_indenter(heights: Array, spacing: tuple[float, float], shape: Indenter
         if (shape.geometry is LINE) != is_line:
             wanted = "a Cylinder" if is_line else "a Ball"
             noun = "a line scan" if is_line else "a map of heights"
-            raise InputError(f"shape = {shape!r}: {noun} is roughness on a shape such as {wanted}.", code="line-or-map")
+            raise wrong_argument("shape", shape, f"{noun} is roughness on a shape such as {wanted}.", "line-or-map")
         # The middle of one row is the row itself.
         x = np.asarray(dx * (np.arange(nx) - nx // 2), dtype=np.float64)
         y = np.asarray(dy * (np.arange(ny) - ny // 2), dtype=np.float64)

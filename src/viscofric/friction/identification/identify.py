@@ -11,7 +11,7 @@ from viscofric.arguments import insist_on, insist_on_function, text, whole_numbe
 from viscofric.arrays import Array
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.curve_checks import shared_error
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
@@ -210,7 +210,7 @@ def identify_material(
     points, shifts = with_shared_errors(points, shifts, errors.columns(points, curves))
     moduli = anchored(one for one in anchors if isinstance(one, ModulusAnchor))
     if prior is None and prior_band is not None:
-        raise InputError(f"prior_band = {brief(prior_band)}: belongs to a prior; give it too.", code="no-prior")
+        raise wrong_argument("prior_band", prior_band, "belongs to a prior; give it too.", "no-prior")
     if prior is not None:
         moduli.append(known_part(prior, prior_band, prior_error, shifts.reference))
     sizes = tuple(one for one in anchors if isinstance(one, ContactAnchor))
@@ -224,8 +224,8 @@ def identify_material(
 
 def _checked_levels(levels: Sequence[float]) -> tuple[float, ...]:
     if not isinstance(levels, (tuple, list)):
-        raise InputError(
-            f"levels = {brief(levels)}: must be factors of the modulus, such as (0.5, 1.0, 2.0).", code="not-a-number"
+        raise wrong_argument(
+            "levels", levels, "must be factors of the modulus, such as (0.5, 1.0, 2.0).", "not-a-number"
         )
     return tuple(positive(one, "dimensionless", "levels") for one in levels)
 

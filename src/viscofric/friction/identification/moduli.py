@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.identification.anchors import ModulusAnchor
 from viscofric.rheology.material import Material
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
@@ -150,9 +150,7 @@ def _checked(band: tuple[Quantity, Quantity] | None) -> tuple[float, float]:
             code="no-prior-band",
         )
     if np.shape(band) != (2,):
-        raise InputError(
-            f"prior_band = {band!r}: must be two frequencies, such as ('0.1 Hz', '10 Hz').", code="wrong-count"
-        )
+        raise wrong_argument("prior_band", band, "must be two frequencies, such as ('0.1 Hz', '10 Hz').", "wrong-count")
     low, high = (float(frequency_of(end, "prior_band")) for end in band)
     if low >= high:
         raise InputError(

@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.cases.case import Case, Place, Rubbers, Settings
 from viscofric.friction.cases.interpolation import Node
 from viscofric.friction.cases.record import Failure, Record
@@ -51,7 +51,7 @@ class Plan:
         if key in self._known:
             return
         if key not in self._waiting:
-            raise InputError(f"key = {key!r}: this plan has no such task.", code="no-such-task")
+            raise wrong_argument("key", key, "this plan has no such task.", "no-such-task")
         del self._waiting[key]
         self._known[key] = outcome
         for call in self._callbacks.pop(key):

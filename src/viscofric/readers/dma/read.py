@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from viscofric.data import DEFORMATIONS, Deformation, IsothermalSweeps
-from viscofric.errors import DataFileError, InputError, check_choice, not_needed
+from viscofric.errors import DataFileError, check_choice, not_needed, wrong_argument
 from viscofric.readers.dma.instruments import (
     eplexor,
     mettler,
@@ -200,9 +200,8 @@ def read_files(
     sources = sources_of(paths, reader, DMA, temperature, modulus_unit, columns, sheet, test)
     readings = [_read(source) for source in sources]
     if modulus_unit is not None and not any(one.lacks_unit for one in readings):
-        raise InputError(
-            f"modulus_unit = {modulus_unit!r}: the files state the units of their moduli; leave it out.",
-            code="unit-not-needed",
+        raise wrong_argument(
+            "modulus_unit", modulus_unit, "the files state the units of their moduli; leave it out.", "unit-not-needed"
         )
     return readings
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.data import DEFORMATIONS, Deformation
-from viscofric.errors import DataFileError, InputError, check_choice
+from viscofric.errors import DataFileError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments import trios_text
 from viscofric.readers.dma.instruments.ta_steps import StepText
@@ -127,8 +127,8 @@ def read_step_tests(
             parts[-1].source, "creep and relaxation tests are mixed; read each kind by itself.", code="kinds-mixed"
         )
     if response_unit is not None and not any(part.lacks_unit for part in parts):
-        raise InputError(
-            f"response_unit = {response_unit!r}: the files state their units; leave it out.", code="unit-not-needed"
+        raise wrong_argument(
+            "response_unit", response_unit, "the files state their units; leave it out.", "unit-not-needed"
         )
     stated = _stated(parts, deformation)
     notes: list[str] = list(dict.fromkeys(note for part in parts for note in part.notes))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from viscofric.errors import DataFileError, InputError, brief, check_choice
+from viscofric.errors import DataFileError, InputError, check_choice, wrong_argument
 from viscofric.files import LARGEST_FILE, file_path, insist_on_short_text, read_bytes
 from viscofric.readers.source import Source
 from viscofric.readers.topography.package import read_with_package
@@ -15,13 +15,11 @@ def read_scan(path: object, options: ScanOptions) -> Scan:
     """Read a file of heights, whose format is recognised by its content."""
     check_choice(options.lines, "lines", "x", "y")
     if not isinstance(options.unit, str):
-        raise InputError(f"unit = {brief(options.unit)}: must be text, such as 'um'.", code="not-text")
+        raise wrong_argument("unit", options.unit, "must be text, such as 'um'.", "not-text")
     if options.unit:
         conversion(options.unit, "m", "unit")
     if not (options.channel is None or isinstance(options.channel, (str, int))):
-        raise InputError(
-            f"channel = {brief(options.channel)}: must be the name of a channel or its number.", code="no-channel"
-        )
+        raise wrong_argument("channel", options.channel, "must be the name of a channel or its number.", "no-channel")
     file = str(file_path(path))
     source = Source(file, read_bytes(file, LARGEST_FILE))
     if not source.data:

@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from viscofric.arguments import insist_on, whole_number
-from viscofric.errors import DataFileError, InputError, check_choice, not_written, short_notes
+from viscofric.errors import DataFileError, InputError, check_choice, not_written, short_notes, wrong_argument
 from viscofric.files import file_path, read_text
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
@@ -139,10 +139,11 @@ def write_card(
     check_choice(domain, "domain", "time", "frequency")
     check_choice(modulus_unit, "modulus_unit", *get_args(UnitSystem))
     if modulus_unit != "Pa" and format not in _WITHOUT_UNITS:
-        raise InputError(
-            f"modulus_unit = {modulus_unit!r}: {format} holds SI units; leave modulus_unit out (it is for "
-            f"{', '.join(_WITHOUT_UNITS)}).",
-            code="unit-system",
+        raise wrong_argument(
+            "modulus_unit",
+            modulus_unit,
+            f"{format} holds SI units; leave modulus_unit out (it is for {', '.join(_WITHOUT_UNITS)}).",
+            "unit-system",
         )
     whole_number(material_id, "material_id", 1)
     notes: list[Note] = []
@@ -176,11 +177,11 @@ def write_card(
 def _with_law(material: Material, law: str, notes: list[Note]) -> Material:
     """Return the material with a law fitted to its table of shift factors, and a note on its misfit."""
     if law not in get_args(CardLaw):
-        raise InputError(f"law = {law!r}: must be one of {', '.join(get_args(CardLaw))}.", code="unknown-law")
+        raise wrong_argument("law", law, f"must be one of {', '.join(get_args(CardLaw))}.", "unknown-law")
     factors: Any = material.shift
     if not isinstance(factors, ShiftFactors):
-        raise InputError(
-            f"law = {law!r}: the material has no table of shift factors to fit a law to; leave it out.", code="no-table"
+        raise wrong_argument(
+            "law", law, "the material has no table of shift factors to fit a law to; leave it out.", "no-table"
         )
     fitted = _best_law(factors) if law == "best" else factors.law(law)
     missed = _missed(factors, fitted)

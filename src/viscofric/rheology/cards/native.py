@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.files import parse_json
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
@@ -58,7 +58,7 @@ def restored(value: Any, allowed: tuple[type, ...]) -> Any:
     names = [one.__name__ for one in allowed]
     kind = value.get("kind") if isinstance(value, dict) else None
     if kind not in names:
-        raise InputError(f"kind = {kind!r}: must be one of {', '.join(names)}.", code="wrong-choice")
+        raise wrong_argument("kind", kind, f"must be one of {', '.join(names)}.", "wrong-choice")
     one = _kinds()[kind]
     arguments = {name: content for name, content in value.items() if name != "kind"}
     unknown = sorted(set(arguments) - set(kept_arguments(one)))
@@ -148,7 +148,7 @@ def from_plain(content: Any) -> Material:
         )
     version = content.get("version")
     if not isinstance(version, int) or not 1 <= version <= VERSION:
-        raise InputError(f"version = {version!r}: this viscofric reads version 1 to {VERSION}.", code="newer-version")
+        raise wrong_argument("version", version, f"this viscofric reads version 1 to {VERSION}.", "newer-version")
     known = {"format", "version", "name", "citation", "poisson_ratio", "shift", "vertical_shift", "fit", "spectrum"}
     unknown = sorted(set(content) - known)
     if unknown:

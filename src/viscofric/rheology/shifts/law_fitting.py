@@ -8,7 +8,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from viscofric.arrays import Array, descend
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.rheology.shifts.law_families import LAWS, TITLES, family_of
 from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.units import shown_celsius
@@ -113,8 +113,8 @@ class Fitted(NamedTuple):
 def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
     """Fit a law by generalised least squares; see `ShiftFactors.law`."""
     if kind not in LAWS:
-        raise InputError(
-            f"law = {kind!r}: must be {', '.join(repr(one) for one in LAWS[:-1])} or {LAWS[-1]!r}.", code="unknown-law"
+        raise wrong_argument(
+            "law", kind, f"must be {', '.join(repr(one) for one in LAWS[:-1])} or {LAWS[-1]!r}.", "unknown-law"
         )
     if kind == "vft":  # the same curve, whose constants and covariance follow exactly
         wlf = fitted("wlf", table)

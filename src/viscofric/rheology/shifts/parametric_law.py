@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.arguments import flag, numbers
 from viscofric.arrays import Array, Mask
 from viscofric.datasets import plain
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, wrong_argument
 from viscofric.rheology.shifts.shift_law import ShiftLaw, as_record, checked_covariance, in_kelvin
 from viscofric.showing import Rows
 from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si_array
@@ -109,7 +109,7 @@ class ParametricLaw(ShiftLaw):
         if fitted_range is not None:
             ends = to_si_array(fitted_range, "K", "fitted_range")
             if ends.size != 2:
-                raise InputError(f"fitted_range = {brief(fitted_range)}: must be two temperatures.", code="wrong-count")
+                raise wrong_argument("fitted_range", fitted_range, "must be two temperatures.", "wrong-count")
             low, high = (positive(end, "K", "fitted_range") for end in ends.tolist())
             if not low < high:
                 raise InputError(
@@ -144,9 +144,7 @@ class ParametricLaw(ShiftLaw):
         """Return a law of this kind with other constants at the same reference, as if typed in (not fitted)."""
         values = numbers(parameters, "parameters")
         if values.shape != (len(self._constants),):
-            raise InputError(
-                f"parameters = {brief(parameters)}: must be {', '.join(self._constants)}.", code="wrong-choice"
-            )
+            raise wrong_argument("parameters", parameters, f"must be {', '.join(self._constants)}.", "wrong-choice")
         constants = dict(zip(self._constants, values.tolist(), strict=True))
         return replace(self, **constants, covariance=None, fitted_range=None)
 

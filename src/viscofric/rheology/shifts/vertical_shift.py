@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset, plain
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.rheology.shifts.shift_law import Shift, ShiftTable, as_record
 from viscofric.showing import Rows
 from viscofric.units import Quantities, Quantity, kelvin_hint, positive, shown_celsius, to_si, to_si_array
@@ -102,8 +102,8 @@ class DensityShift(VerticalShift):
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
         expansion = to_si(self.expansion, "1/K", "expansion")
         if expansion < 0.0:
-            raise InputError(
-                f"expansion = {self.expansion!r}: must not be below zero (1/K); 0 leaves b = T/T0.", code="not-positive"
+            raise wrong_argument(
+                "expansion", self.expansion, "must not be below zero (1/K); 0 leaves b = T/T0.", "not-positive"
             )
         object.__setattr__(self, "expansion", expansion)
 

@@ -15,7 +15,7 @@ from viscofric.arguments import insist_on, sentences
 from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
 from viscofric.datasets import Dataset
-from viscofric.errors import InputError, check_choice
+from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
 from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
@@ -135,8 +135,8 @@ class ModulusTable(FrequencyResponse, Items[tuple[float, float, float]]):
         insist_on(master_curve, "master_curve", MasterCurve)
         decades = to_si(resolution, "dimensionless", "resolution")
         if decades < 0.0:
-            raise InputError(
-                f"resolution = {resolution!r}: must be a number of decades, not below zero.", code="not-positive"
+            raise wrong_argument(
+                "resolution", resolution, "must be a number of decades, not below zero.", "not-positive"
             )
         log_omega = np.log(master_curve.angular_frequency)
         width, groups, first = decades * np.log(10.0) + _ROUNDING, [], 0

@@ -13,7 +13,7 @@ from viscofric.arguments import insist_on
 from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
 from viscofric.datasets import Dataset, dataset
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times, mode_column
@@ -321,7 +321,7 @@ class RelaxationSpectrum(ModeSpectrum):
     def __init__(self, E0: Quantity, E: ArrayLike, tau: ArrayLike) -> None:
         rubber = to_si(E0, "Pa", "E0")
         if rubber < 0.0:
-            raise InputError(f"E0 = {E0!r}: must not be below zero; write, for example, '3 MPa'.", code="not-positive")
+            raise wrong_argument("E0", E0, "must not be below zero; write, for example, '3 MPa'.", "not-positive")
         object.__setattr__(self, "E0", rubber)
         self._set_modes("E", E, "Pa", tau)
         if not self.E_inf > 0.0:

@@ -146,13 +146,11 @@ class _Asked:
         for name, owner in (("modes", "sparse"), ("largest_error", "sparse"), ("regularisation", "regularised")):
             value = getattr(self, name)
             if value is not None and method != owner:
-                raise InputError(
-                    f"{name} = {value!r}: belongs to method={owner!r}, not to {method!r}.", code="other-method"
-                )
+                words = f"belongs to method={owner!r}, not to {method!r}."
+                raise wrong_argument(name, value, words, "other-method")
         if isinstance(regularisation, str) and regularisation not in ("l-curve", "cross-validation"):
-            raise InputError(
-                f"regularisation = {regularisation!r}: must be a number, 'l-curve' or 'cross-validation'.",
-                code="wrong-choice",
+            raise wrong_argument(
+                "regularisation", regularisation, "must be a number, 'l-curve' or 'cross-validation'.", "wrong-choice"
             )
         if not (regularisation is None or isinstance(regularisation, str)):
             positive(regularisation, "dimensionless", "regularisation")

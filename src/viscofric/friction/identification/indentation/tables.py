@@ -11,7 +11,7 @@ from viscofric.arguments import text
 from viscofric.arrays import Array
 from viscofric.data import read_only
 from viscofric.datasets import Dataset, dataset
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError, wrong_argument
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantities, Quantity, positive, share, to_si, to_si_array
 from viscofric.units import angular_frequency as frequency_of
@@ -125,7 +125,7 @@ class ReboundRecord(Plotted):
             )
         pull = to_si(gravity, "m/s**2", "gravity")
         if pull < 0.0:
-            raise InputError(f"gravity = {brief(gravity)}: must not be below zero.", code="negative", field="gravity")
+            raise wrong_argument("gravity", gravity, "must not be below zero.", "negative", "gravity")
         object.__setattr__(self, "temperature", positive(temperature, "K", "temperature"))
         object.__setattr__(self, "mass", positive(mass, "kg", "mass"))
         object.__setattr__(self, "gravity", pull)
@@ -242,11 +242,13 @@ class OscillationRecord(Plotted):
         _set_columns(self, {"angular_frequency": (omega, "rad/s"), **columns}, "angular_frequency")
         depth, size = positive(indentation, "m", "indentation"), positive(amplitude, "m", "amplitude")
         if size > LARGEST_AMPLITUDE * depth * (1.0 + 1e-9):  # rounding of units
-            raise InputError(
-                f"amplitude = {brief(amplitude)}: above {LARGEST_AMPLITUDE:g} of the mean depth the contact radius "
+            raise wrong_argument(
+                "amplitude",
+                amplitude,
+                f"above {LARGEST_AMPLITUDE:g} of the mean depth the contact radius "
                 "oscillates too; give load and depth over time as an IndentationRecord.",
-                code="out-of-range",
-                field="amplitude",
+                "out-of-range",
+                "amplitude",
             )
         object.__setattr__(self, "temperature", positive(temperature, "K", "temperature"))
         object.__setattr__(self, "indentation", depth)
