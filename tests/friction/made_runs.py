@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.friction.curves import FrictionCurves
 from viscofric.traction import TractionRuns
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 #: (sgn u_disc, sgn(u_disc − u_ball)) of the four configurations I, II, III, IV of the paper.
 FOUR = ((-1, 1), (-1, -1), (1, -1), (1, 1))

@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.friction.curves import FrictionCurves
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from viscofric.rheology.shifts.laws import ShiftLaw
-
-    Array = NDArray[np.float64]
+from viscofric.rheology.shifts.laws import ShiftLaw
 
 PATH = Path(__file__).parents[1] / "data" / "synthetic_friction_curves.csv"
 REPLICATES = 8

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -12,26 +12,18 @@ from hypothesis import strategies as st
 
 from friction.synthetic_curves import curves_of, noisy, planted_law, synthetic_curves
 from refusals import refused
+from viscofric.arrays import Array
 from viscofric.contact.indenters.shapes import Ball
 from viscofric.errors import SuperpositionError
+from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.prediction import predict_friction
 from viscofric.friction.shifting.found_shifts import LEFT_OUT, widened, widening
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import codes
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
-from viscofric.rheology.shifts.laws import WLF
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.shifts.laws import ShiftLaw
-    from viscofric.rheology.shifts.shift_factors import ShiftFactors
-
-    Array = NDArray[np.float64]
+from viscofric.rheology.shifts.laws import WLF, ShiftLaw
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
 LAW = WLF(C1=8.86, C2=101.6, reference="50 degC")
 SPEEDS = np.geomspace(0.02, 0.2, 10)

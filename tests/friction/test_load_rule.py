@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 from friction.synthetic_curves import curves_of
 from refusals import refused
+from viscofric.arrays import Array
 from viscofric.contact.indenters.height_map import HeightMap
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
@@ -22,13 +23,6 @@ from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from viscofric.contact.indenters.indenter import Indenter
-
-    Array = NDArray[np.float64]
 
 LAW = WLF(C1=8.86, C2=101.6, reference="50 degC")
 BALL = Ball(radius="9.525 mm")

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 from friction.made_runs import friction_curves
 from refusals import refused
+from viscofric.arrays import Array
+from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting import master_curve
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.notes import codes
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
-
-    from viscofric.friction.curves import FrictionCurves
-
-    Array = NDArray[np.float64]
 
 LAW = WLF(C1=8.86, C2=101.6, reference="50 degC")
 # 20 to 200 mm/s in 10 steps; at 44, 50 and 56 °C neighbours overlap by half a decade.

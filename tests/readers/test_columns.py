@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import viscofric as vf
 from readers.refusal import noted, refused
 from readers.samples.workbook import write as write_workbook
+from readers.written import write
 from viscofric import read_dma, read_mtm
 from viscofric.errors import DataFileError
 from viscofric.notes import note_of
@@ -23,12 +24,6 @@ from viscofric.readers.source import to_rad_per_second, unit_conversion
 ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]
 NAMES = {"temperature": "Chamber", "frequency": "v1", "storage_modulus": "Alpha", "loss_modulus": "Beta"}
 HALF = {"temperature": "Chamber (degC)", "frequency": "v1 (Hz)"}
-
-
-def write(tmp_path, *lines, name="sweeps.csv"):
-    path = tmp_path / name
-    path.write_text("\n".join(lines), encoding="utf-8")
-    return path
 
 
 def assert_is_the_table(sweeps):

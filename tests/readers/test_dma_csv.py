@@ -9,6 +9,7 @@ import pytest
 
 import viscofric as vf
 from readers.refusal import noted, refused
+from readers.written import write
 from viscofric import read_mtm
 from viscofric.errors import DataFileError
 from viscofric.notes import codes
@@ -21,12 +22,6 @@ ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]
 def read_dma(*paths, **asked):
     """Read tables that need not say whether they are of tension or of shear."""
     return trace_dma(*paths, **asked).sweeps
-
-
-def write(tmp_path, *lines, encoding="utf-8", name="sweeps.csv"):
-    path = tmp_path / name
-    path.write_bytes("\n".join(lines).encode(encoding))
-    return path
 
 
 def assert_is_the_table(sweeps):

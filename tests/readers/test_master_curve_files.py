@@ -9,6 +9,7 @@ import pytest
 
 from readers.refusal import refused
 from readers.samples.workbook import write as write_workbook
+from readers.written import write
 from viscofric.data import MasterCurve
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma.master_curves import read_master_curve
@@ -16,12 +17,6 @@ from viscofric.readers.dma.read import read_dma
 from viscofric.study.rubber_results import write_master_curve
 
 ROWS = ["1e-3,5,0.5", "1e3,9,0.7", "1,6,0.9"]
-
-
-def write(tmp_path, *lines, name="master.csv"):
-    path = tmp_path / name
-    path.write_text("\n".join(lines), encoding="utf-8")
-    return path
 
 
 def test_a_text_table_is_sorted_and_carries_its_reference(tmp_path):

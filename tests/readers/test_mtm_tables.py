@@ -6,18 +6,13 @@ import numpy as np
 import pytest
 
 from readers.refusal import noted, refused
+from readers.written import write
 from viscofric import read_mtm
 from viscofric.notes import codes
 
 HEADER = "temperature (degC),replicate,disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)"
 ROW = "30,1,-100,90,25,-0.4"
 WITHOUT = HEADER.replace("replicate,", "")
-
-
-def write(tmp_path, *lines, name="runs.csv"):
-    path = tmp_path / name
-    path.write_text("\n".join(lines), encoding="utf-8")
-    return path
 
 
 def test_signs_and_units_survive(tmp_path):

@@ -8,13 +8,8 @@ import pytest
 from readers.refusal import refused
 from readers.samples.reptate import sweep
 from readers.samples.rubber import FREQUENCIES, moduli
+from readers.written import write
 from viscofric import read_dma
-
-
-def write(tmp_path, *lines, name="a.osc"):
-    path = tmp_path / name
-    path.write_bytes("\n".join(lines).encode("latin-1"))
-    return path
 
 
 def test_a_sweep_is_read_with_its_measured_temperature_and_strain(tmp_path):

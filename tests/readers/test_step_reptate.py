@@ -6,15 +6,10 @@ import numpy as np
 import pytest
 
 from readers.refusal import refused
+from readers.written import write
 from viscofric.readers.steps.read import read_step_tests
 
 TIMES = np.geomspace(0.01, 100.0, 9)
-
-
-def write(tmp_path, *lines, name):
-    path = tmp_path / name
-    path.write_text("\n".join([*lines, ""]), encoding="latin-1")
-    return path
 
 
 def test_creep_has_strain_and_stress(tmp_path):

@@ -9,15 +9,10 @@ import pytest
 
 from readers.refusal import refused
 from readers.samples import workbook
+from readers.written import write
 from viscofric import files, read_dma, read_friction_curves
 
 HEADER = "temperature (degC);frequency (Hz);tensile storage modulus (MPa);tensile loss modulus (MPa)"
-
-
-def write(tmp_path, *lines, encoding="utf-8"):
-    path = tmp_path / "sweeps.csv"
-    path.write_bytes("\n".join(lines).encode(encoding))
-    return path
 
 
 @pytest.mark.parametrize(

@@ -15,17 +15,12 @@ from hypothesis import strategies as st
 
 import viscofric as vf
 from readers.refusal import refused
+from readers.written import write
 from viscofric.notes import codes
 from viscofric.readers.topography import package
 
 RANDOM = np.random.default_rng(5)
 HEIGHTS = RANDOM.normal(size=(6, 4)).round(4)
-
-
-def write(folder: Path, text: str, name: str = "scan.csv") -> Path:
-    path = folder / name
-    path.write_text(text, encoding="utf-8")
-    return path
 
 
 def matrix_text(between: str = ",", comma: bool = False) -> str:
@@ -41,7 +36,7 @@ def test_a_matrix_of_heights_is_read_however_its_cells_are_parted(tmp_path, betw
     found = vf.read_topography(path, unit="um", spacing=("2 um", "3 um"))
     np.testing.assert_allclose(found.heights, 1e-6 * HEIGHTS, rtol=1e-15)
     assert found.spacing == pytest.approx((2e-6, 3e-6), rel=1e-15)
-    assert found.name == "scan"
+    assert found.name == "table"
     assert codes(found.history) == set()
     assert len(found.history) == 1
 
@@ -194,7 +189,7 @@ def test_what_cannot_be_read_is_refused_in_one_sentence_with_the_files_name(tmp_
     path = write(tmp_path, text)
     with refused(*refusal) as caught:
         vf.read_topography(path, **arguments)
-    assert "scan.csv" in str(caught.value)
+    assert "table.csv" in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
@@ -277,7 +272,7 @@ CELLS = st.one_of(
 )
 def test_any_table_is_read_or_refused_with_its_name(tmp_path, monkeypatch, rows, between, above, arguments):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)  # what is no table is refused at once
-    path = write(tmp_path, above + "\n".join(between.join(row) for row in rows), "any.csv")
+    path = write(tmp_path, above + "\n".join(between.join(row) for row in rows), name="any.csv")
     refusal = ""
     try:
         found = vf.read_topography(path, **arguments)

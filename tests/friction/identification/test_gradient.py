@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 import viscofric as vf
+from viscofric.arrays import Array
 from viscofric.contact.derivatives.adjoint import friction_adjoint, friction_way
 from viscofric.contact.free.nested import find_window, refine
 from viscofric.contact.free.problem import Control, Problem
@@ -15,11 +16,6 @@ from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.friction.identification.solving import friction_response
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 BALL, CYLINDER = vf.Ball(radius=10e-3), vf.Cylinder(radius=10e-3)
 LOADS = {"ball": 1.0, "cylinder": 100.0}

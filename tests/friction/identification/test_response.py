@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.friction.identification.solving import FrictionResponse, friction_response
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from viscofric.contact.indenters.indenter import Indenter
-
-    Array = NDArray[np.float64]
 
 BALL, CYLINDER = vf.Ball(radius=10e-3), vf.Cylinder(radius=10e-3)
 ACCURACY = 1e-2

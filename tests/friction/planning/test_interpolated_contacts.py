@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import pytest
 
 import viscofric as vf
 from friction.planning.made_up_contacts import carry_out, case_of, solved
+from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.record import Record
 from viscofric.friction.cases.solving import solve
 from viscofric.friction.planning.plan import plan_cases
-
-if TYPE_CHECKING:
-    from viscofric.study.cases.sweep import Case
 
 FLUOROELASTOMER = vf.synthetic_fluoroelastomer()
 
