@@ -117,7 +117,7 @@ def test_order_and_extent_of_axes_do_not_matter_to_cases_in_common(tmp_path: Pat
     assert not found.equal
     assert (found.cases, found.only_first, found.only_second) == (4, 32, 2)
     assert all(one.equal for one in found.differences)
-    assert any("speed" in sentence and "0.4" in sentence for sentence in found.axes)
+    assert any("speed" in sentence and "400 mm/s" in sentence for sentence in found.axes)
 
 
 def test_coordinates_that_differ_by_rounding_are_the_same(tmp_path: Path) -> None:

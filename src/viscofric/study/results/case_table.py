@@ -10,9 +10,9 @@ import numpy as np
 from viscofric.datasets import DataTree
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import LARGEST_FILE, file_path, read_text
+from viscofric.study.cases.sweep import shown
 from viscofric.study.results.columns import PLACES, TITLE, over_all_dimensions, read_table_text
 from viscofric.study.results.file import cases_of, open_tree
-from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -34,7 +34,6 @@ _OF_CURVES = {
     "friction_error": "viscoelastic_error",
 }
 _COORDINATES = ("speed", "temperature", "load")
-_UNITS = {"speed": "m/s", "load": "N", "radius": "m", "thickness": "m", "angle": "rad"}
 # Coordinates whose value needs no name.
 _SPEAKING = ("material", "load", "temperature", "speed")
 _TABLES = (".csv", ".txt", ".tsv")
@@ -138,9 +137,7 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
                     f"{table.name} varies the {name}, which {other_table.name} does not state: no case can be paired.",
                     code="no-common-cases",
                 )
-            remarks.append(
-                f"{table.name} has a {name} ({_shown(name, table.columns[name][0])}), the other states none."
-            )
+            remarks.append(f"{table.name} has a {name} ({shown(name, table.columns[name][0])}), the other states none.")
     rows = []
     for table in (one, other):
         keys = list(zip(*(_keys(table.columns[name]) for name in shared), strict=True))
@@ -155,8 +152,8 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
         here, there = ({key[number] for key in found} for found in rows)
         if here != there:
             more, less = sorted(here - there, key=str), sorted(there - here, key=str)
-            parts = [f"{len(more)} only in {one.name} (such as {_shown(name, more[0])})"] if more else []
-            parts += [f"{len(less)} only in {other.name} (such as {_shown(name, less[0])})"] if less else []
+            parts = [f"{len(more)} only in {one.name} (such as {shown(name, more[0])})"] if more else []
+            parts += [f"{len(less)} only in {other.name} (such as {shown(name, less[0])})"] if less else []
             remarks.append(f"The {name} has other values: {', '.join(parts)}; {len(here & there)} in common.")
     if not keys_of_both:
         raise InputError(
@@ -174,14 +171,5 @@ def _keys(column: NDArray[Any]) -> list[Any]:
 
 
 def shown_place(place: dict[str, float | str]) -> str:
-    """Return the coordinates of a case in words: "NBR, radius 0.01 m, 25 N, 30 °C, 0.1 m/s"."""
-    return ", ".join(f"{'' if name in _SPEAKING else f'{name} '}{_shown(name, value)}" for name, value in place.items())
-
-
-def _shown(name: str, value: Any) -> str:
-    if isinstance(value, str):
-        return value
-    if name == "temperature":
-        return f"{shown_celsius(float(value), 'z.6g')} °C"
-    unit = _UNITS.get(name, "")
-    return f"{float(value):.6g}" + (f" {unit}" if unit else "")
+    """Return the coordinates of a case in words: "NBR, radius 10 mm, 25 N, 30 °C, 100 mm/s"."""
+    return ", ".join(f"{'' if name in _SPEAKING else f'{name} '}{shown(name, value)}" for name, value in place.items())
