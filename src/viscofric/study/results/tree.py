@@ -37,7 +37,6 @@ All variables are in SI units and have `units` and `long_name`.  A predefined ma
 from __future__ import annotations
 
 import json
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -45,6 +44,7 @@ import numpy as np
 from viscofric.datasets import Dataset, dataset
 from viscofric.friction.cases.record import FIELD_MEANING, MEANING, Failure, Record
 from viscofric.friction.cases.surfaces import MadeSurface
+from viscofric.study.cases.sweep import shown
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -244,17 +244,12 @@ def setting(study: Study, sweep: Sweep, rubbers: Sequence[StudyRubber]) -> dict[
 
 
 def _indenter(table: AnyIndenterTable) -> str:
-    lengths = {name: values for name, values in table.axes.items() if name != "angle"}
-    parts = [f"{name.replace('_', ' ')} {_between([1e3 * value for value in lengths[name]])} mm" for name in lengths]
-    if "angle" in table.axes:
-        parts.append(f"angle {_between([math.degrees(value) for value in table.axes['angle']])}°")
+    parts = []
+    for name, values in table.axes.items():
+        ends = dict.fromkeys(shown(name, end) for end in (min(values), max(values)))
+        parts.append(f"{name.replace('_', ' ')} {' to '.join(ends)}")
     elastic = "" if table.modulus is None else f", of E = {table.modulus:.4g} Pa"
     return f"{table.shape} of {' and '.join(parts)}{elastic}"
-
-
-def _between(values: Sequence[float]) -> str:
-    low, high = f"{min(values):.6g}", f"{max(values):.6g}"
-    return low if low == high else f"{low} to {high}"
 
 
 def _surface_setting(study: Study, sweep: Sweep) -> dict[str, Any]:
