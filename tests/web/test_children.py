@@ -300,7 +300,8 @@ def test_end_of_the_server_ends_jobs_with_a_sentence(bench: Callable[..., Any]) 
     bench(work)
 
 
-def test_processes_of_a_process_end_with_it(bench: Callable[..., Any]) -> None:
+@pytest.mark.parametrize("how", ["killed", "input closed"])
+def test_a_process_ends_with_those_that_it_started(bench: Callable[..., Any], how: str) -> None:
     async def work(bench: Bench) -> None:
         async with aclosing(bench.run("share", 30.0)) as lines:
             async for line in lines:
@@ -312,26 +313,11 @@ def test_processes_of_a_process_end_with_it(bench: Callable[..., Any]) -> None:
                 await asyncio.sleep(0.02)
             own = started_by(process)
             assert os.getpgid(process) == process  # an interrupt of the terminal does not reach it
-            os.kill(process, signal.SIGKILL)
-            assert [json.loads(line)["event"] async for line in lines] == ["error"]
-        assert ended([process, *own], within=LONG)
-
-    bench(work)
-
-
-def test_process_ends_when_its_input_closes_whatever_it_does(bench: Callable[..., Any]) -> None:
-    async def work(bench: Bench) -> None:
-        async with aclosing(bench.run("share", 30.0)) as lines:
-            async for line in lines:
-                reported = json.loads(line)
-                if reported["event"] == "part":
-                    break
-            process = reported["part"]["process"]
-            while len(started_by(process)) < 2:
-                await asyncio.sleep(0.02)
-            own = started_by(process)
-            (child,) = (one for one in bench.children._all if one.process.pid == process)
-            child.process.stdin.close()  # type: ignore[union-attr]
+            if how == "killed":
+                os.kill(process, signal.SIGKILL)
+            else:
+                (child,) = (one for one in bench.children._all if one.process.pid == process)
+                child.process.stdin.close()  # type: ignore[union-attr]
             assert [json.loads(line)["event"] async for line in lines] == ["error"]
         assert ended([process, *own], within=LONG)
 
