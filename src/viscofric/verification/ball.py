@@ -10,21 +10,8 @@ from importlib.resources import files
 
 from viscofric.contact.reference import high_speed_friction, high_speed_line_friction, low_speed_friction
 from viscofric.rheology.material import Material
+from viscofric.verification import model_problems as model
 from viscofric.verification.check import Check, Comparison
-from viscofric.verification.model_problems import (
-    BALL_LOAD,
-    CYLINDER_LOAD,
-    POISSON_RATIO,
-    RADIUS,
-    SLOPE,
-    SPECTRA,
-    SPEED,
-    InHertzUnits,
-    one_time,
-    rubber,
-    solve_ball,
-    solve_cylinder,
-)
 
 ACCURACY = 1e-3
 QUANTITIES = ("friction", "indentation", "front", "rear", "half_width", "area", "max_pressure")
@@ -49,8 +36,8 @@ class BallReference:
     def material(self) -> Material:
         """The rubber."""
         if self.spectrum == "one time":
-            return one_time(self.modulus_ratio, self.memory_length)
-        return SPECTRA[self.spectrum](self.memory_length)
+            return model.one_time(self.modulus_ratio, self.memory_length)
+        return model.SPECTRA[self.spectrum](self.memory_length)
 
 
 @lru_cache(maxsize=1)
@@ -76,7 +63,7 @@ _BOUNDS = {"friction": _FINER, "indentation": 5e-4, "area": 5e-3, "max_pressure"
 
 def _references() -> Iterator[Comparison]:
     for row in ball_references():
-        found = InHertzUnits.of(solve_ball(row.material, accuracy=_FINER))
+        found = model.InHertzUnits.of(model.solve_ball(row.material, accuracy=_FINER))
         for name, bound in _BOUNDS.items():
             known = row.values[name]
             shown = {"friction": "friction μR/a0", "indentation": "indentation δR/a0²", "area": "area/πa0²"}
@@ -93,26 +80,26 @@ _SLOW, _FAST = [1e-4, 5e-5, 1e-5], [1e7, 1e5, 1e6]
 
 
 def _low_speed() -> Iterator[Comparison]:
-    material = rubber(10.0, [1.0, 2.0, 3.0], _SLOW)
+    material = model.rubber(10.0, [1.0, 2.0, 3.0], _SLOW)
     spectrum = material.modes_at()
-    law = low_speed_friction(SPEED, RADIUS, spectrum.E0, spectrum.C, spectrum.tau) / SLOPE
+    law = low_speed_friction(model.SPEED, model.RADIUS, spectrum.E0, spectrum.C, spectrum.tau) / model.SLOPE
     case = "three modes, vτ/a0 = 1e-5 to 1e-4, k = 10"
-    cylinder = solve_cylinder(material, accuracy=ACCURACY).friction_coefficient / SLOPE
+    cylinder = model.solve_cylinder(material, accuracy=ACCURACY).friction_coefficient / model.SLOPE
     yield Comparison(f"cylinder, {case}", "friction μR/a0", cylinder, law, 2e-3)
-    ball = solve_ball(material, accuracy=5e-3).friction_coefficient / SLOPE
+    ball = model.solve_ball(material, accuracy=5e-3).friction_coefficient / model.SLOPE
     yield Comparison(f"ball, {case}", "friction μR/a0", ball, law, 7e-3)
 
 
 def _high_speed() -> Iterator[Comparison]:
-    material = rubber(100.0, [1.0, 2.0, 3.0], _FAST)
+    material = model.rubber(100.0, [1.0, 2.0, 3.0], _FAST)
     spectrum = material.modes_at()
-    modes = (spectrum.E_inf, POISSON_RATIO, spectrum.C, spectrum.tau)
+    modes = (spectrum.E_inf, model.POISSON_RATIO, spectrum.C, spectrum.tau)
     case = "three modes, vτ/a0 = 1e5 to 1e7, k = 100"
-    law = high_speed_friction(SPEED, BALL_LOAD, RADIUS, *modes) / SLOPE
-    ball = solve_ball(material, accuracy=ACCURACY).friction_coefficient / SLOPE
+    law = high_speed_friction(model.SPEED, model.BALL_LOAD, model.RADIUS, *modes) / model.SLOPE
+    ball = model.solve_ball(material, accuracy=ACCURACY).friction_coefficient / model.SLOPE
     yield Comparison(f"ball, {case}", "friction μR/a0", ball, law, 5e-3)
-    law = high_speed_line_friction(SPEED, CYLINDER_LOAD, RADIUS, *modes) / SLOPE
-    cylinder = solve_cylinder(material, accuracy=ACCURACY).friction_coefficient / SLOPE
+    law = high_speed_line_friction(model.SPEED, model.CYLINDER_LOAD, model.RADIUS, *modes) / model.SLOPE
+    cylinder = model.solve_cylinder(material, accuracy=ACCURACY).friction_coefficient / model.SLOPE
     yield Comparison(f"cylinder, {case}", "friction μR/a0", cylinder, law, 1e-2)
 
 
@@ -126,10 +113,10 @@ def _energy() -> Iterator[Comparison]:
         ("37 modes", 1000.0, 1e4),
         ("37 modes", 1000.0, 1e8),
     ):
-        material = one_time(ratio, memory) if spectrum == "one time" else SPECTRA[spectrum](memory)
+        material = model.one_time(ratio, memory) if spectrum == "one time" else model.SPECTRA[spectrum](memory)
         case = f"{spectrum}, k = {ratio:g}, vτ/a0 = {memory:g}"
         # Where the two results differ the solver refines without end; these grids are finer than any that is needed.
-        for name, solve, finest in (("ball", solve_ball, 256), ("cylinder", solve_cylinder, 4096)):
+        for name, solve, finest in (("ball", model.solve_ball, 256), ("cylinder", model.solve_cylinder, 4096)):
             found = solve(material, accuracy=ACCURACY, finest=finest)
             pressure, energy = found.pressure_friction_coefficient, found.energy_friction_coefficient
             yield Comparison(f"{name}, {case}", "dissipated over pressure", energy / pressure, 1.0, 3.0 * ACCURACY)

@@ -7,23 +7,13 @@ from collections.abc import Iterator
 
 from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
 from viscofric.contact.reference import flat_punch, hertz_ball, hertz_ellipse, hertz_line, sneddon_cone
+from viscofric.verification import model_problems as model
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_steady
-from viscofric.verification.model_problems import (
-    BALL_LOAD,
-    CYLINDER_LOAD,
-    HERTZ_RADIUS,
-    POISSON_RATIO,
-    RADIUS,
-    RUBBER_MODULUS,
-    one_time,
-    solve_ball,
-    solve_cylinder,
-)
 
 _RATIO = 10.0
-_RUBBER = one_time(_RATIO, 1.0)
-_LIMITS = (("v = 0", 0.0, RUBBER_MODULUS), ("v = ∞", math.inf, _RATIO * RUBBER_MODULUS))
+_RUBBER = model.one_time(_RATIO, 1.0)
+_LIMITS = (("v = 0", 0.0, model.RUBBER_MODULUS), ("v = ∞", math.inf, _RATIO * model.RUBBER_MODULUS))
 _EDGE = 0.005  # a quarter of a cell on the 128 cells of an elastic contact's grid, 49 of them to a radius
 _ANGLE = math.radians(5.0)
 _ROUND_OFF = 1e-12
@@ -31,8 +21,8 @@ _ROUND_OFF = 1e-12
 
 def _ball() -> Iterator[Comparison]:
     for case, speed, modulus in _LIMITS:
-        known = hertz_ball(BALL_LOAD, RADIUS, modulus, POISSON_RATIO)
-        found = solve_ball(_RUBBER, speed)
+        known = hertz_ball(model.BALL_LOAD, model.RADIUS, modulus, model.POISSON_RATIO)
+        found = model.solve_ball(_RUBBER, speed)
         yield Comparison(case, "indentation (m)", found.indentation, known.indentation, 5e-4)
         yield Comparison(case, "front edge (m)", found.front, known.radius, _EDGE)
         yield Comparison(case, "contact area (m²)", found.contact_area, math.pi * known.radius**2, 0.004)
@@ -42,16 +32,18 @@ def _ball() -> Iterator[Comparison]:
 
 def _cylinder() -> Iterator[Comparison]:
     for case, speed, modulus in _LIMITS:
-        known = hertz_line(CYLINDER_LOAD, RADIUS, modulus, POISSON_RATIO)
-        found = solve_cylinder(_RUBBER, speed)
+        known = hertz_line(model.CYLINDER_LOAD, model.RADIUS, modulus, model.POISSON_RATIO)
+        found = model.solve_cylinder(_RUBBER, speed)
         yield Comparison(case, "contact width (m)", found.contact_area, 2.0 * known.half_width, _EDGE)
         yield Comparison(case, "largest pressure (Pa)", found.max_pressure, known.max_pressure, 0.002)
 
 
 def _ellipsoid() -> Iterator[Comparison]:
     for ratio in (0.25, 4.0):
-        known = hertz_ellipse(BALL_LOAD, RADIUS, ratio * RADIUS, RUBBER_MODULUS, POISSON_RATIO)
-        found = solve_steady(_RUBBER, Ellipsoid(RADIUS, ratio * RADIUS), speed=0.0, load=BALL_LOAD)
+        known = hertz_ellipse(
+            model.BALL_LOAD, model.RADIUS, ratio * model.RADIUS, model.RUBBER_MODULUS, model.POISSON_RATIO
+        )
+        found = solve_steady(_RUBBER, Ellipsoid(model.RADIUS, ratio * model.RADIUS), speed=0.0, load=model.BALL_LOAD)
         case = f"R_y/R_x = {ratio:g}, v = 0"
         area = math.pi * known.semi_axis_x * known.semi_axis_y
         yield Comparison(case, "indentation (m)", found.indentation, known.indentation, 1e-3)
@@ -62,8 +54,8 @@ def _ellipsoid() -> Iterator[Comparison]:
 
 def _cone() -> Iterator[Comparison]:
     for case, speed, modulus in _LIMITS:
-        known = sneddon_cone(BALL_LOAD, math.tan(_ANGLE), modulus, POISSON_RATIO)
-        found = solve_steady(_RUBBER, Cone(_ANGLE), speed=speed, load=BALL_LOAD)
+        known = sneddon_cone(model.BALL_LOAD, math.tan(_ANGLE), modulus, model.POISSON_RATIO)
+        found = solve_steady(_RUBBER, Cone(_ANGLE), speed=speed, load=model.BALL_LOAD)
         yield Comparison(case, "indentation (m)", found.indentation, known.indentation, 1e-3)
         yield Comparison(case, "contact area (m²)", found.contact_area, math.pi * known.radius**2, 0.005)
 
@@ -71,8 +63,8 @@ def _cone() -> Iterator[Comparison]:
 def _punch() -> Iterator[Comparison]:
     depth = 1e-5
     for case, speed, modulus in _LIMITS:
-        known = flat_punch(depth, HERTZ_RADIUS, modulus, POISSON_RATIO)
-        found = solve_steady(_RUBBER, FlatPunch(HERTZ_RADIUS), speed=speed, indentation=depth)
+        known = flat_punch(depth, model.HERTZ_RADIUS, modulus, model.POISSON_RATIO)
+        found = solve_steady(_RUBBER, FlatPunch(model.HERTZ_RADIUS), speed=speed, indentation=depth)
         yield Comparison(case, "load (N)", found.load, known.load, 0.01)
 
 

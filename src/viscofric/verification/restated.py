@@ -16,22 +16,9 @@ from viscofric.contact.periodic import solve as periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.modulus_table import ModulusTable
+from viscofric.verification import model_problems as model
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import backend, solve_steady
-from viscofric.verification.model_problems import (
-    BALL,
-    BALL_LOAD,
-    CYLINDER,
-    CYLINDER_LOAD,
-    HERTZ_RADIUS,
-    POISSON_RATIO,
-    RADIUS,
-    SPEED,
-    equal_modes,
-    one_time,
-    solve_ball,
-    solve_cylinder,
-)
 
 _SAME = 1e-7  # what is left of the contact conditions in friction and size
 _LARGE = (1024, 512)  # points whose FFTs have several threads
@@ -41,13 +28,18 @@ _PER_DECADE = 10
 
 
 def _direction() -> Iterator[Comparison]:
-    material = one_time(10.0, 1.0)
-    long, turned = Ellipsoid(RADIUS, 4.0 * RADIUS), Ellipsoid(4.0 * RADIUS, RADIUS)
+    material = model.one_time(10.0, 1.0)
+    long, turned = Ellipsoid(model.RADIUS, 4.0 * model.RADIUS), Ellipsoid(4.0 * model.RADIUS, model.RADIUS)
 
     def solve(shape: Ellipsoid, degrees: float, rubber: Material = material) -> Any:
         angle = math.radians(degrees)
         return solve_steady(
-            rubber, shape, speed=SPEED, load=BALL_LOAD, accuracy=_COARSE, direction=(math.cos(angle), math.sin(angle))
+            rubber,
+            shape,
+            speed=model.SPEED,
+            load=model.BALL_LOAD,
+            accuracy=_COARSE,
+            direction=(math.cos(angle), math.sin(angle)),
         )
 
     across, along = solve(long, 90.0), solve(turned, 0.0)
@@ -63,7 +55,7 @@ def _direction() -> Iterator[Comparison]:
     ratio = -left.lateral_friction_coefficient / right.lateral_friction_coefficient
     yield Comparison(case, "lateral friction, mirrored", ratio, 1.0, 10.0 * _SAME)
     # To first order in the speed friction is a symmetric tensor: its components turn as such.
-    slow = one_time(10.0, _SLOW)
+    slow = model.one_time(10.0, _SLOW)
     x, y, oblique = (solve(long, degrees, slow).friction_coefficient for degrees in (0.0, 90.0, 30.0))
     yield Comparison(
         f"ellipsoid at 30°, vτ/a0 = {_SLOW:g}", "friction coefficient", oblique, 0.75 * x + 0.25 * y, 2.0 * _COARSE
@@ -72,16 +64,16 @@ def _direction() -> Iterator[Comparison]:
 
 def _table() -> Iterator[Comparison]:
     for case, material, bound in (
-        ("one time, vτ/a0 = 1", one_time(10.0, 1.0), 2e-3),
-        ("25 modes", equal_modes(1e4), 1e-5),
+        ("one time, vτ/a0 = 1", model.one_time(10.0, 1.0), 2e-3),
+        ("25 modes", model.equal_modes(1e4), 1e-5),
     ):
         spectrum = material.modes_at()
         low, high = 1e-2 / np.max(spectrum.tau), 1e2 / np.min(spectrum.tau)
         omega = np.geomspace(low, high, 1 + round(_PER_DECADE * math.log10(high / low)))
         modulus = spectrum.complex_modulus(omega)
         table = ModulusTable(omega, modulus.real, modulus.imag, "plateau")
-        same = Material(table, poisson_ratio=POISSON_RATIO)
-        for shape, solve in (("ball", solve_ball), ("cylinder", solve_cylinder)):
+        same = Material(table, poisson_ratio=model.POISSON_RATIO)
+        for shape, solve in (("ball", model.solve_ball), ("cylinder", model.solve_cylinder)):
             found, known = solve(same, accuracy=_COARSE), solve(material, accuracy=_COARSE)
             ratio = found.friction_coefficient / known.friction_coefficient
             yield Comparison(f"{shape}, {case}", "friction coefficient, table over spectrum", ratio, 1.0, bound)
@@ -90,12 +82,12 @@ def _table() -> Iterator[Comparison]:
 def _backends() -> Iterator[Comparison]:
     plain = Backend("scipy", threads=1)
     other = Backend("scipy", threads=2) if backend().name == plain.name else backend()
-    material, layer = equal_modes(1e4), Layer(HERTZ_RADIUS)
-    free: dict[str, Any] = {"speed": SPEED, "accuracy": _COARSE}
+    material, layer = model.equal_modes(1e4), Layer(model.HERTZ_RADIUS)
+    free: dict[str, Any] = {"speed": model.SPEED, "accuracy": _COARSE}
     for case, shape, settings in (
-        ("ball", BALL, {"load": BALL_LOAD}),
-        ("ball on a layer as thick as a0", BALL, {"load": BALL_LOAD, "layer": layer}),
-        ("cylinder", CYLINDER, {"load": CYLINDER_LOAD}),
+        ("ball", model.BALL, {"load": model.BALL_LOAD}),
+        ("ball on a layer as thick as a0", model.BALL, {"load": model.BALL_LOAD, "layer": layer}),
+        ("cylinder", model.CYLINDER, {"load": model.CYLINDER_LOAD}),
     ):
         here, there = (steady.solve_steady(material, shape, backend=one, **free, **settings) for one in (other, plain))
         ratio = here.friction_coefficient / there.friction_coefficient
@@ -104,9 +96,9 @@ def _backends() -> Iterator[Comparison]:
         yield Comparison(case, "difference of the pressures/p_max", apart, 0.0, _SAME, "absolute")
     nx, ny = _LARGE
     wave_x, wave_y = (np.cos(2.0 * np.pi * np.arange(points) / points) for points in _LARGE)
-    rough = PeriodicSurface(1e-6 * (wave_x[:, None] + wave_y), (HERTZ_RADIUS / nx, HERTZ_RADIUS / ny))
+    rough = PeriodicSurface(1e-6 * (wave_x[:, None] + wave_y), (model.HERTZ_RADIUS / nx, model.HERTZ_RADIUS / ny))
     here_rough, there_rough = (
-        periodic.solve_periodic(material, rough, speed=SPEED, pressure=2e3, backend=one) for one in (other, plain)
+        periodic.solve_periodic(material, rough, speed=model.SPEED, pressure=2e3, backend=one) for one in (other, plain)
     )
     ratio = here_rough.friction_coefficient / there_rough.friction_coefficient
     yield Comparison("crossed waves", "friction coefficient, the one over the other", ratio, 1.0, _SAME)

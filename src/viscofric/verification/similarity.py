@@ -15,21 +15,9 @@ from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.vertical_shift import DensityShift
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.verification import model_problems as model
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_periodic, solve_steady
-from viscofric.verification.model_problems import (
-    BALL_LOAD,
-    CYLINDER_LOAD,
-    POISSON_RATIO,
-    RADIUS,
-    SPEED,
-    equal_modes,
-    one_time,
-    rising_modes,
-    rubber,
-    solve_ball,
-    solve_cylinder,
-)
 
 _MODULI, _LENGTHS, _TIMES = 1e6, 1e-3, 1e9
 _TIGHT = 1e-10  # of the contact conditions
@@ -46,7 +34,7 @@ def _scaled(spectrum: RetardationSpectrum) -> Material:
             C=np.asarray(spectrum.C) / _MODULI,
             tau=_TIMES * np.asarray(spectrum.tau),
         ),
-        poisson_ratio=POISSON_RATIO,
+        poisson_ratio=model.POISSON_RATIO,
     )
 
 
@@ -62,14 +50,14 @@ def _same(case: str, one: ContactSolution, other: ContactSolution, bound: float 
 
 
 def _units() -> Iterator[Comparison]:
-    speed = SPEED * _LENGTHS / _TIMES
-    for case, material in (("one time", one_time(10.0, 1.0)), ("37 modes", rising_modes(1e4))):
-        here = solve_ball(material)
+    speed = model.SPEED * _LENGTHS / _TIMES
+    for case, material in (("one time", model.one_time(10.0, 1.0)), ("37 modes", model.rising_modes(1e4))):
+        here = model.solve_ball(material)
         there = solve_steady(
             _scaled(material.modes_at()),
-            Ball(_LENGTHS * RADIUS),
+            Ball(_LENGTHS * model.RADIUS),
             speed=speed,
-            load=_MODULI * _LENGTHS**2 * BALL_LOAD,
+            load=_MODULI * _LENGTHS**2 * model.BALL_LOAD,
         )
         back = replace(
             there,
@@ -79,27 +67,27 @@ def _units() -> Iterator[Comparison]:
         )
         yield from _same(f"ball, {case}", here, back)
     wave = np.outer(*2 * (np.cos(2.0 * np.pi * np.arange(64) / 64),))
-    material = one_time(10.0, 1.0)
+    material = model.one_time(10.0, 1.0)
     surface = PeriodicSurface(1e-3 * _WAVE * wave, _WAVE / 64)
     small = PeriodicSurface(1e-3 * _LENGTHS * _WAVE * wave, _LENGTHS * _WAVE / 64)
-    here_rough = solve_periodic(material, surface, speed=SPEED, pressure=1e3)
+    here_rough = solve_periodic(material, surface, speed=model.SPEED, pressure=1e3)
     there_rough = solve_periodic(_scaled(material.modes_at()), small, speed=speed, pressure=_MODULI * 1e3)
     ratio = there_rough.friction_coefficient / here_rough.friction_coefficient
     yield Comparison("crossed waves, one time", "friction coefficient, the one over the other", ratio, 1.0, _SAME)
 
 
 def _mirror() -> Iterator[Comparison]:
-    material = one_time(10.0, 1.0)
+    material = model.one_time(10.0, 1.0)
     x = np.linspace(-2e-3, 2e-3, 81)
-    z = x**2 / (2.0 * RADIUS) + 4e-6 * np.sin(3e3 * x)
-    ahead = solve_steady(material, Profile(z, 5e-5), speed=SPEED, load=CYLINDER_LOAD)
-    back = solve_steady(material, Profile(z[::-1], 5e-5), speed=-SPEED, load=CYLINDER_LOAD)
+    z = x**2 / (2.0 * model.RADIUS) + 4e-6 * np.sin(3e3 * x)
+    ahead = solve_steady(material, Profile(z, 5e-5), speed=model.SPEED, load=model.CYLINDER_LOAD)
+    back = solve_steady(material, Profile(z[::-1], 5e-5), speed=-model.SPEED, load=model.CYLINDER_LOAD)
     ratio = -back.friction_coefficient / ahead.friction_coefficient
     yield Comparison(
         "profile without symmetry and its mirror image", "friction coefficient, mirrored", ratio, 1.0, 1e-6
     )
-    for name, solve in (("ball", solve_ball), ("cylinder", solve_cylinder)):
-        ahead, back = solve(material), solve(material, -SPEED)
+    for name, solve in (("ball", model.solve_ball), ("cylinder", model.solve_cylinder)):
+        ahead, back = solve(material), solve(material, -model.SPEED)
         turned = replace(back, friction_coefficient=-back.friction_coefficient)
         yield from _same(f"{name}, v and −v", ahead, turned)
         ratio = -back.centre_of_pressure / ahead.centre_of_pressure
@@ -109,23 +97,25 @@ def _mirror() -> Iterator[Comparison]:
 
 
 def _modes() -> Iterator[Comparison]:
-    whole = one_time(10.0, 1.0)
-    split = rubber(10.0, [0.3, 0.7, 0.0], [1.0, 1.0, 1e9])
-    for name, solve in (("cylinder", solve_cylinder), ("ball", solve_ball)):
+    whole = model.one_time(10.0, 1.0)
+    split = model.rubber(10.0, [0.3, 0.7, 0.0], [1.0, 1.0, 1e9])
+    for name, solve in (("cylinder", model.solve_cylinder), ("ball", model.solve_ball)):
         one, other = solve(whole, tolerance=_TIGHT), solve(split, tolerance=_TIGHT)
         yield from _same(f"{name}, one mode split in two and an empty one added", one, other)
 
 
 def _shift() -> Iterator[Comparison]:
-    spectrum = equal_modes(1e4).modes_at()
+    spectrum = model.equal_modes(1e4).modes_at()
     law = WLF(C1=10.0, C2=90.0, reference="20 degC")
     for name, vertical in (("b = ρT/ρ₀T₀", DensityShift(law.reference)), ("b = 1", None)):
-        material = Material(spectrum, shift=law, poisson_ratio=POISSON_RATIO, vertical_shift=vertical)
+        material = Material(spectrum, shift=law, poisson_ratio=model.POISSON_RATIO, vertical_shift=vertical)
         for temperature in ("0 degC", "60 degC"):
             alpha = float(law(temperature))
             b = 1.0 if vertical is None else float(vertical(temperature))
-            there = solve_ball(material, temperature=temperature, accuracy=_COARSE)
-            here = solve_ball(material, alpha * SPEED, temperature="20 degC", load=BALL_LOAD / b, accuracy=_COARSE)
+            there = model.solve_ball(material, temperature=temperature, accuracy=_COARSE)
+            here = model.solve_ball(
+                material, alpha * model.SPEED, temperature="20 degC", load=model.BALL_LOAD / b, accuracy=_COARSE
+            )
             ratio = there.friction_coefficient / here.friction_coefficient
             yield Comparison(f"{name}, {temperature} and 20 degC", "μ(v, T, F)/μ(αv, T0, F/b)", ratio, 1.0, _SAME)
 

@@ -11,22 +11,12 @@ from viscofric.contact.reference import hunter_line
 from viscofric.contact.solution import ContactSolution
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.verification import model_problems as model
 from viscofric.verification.check import Check, Comparison
-from viscofric.verification.model_problems import (
-    BALL_LOAD,
-    CYLINDER_LOAD,
-    HERTZ_RADIUS,
-    POISSON_RATIO,
-    RADIUS,
-    SPEED,
-    rubber,
-    solve_ball,
-    solve_cylinder,
-)
 
 _STEP = 0.06  # of the logarithms: many cells come into contact, so that where edges lie within them evens out
 _CLOSED_STEP = 1e-4
-_CELLS, _LINE_CELLS, _REACH = 128, 1024, 1.6 * HERTZ_RADIUS
+_CELLS, _LINE_CELLS, _REACH = 128, 1024, 1.6 * model.HERTZ_RADIUS
 _NEAR = 2e-3
 
 
@@ -34,8 +24,8 @@ def _solve(point: bool, given: dict[str, Any], *, derivatives: bool = False) -> 
     rest = dict(given)
     C, tau, E_inf, speed = (rest.pop(name) for name in ("C", "tau", "E_inf", "speed"))
     spectrum = RetardationSpectrum(1.0 / (1.0 / E_inf + float(np.sum(C))), E_inf, C, tau)
-    return (solve_ball if point else solve_cylinder)(
-        Material(spectrum, poisson_ratio=POISSON_RATIO),
+    return (model.solve_ball if point else model.solve_cylinder)(
+        Material(spectrum, poisson_ratio=model.POISSON_RATIO),
         speed,
         **rest,
         window=(_REACH,) * (3 if point else 2),
@@ -69,22 +59,28 @@ def _compare(
 def _closed_form(given: dict[str, Any]) -> float:
     E0 = 1.0 / (1.0 / given["E_inf"] + float(given["C"][0]))
     return hunter_line(
-        given["load"], RADIUS, E0, given["E_inf"], float(given["tau"][0]), given["speed"], POISSON_RATIO
+        given["load"], model.RADIUS, E0, given["E_inf"], float(given["tau"][0]), given["speed"], model.POISSON_RATIO
     ).friction_coefficient
 
 
 def _derivatives() -> Iterator[Comparison]:
     for memory_length in (0.1, 1.0, 10.0):
-        modes = rubber(10.0, [1.0], [memory_length]).modes_at()
-        given = {"C": modes.C, "tau": modes.tau, "E_inf": modes.E_inf, "speed": SPEED, "load": CYLINDER_LOAD}
+        modes = model.rubber(10.0, [1.0], [memory_length]).modes_at()
+        given = {
+            "C": modes.C,
+            "tau": modes.tau,
+            "E_inf": modes.E_inf,
+            "speed": model.SPEED,
+            "load": model.CYLINDER_LOAD,
+        }
         solution = _solve(False, given, derivatives=True)
         yield from _compare(f"cylinder, vτ/a0 = {memory_length:g}", solution, given, _CLOSED_STEP, _closed_form)
-    modes = rubber(10.0, [1.0, 2.0], [0.3, 3.0]).modes_at()
+    modes = model.rubber(10.0, [1.0, 2.0], [0.3, 3.0]).modes_at()
     for case, held in (
-        ("ball, load given", {"load": BALL_LOAD}),
-        ("ball, indentation given", {"load": None, "indentation": 0.9 * HERTZ_RADIUS**2 / RADIUS}),
+        ("ball, load given", {"load": model.BALL_LOAD}),
+        ("ball, indentation given", {"load": None, "indentation": 0.9 * model.HERTZ_RADIUS**2 / model.RADIUS}),
     ):
-        given = {"C": modes.C, "tau": modes.tau, "E_inf": modes.E_inf, "speed": SPEED} | held
+        given = {"C": modes.C, "tau": modes.tau, "E_inf": modes.E_inf, "speed": model.SPEED} | held
         solution = _solve(True, given, derivatives=True)
         yield from _compare(case, solution, given, _STEP, lambda there: _solve(True, there).friction_coefficient)
 

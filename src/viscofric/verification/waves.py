@@ -22,19 +22,12 @@ from viscofric.contact.reference import (
     winkler_line,
 )
 from viscofric.rheology.material import Material
+from viscofric.verification import model_problems as model
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_periodic, solve_steady
-from viscofric.verification.model_problems import (
-    HERTZ_RADIUS,
-    POISSON_RATIO,
-    RUBBER_MODULUS,
-    one_time,
-    rising_modes,
-    solve_ball,
-)
 
 _WAVELENGTH, _AMPLITUDE = 1e-3, 1e-6  # m: slopes of 0.006
-_RUBBER = one_time(10.0, 1.0)
+_RUBBER = model.one_time(10.0, 1.0)
 _NU = 0.3  # of layers that can be compressed
 
 
@@ -45,11 +38,11 @@ def _wave(points: int) -> Array:
 def _full_contact() -> Iterator[Comparison]:
     points = 32
     surface = PeriodicSurface(_AMPLITUDE * _wave(points), _WAVELENGTH / points)
-    for name, rubber in (("one time", _RUBBER), ("37 modes", rising_modes(1e6))):
+    for name, rubber in (("one time", _RUBBER), ("37 modes", model.rising_modes(1e6))):
         for speed in (1e-6, 1e-3, 0.1, 1.0, 1e3, -0.1):
             modulus = complex(rubber.complex_modulus(2.0 * np.pi * abs(speed) / _WAVELENGTH))
             pressure = 10.0 * abs(modulus) * _AMPLITUDE / _WAVELENGTH
-            known = full_contact_wave(pressure, _AMPLITUDE, _WAVELENGTH, modulus, POISSON_RATIO)
+            known = full_contact_wave(pressure, _AMPLITUDE, _WAVELENGTH, modulus, model.POISSON_RATIO)
             found = solve_periodic(rubber, surface, speed=speed, pressure=pressure)
             case = f"{name}, v = {speed:g} m/s"
             friction = math.copysign(known.friction_coefficient, speed)
@@ -62,9 +55,9 @@ def _full_contact() -> Iterator[Comparison]:
 def _westergaard() -> Iterator[Comparison]:
     points = 2048
     surface = PeriodicSurface(_AMPLITUDE * _wave(points), _WAVELENGTH / points)
-    full = math.pi * RUBBER_MODULUS / (1.0 - POISSON_RATIO**2) * _AMPLITUDE / _WAVELENGTH
+    full = math.pi * model.RUBBER_MODULUS / (1.0 - model.POISSON_RATIO**2) * _AMPLITUDE / _WAVELENGTH
     for share in (0.1, 0.5, 0.9):
-        known = westergaard(share * full, _AMPLITUDE, _WAVELENGTH, RUBBER_MODULUS, POISSON_RATIO)
+        known = westergaard(share * full, _AMPLITUDE, _WAVELENGTH, model.RUBBER_MODULUS, model.POISSON_RATIO)
         found = solve_periodic(_RUBBER, surface, speed=0.0, pressure=share * full)
         case = f"mean pressure {share:g} of that of full contact"
         area = found.contact_area_fraction
@@ -76,7 +69,7 @@ def _crossed() -> Iterator[Comparison]:
     points = 256
     wave = _wave(points)
     surface = PeriodicSurface(_AMPLITUDE * np.outer(wave, wave), _WAVELENGTH / points)
-    known = crossed_waves(_AMPLITUDE, _WAVELENGTH, RUBBER_MODULUS, POISSON_RATIO)
+    known = crossed_waves(_AMPLITUDE, _WAVELENGTH, model.RUBBER_MODULUS, model.POISSON_RATIO)
     full = known.full_contact_pressure
     closed = solve_periodic(_RUBBER, surface, speed=0.0, pressure=1.001 * full)
     yield Comparison("just closed", "area fraction", closed.contact_area_fraction, 1.0, 0.0, "absolute")
@@ -177,8 +170,8 @@ def _single_layers() -> Iterator[Comparison]:
         point = rolling_foundation_ball(on_ball, *arguments).friction_coefficient
         ball = solve_steady(rubber, Ball(1.0), speed=1.0, load=on_ball, layer=layer).friction_coefficient
         yield Comparison(f"ball, {thin}, vτ/a0 = {memory:g}", "friction coefficient", ball, point, 2e-3)
-    half_space = solve_ball(one_time(_RATIO, 1.0)).friction_coefficient
-    deep = solve_ball(one_time(_RATIO, 1.0), layer=Layer(_DEEP * HERTZ_RADIUS)).friction_coefficient
+    half_space = model.solve_ball(model.one_time(_RATIO, 1.0)).friction_coefficient
+    deep = model.solve_ball(model.one_time(_RATIO, 1.0), layer=Layer(_DEEP * model.HERTZ_RADIUS)).friction_coefficient
     yield Comparison(f"ball, H = {_DEEP:g} a0, vτ/a0 = 1", "friction coefficient", deep, half_space, 1e-4)
 
 

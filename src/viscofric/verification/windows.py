@@ -9,17 +9,9 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.verification import model_problems as model
 from viscofric.verification.check import Check, Comparison
 from viscofric.verification.engine import solve_periodic
-from viscofric.verification.model_problems import (
-    BALL_LOAD,
-    HERTZ_RADIUS,
-    RADIUS,
-    SLOPE,
-    SPEED,
-    one_time,
-    solve_ball,
-)
 
 MODULUS_RATIO, MEMORY_LENGTH = 10.0, 10.0
 PERIODS = (2.4, 4.8, 9.6, 19.2, 38.4)  # a0
@@ -48,17 +40,17 @@ class Windows:
 
 def windows() -> Windows:
     """Solve the periodic contacts and the free one."""
-    material = one_time(MODULUS_RATIO, MEMORY_LENGTH)
-    cell = PERIODS[0] * HERTZ_RADIUS / _CELLS
+    material = model.one_time(MODULUS_RATIO, MEMORY_LENGTH)
+    cell = PERIODS[0] * model.HERTZ_RADIUS / _CELLS
     friction = []
     for period in PERIODS:
-        cells = round(period * HERTZ_RADIUS / cell)
+        cells = round(period * model.HERTZ_RADIUS / cell)
         x = cell * (np.arange(cells) - 0.5 * cells + 0.5)
-        surface = PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * RADIUS), cell)
-        pressure = BALL_LOAD / (cells * cell) ** 2
-        found = solve_periodic(material, surface, speed=SPEED, pressure=pressure, tolerance=1e-7)
-        friction.append(found.friction_coefficient / SLOPE)
-    return Windows(np.array(PERIODS), np.array(friction), solve_ball(material).friction_coefficient / SLOPE)
+        surface = PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * model.RADIUS), cell)
+        pressure = model.BALL_LOAD / (cells * cell) ** 2
+        found = solve_periodic(material, surface, speed=model.SPEED, pressure=pressure, tolerance=1e-7)
+        friction.append(found.friction_coefficient / model.SLOPE)
+    return Windows(np.array(PERIODS), np.array(friction), model.solve_ball(material).friction_coefficient / model.SLOPE)
 
 
 def _windows() -> Iterator[Comparison]:

@@ -14,24 +14,8 @@ from matplotlib.figure import Figure
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
 from viscofric.report.data import as_dataset
+from viscofric.report.figures import style
 from viscofric.report.figures.interface import plot_friction_parts
-from viscofric.report.figures.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    INK,
-    ORANGE,
-    PURPLE,
-    VERMILION,
-    Unit,
-    at_temperature,
-    legend_beside,
-    new_figure,
-    plain_numbers,
-    slender_bar,
-    speed_ticks,
-    unit_for,
-)
 from viscofric.report.results import group, nominal_temperatures, number, values
 from viscofric.report.sweeps import axis_of, best_estimate, thinned
 from viscofric.report.texts.numbers import short
@@ -45,12 +29,12 @@ MOST_PANELS = 3
 #: A rise that is everywhere below this share of the largest is not drawn; two that differ by less than a share are one.
 _LEAST, _SAME = 1e-6, 0.02
 _RISES = (
-    ("temperature_rise", "that the rubber responds to", INK, "-"),
-    ("coulomb_rise", "by Coulomb friction", ORANGE, "--"),
-    ("loss_rise", "by the viscoelastic loss", BLUE, "--"),
-    ("track_rise", "of it by earlier passes", PURPLE, ":"),
-    ("face_rise", "of the face", VERMILION, "-."),
-    ("loss_weighted_rise", "where the loss is released", GREEN, "-."),
+    ("temperature_rise", "that the rubber responds to", style.INK, "-"),
+    ("coulomb_rise", "by Coulomb friction", style.ORANGE, "--"),
+    ("loss_rise", "by the viscoelastic loss", style.BLUE, "--"),
+    ("track_rise", "of it by earlier passes", style.PURPLE, ":"),
+    ("face_rise", "of the face", style.VERMILION, "-."),
+    ("loss_weighted_rise", "where the loss is released", style.GREEN, "-."),
 )
 
 
@@ -78,19 +62,19 @@ def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | Dataset) -> 
     names = ("speed", mu, "isothermal_friction", "cold_friction", "hot_friction")
     speed, warm, isothermal, cold, hot = (values(data, name) for name in names)
     speed = _MILLIMETRES * speed
-    axes.plot(speed, isothermal, color=GREY, linestyle="--", label="isothermal")
+    axes.plot(speed, isothermal, color=style.GREY, linestyle="--", label="isothermal")
     two = hot != cold
     if np.any(two):
-        axes.fill_between(speed, cold, hot, color=VERMILION, alpha=0.2, linewidth=0.0, label="hysteresis")
-        axes.plot(speed, cold, color=BLUE, marker="o", markersize=3, label="heated, speed rising")
-        axes.plot(speed, hot, color=VERMILION, marker="s", markersize=3, label="heated, speed falling")
+        axes.fill_between(speed, cold, hot, color=style.VERMILION, alpha=0.2, linewidth=0.0, label="hysteresis")
+        axes.plot(speed, cold, color=style.BLUE, marker="o", markersize=3, label="heated, speed rising")
+        axes.plot(speed, hot, color=style.VERMILION, marker="s", markersize=3, label="heated, speed falling")
     else:
-        axes.plot(speed, warm, color=INK, marker="o", markersize=3, label="heated")
+        axes.plot(speed, warm, color=style.INK, marker="o", markersize=3, label="heated")
     axes.set(xscale="log", ylabel=r"viscoelastic friction $\mu$")
     axes.set_ylim(0.0, 1.08 * float(np.nanmax(np.concatenate([isothermal, cold, hot]))))
-    axes.set_xlabel(r"speed $v$ (mm/s)" + at_temperature(kelvin))
-    speed_ticks(axes.xaxis)
-    plain_numbers(axes, "y")
+    axes.set_xlabel(r"speed $v$ (mm/s)" + style.at_temperature(kelvin))
+    style.speed_ticks(axes.xaxis)
+    style.plain_numbers(axes, "y")
     axes.legend(title="predicted", alignment="left")
 
 
@@ -123,9 +107,9 @@ def plot_temperature_rise(axes: Axes, curves: HeatedFrictionCurves | Dataset) ->
             shown = np.where(rise > 0.0, rise, math.nan)
             axes.plot(speed, shown, color=colour, linestyle=dashes, marker=".", label=said)
     axes.set(xscale="log", yscale="log", ylabel=r"rise of temperature $\Delta T$ (K)")
-    axes.set_xlabel(r"speed $v$ (mm/s)" + at_temperature(kelvin))
-    speed_ticks(axes.xaxis)
-    legend_beside(axes, title="predicted mean rise")
+    axes.set_xlabel(r"speed $v$ (mm/s)" + style.at_temperature(kelvin))
+    style.speed_ticks(axes.xaxis)
+    style.legend_beside(axes, title="predicted mean rise")
 
 
 def _one_curve(curves: HeatedFrictionCurves | Dataset) -> tuple[Dataset, float]:
@@ -157,7 +141,7 @@ def heating_figure(tree: DataTree) -> Figure | None:
 
 
 def _pairs(curves: Sequence[tuple[str, Dataset]]) -> Figure:
-    figure = new_figure(11.0, 3.4 * len(curves))
+    figure = style.new_figure(11.0, 3.4 * len(curves))
     for (left, right), (words, curve) in zip(figure.subplots(len(curves), 2, squeeze=False), curves, strict=True):
         plot_heated_friction(left, curve)
         plot_temperature_rise(right, curve)
@@ -170,7 +154,7 @@ def heated_parts_figure(tree: DataTree) -> Figure | None:
     curves = [(words, rubbed) for words, one in _shown(tree) if (rubbed := _with_coulomb(one)) is not None]
     if not curves:
         return None
-    figure = new_figure(7.4, 3.2 * len(curves))
+    figure = style.new_figure(7.4, 3.2 * len(curves))
     for axes, (words, curve) in zip(figure.subplots(len(curves), 1, squeeze=False)[:, 0], curves, strict=True):
         plot_friction_parts(axes, curve)
         axes.set_title(words)
@@ -216,11 +200,11 @@ def temperature_map_figure(tree: DataTree) -> Figure | None:
     if data is None:
         return None
     line = data.sizes["y"] == 1
-    figure = new_figure(6.2, 3.2 if line else 5.6)
+    figure = style.new_figure(6.2, 3.2 if line else 5.6)
     panels = [figure.subplots()] if line else list(figure.subplots(2, 1, height_ratios=[1.6, 1.0]))
     if not line:
         mesh = _plot_map(panels[0], data)
-        slender_bar(figure, mesh, panels[:1], r"rise of temperature $\Delta T$ (K)")
+        style.slender_bar(figure, mesh, panels[:1], r"rise of temperature $\Delta T$ (K)")
     _plot_centre_line(panels[-1], data)
     if not line:
         panels[1].set_xlim(panels[0].get_xlim())
@@ -242,10 +226,10 @@ def _plot_centre_line(axes: Axes, data: Dataset) -> None:
     middle = data.sizes["y"] // 2
     x, rise = values(data, "x"), data["rise"].values[:, middle]
     inside = data["contact"].values[:, middle] > 0.5
-    unit = unit_for(float(np.abs(x).max())) if data.sizes["y"] == 1 else Unit(1.0 / _MILLIMETRES, "mm")
-    axes.axvspan(x[inside][0] / unit.size, x[inside][-1] / unit.size, color=GREY, alpha=0.2, linewidth=0.0)
-    axes.plot(x / unit.size, rise, color=VERMILION, label="centre line")
+    unit = style.unit_for(float(np.abs(x).max())) if data.sizes["y"] == 1 else style.Unit(1.0 / _MILLIMETRES, "mm")
+    axes.axvspan(x[inside][0] / unit.size, x[inside][-1] / unit.size, color=style.GREY, alpha=0.2, linewidth=0.0)
+    axes.plot(x / unit.size, rise, color=style.VERMILION, label="centre line")
     mean = number(data.attrs, "face_rise")
-    axes.axhline(mean, color=INK, linewidth=0.8, linestyle="--", label=f"mean of the contact, {short(mean, 3)} K")
+    axes.axhline(mean, color=style.INK, linewidth=0.8, linestyle="--", label=f"mean of the contact, {short(mean, 3)} K")
     axes.set(xlabel=f"along the motion $x$ ({unit.name}) →", ylabel=r"$\Delta T$ (K)", ylim=(0.0, None))
     axes.legend(loc="best")

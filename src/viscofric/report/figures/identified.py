@@ -12,17 +12,7 @@ from matplotlib.figure import Figure
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.report.data import Master, Moduli, as_dataset, moduli, moduli_of_master_curve, modulus_band
-from viscofric.report.figures.style import (
-    BLUE,
-    GREY,
-    INK,
-    VERMILION,
-    at_temperature,
-    decade_ticks,
-    legend_above,
-    logarithmic,
-    new_figure,
-)
+from viscofric.report.figures import style
 from viscofric.report.results import number, values
 from viscofric.rheology.material import Material
 from viscofric.units import shown_celsius
@@ -54,10 +44,10 @@ def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Mate
     if high > low:
         relative = number(data.attrs, "anchored") == 0.0
         known_to = f"known to {100.0 * limit:g} %" + (" except for its magnitude" if relative else "")
-        handles.append(axes.axvspan(low, high, color=GREY, alpha=0.15, linewidth=0.0, zorder=0, label=known_to))
+        handles.append(axes.axvspan(low, high, color=style.GREY, alpha=0.15, linewidth=0.0, zorder=0, label=known_to))
     for symbol, value, limits, colour in (
-        ("$E'$", modulus.storage, bounds.storage, BLUE),
-        ("$E''$", modulus.loss, bounds.loss, VERMILION),
+        ("$E'$", modulus.storage, bounds.storage, style.BLUE),
+        ("$E''$", modulus.loss, bounds.loss, style.VERMILION),
     ):
         value, limits = value / _MEGAPASCAL, limits / _MEGAPASCAL
         shade: dict[str, Any] = {"color": colour, "alpha": 0.22, "linewidth": 0.0, "zorder": 1}
@@ -67,22 +57,28 @@ def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Mate
     if known is not None:
         handles += _plot_known(axes, known, frequency)
     axes.set_xlim(frequency[0], frequency[-1])
-    axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(modulus.reference))
+    axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + style.at_temperature(modulus.reference))
     axes.set_ylabel("modulus (MPa)")
-    logarithmic(axes)
-    legend_above(axes, handles, columns=3)
+    style.logarithmic(axes)
+    style.legend_above(axes, handles, columns=3)
 
 
 def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[Any]:
     if isinstance(known, Material):
         modulus = np.asarray(known.complex_modulus(frequency)) / _MEGAPASCAL
-        handles = axes.plot(frequency, modulus.real, color=INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
-        axes.plot(frequency, modulus.imag, color=INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
+        handles = axes.plot(frequency, modulus.real, color=style.INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
+        axes.plot(frequency, modulus.imag, color=style.INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
         handles[0].set_label(known.name or "for comparison")
         return list(handles)
     points: Moduli = moduli_of_master_curve(known)
     near = (points.angular_frequency >= frequency[0]) & (points.angular_frequency <= frequency[-1])
-    look: dict[str, Any] = {"color": INK, "markersize": 3.0, "fillstyle": "none", "markeredgewidth": 0.7, "zorder": 2}
+    look: dict[str, Any] = {
+        "color": style.INK,
+        "markersize": 3.0,
+        "fillstyle": "none",
+        "markeredgewidth": 0.7,
+        "zorder": 2,
+    }
     handles = axes.plot(points.angular_frequency[near], points.storage[near] / _MEGAPASCAL, "s", **look)
     axes.plot(points.angular_frequency[near], points.loss[near] / _MEGAPASCAL, "o", **look)
     handles[0].set_label("DMA")
@@ -91,7 +87,7 @@ def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[
 
 def identified_figure(found: Identified, known: Material | None = None) -> Figure:
     """Return a figure of an identified modulus, beside a known one."""
-    figure = new_figure()
+    figure = style.new_figure()
     plot_identified_modulus(figure.subplots(), found, _at_reference(known, found))
     return figure
 
@@ -105,7 +101,7 @@ def _at_reference(known: Material | None, found: Identified) -> Material | None:
 def indentation_figure(found: MaterialFromIndentation, known: Material | None = None) -> Figure:
     """Return a figure of a modulus identified from indentation, the fits of its records, and their residuals."""
     kinds = list(dict.fromkeys(one.quantity for one in found.records))
-    figure = new_figure(height=3.4 * (1 + len(kinds)))
+    figure = style.new_figure(height=3.4 * (1 + len(kinds)))
     rows = figure.subplots(1 + len(kinds), 2, squeeze=False, width_ratios=(3, 2))
     whole = rows[0][0].get_gridspec()
     for axes in rows[0]:
@@ -146,10 +142,10 @@ def plot_fitted_records(axes: Axes, below: Axes, records: Sequence[FittedRecord]
         plot_fitted_record(axes, one, f"C{place}")
         below.plot(one.along, one.residuals, "o", color=f"C{place}", markersize=2.5)
     label = axes.get_xlabel()
-    below.axhspan(-1.96, 1.96, color=GREY, alpha=0.15, linewidth=0.0)
+    below.axhspan(-1.96, 1.96, color=style.GREY, alpha=0.15, linewidth=0.0)
     below.set(xscale="log", xlabel=label, ylabel="residual over its error")
     for axis in (axes.xaxis, axes.yaxis, below.xaxis):
-        decade_ticks(axis)
+        style.decade_ticks(axis)
     axes.legend()
 
 

@@ -15,20 +15,8 @@ from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.report.data import Measured, as_dataset
+from viscofric.report.figures import style
 from viscofric.report.figures.friction import plot_measured
-from viscofric.report.figures.style import (
-    BLUE,
-    GREY,
-    INK,
-    ORANGE,
-    at_temperature,
-    legend_beside,
-    new_figure,
-    origin,
-    plain_numbers,
-    speed_ticks,
-    temperature_handles,
-)
 from viscofric.report.results import group, is_synthetic, nearest, nominal_temperatures, number, values
 from viscofric.report.sweeps import SAMPLE, solved_cases, sweep_axes, thinned
 from viscofric.rheology.interface.law import InterfaceLaw
@@ -79,28 +67,28 @@ def plot_shear_stress(
     nominal = nominal_temperatures(temperature[known])
     megapascals = (_MEGA * values(points, name) for name in ("shear_stress", "shear_stress_error"))
     plot_measured(axes, Measured(reduced, temperature, *megapascals), nominal)
-    handles = temperature_handles(nominal)[::-1]
+    handles = style.temperature_handles(nominal)[::-1]
     decades = np.log10(reduced[known])
     speeds = np.logspace(decades.min() - _BEYOND, decades.max() + _BEYOND, 101)
     reference = number(points.attrs, "reference_temperature")
     for place, (law, dashes) in enumerate(zip(laws, _DASHES, strict=False)):
         handles.append(_plot_law(axes, as_dataset(law, speeds, reference), dashes, banded=place == 0))
     axes.set(xscale="log", yscale="log", ylabel=r"shear stress of the interface $\tau_\mathrm{s}$ (MPa)")
-    axes.set_xlabel(r"reduced slip speed $\alpha_T\,v$ (mm/s)" + at_temperature(reference))
-    speed_ticks(axes.xaxis)
-    speed_ticks(axes.yaxis)
-    title = f"points: {origin(synthetic)} ± standard error" + ("\nlines: fitted" if laws else "")
-    legend_beside(axes, handles, title)
+    axes.set_xlabel(r"reduced slip speed $\alpha_T\,v$ (mm/s)" + style.at_temperature(reference))
+    style.speed_ticks(axes.xaxis)
+    style.speed_ticks(axes.yaxis)
+    title = f"points: {style.origin(synthetic)} ± standard error" + ("\nlines: fitted" if laws else "")
+    style.legend_beside(axes, handles, title)
 
 
 def _plot_law(axes: Axes, line: Dataset, dashes: Any, *, banded: bool) -> Line2D:
     """Draw a law at one temperature, and return what the legend shows of it."""
     speed, stress = _MILLIMETRES * values(line, "speed"), _MEGA * np.ravel(line["shear_stress"].values)
-    colour = INK if banded else GREY
+    colour = style.INK if banded else style.GREY
     axes.plot(speed, stress, color=colour, linestyle=dashes)
     if banded and "standard_error" in line:
         factor = 10.0 ** (LEVEL_95 * np.ravel(line["standard_error"].values))
-        axes.fill_between(speed, stress / factor, stress * factor, color=GREY, alpha=0.3, linewidth=0)
+        axes.fill_between(speed, stress / factor, stress * factor, color=style.GREY, alpha=0.3, linewidth=0)
     return Line2D([], [], color=colour, linestyle=dashes, label=str(line.attrs["law"]))
 
 
@@ -133,15 +121,17 @@ def plot_friction_parts(axes: Axes, curves: FrictionCurves | RoughFriction | Per
     order = np.argsort(parts.speed, kind="stable")
     speed, hysteresis = _MILLIMETRES * parts.speed[order], parts.hysteresis[order]
     total, half = hysteresis + parts.interface[order], LEVEL_95 * parts.error[order]
-    axes.fill_between(speed, 0.0, hysteresis, color=BLUE, alpha=0.6, linewidth=0, label="hysteresis")
+    axes.fill_between(speed, 0.0, hysteresis, color=style.BLUE, alpha=0.6, linewidth=0, label="hysteresis")
     named = "Coulomb, given" if parts.given else "interface"
-    axes.fill_between(speed, hysteresis, total, color=ORANGE, alpha=0.6, linewidth=0, label=named)
-    axes.errorbar(speed, total, yerr=half, color=INK, marker="o", markersize=3, elinewidth=1.0, label="total, 95 %")
+    axes.fill_between(speed, hysteresis, total, color=style.ORANGE, alpha=0.6, linewidth=0, label=named)
+    axes.errorbar(
+        speed, total, yerr=half, color=style.INK, marker="o", markersize=3, elinewidth=1.0, label="total, 95 %"
+    )
     axes.set(xscale="log", ylabel=r"friction coefficient $\mu$", ylim=(0.0, 1.08 * float(np.nanmax(total + half))))
-    axes.set_xlabel(r"speed $v$ (mm/s)" + "".join(at_temperature(one) for one in nominal.tolist()))
-    speed_ticks(axes.xaxis)
-    plain_numbers(axes, "y")
-    legend_beside(axes, title="predicted")
+    axes.set_xlabel(r"speed $v$ (mm/s)" + "".join(style.at_temperature(one) for one in nominal.tolist()))
+    style.speed_ticks(axes.xaxis)
+    style.plain_numbers(axes, "y")
+    style.legend_beside(axes, title="predicted")
 
 
 class _Parts(NamedTuple):
@@ -193,7 +183,7 @@ def stress_figure(tree: DataTree) -> Figure | None:
     stress, law = group(tree, "interface"), group(tree, "interface_law")
     if stress is None:
         return None
-    figure = new_figure(7.4, 4.3)
+    figure = style.new_figure(7.4, 4.3)
     plot_shear_stress(figure.subplots(), stress, () if law is None else [law], synthetic=is_synthetic(tree))
     return figure
 
@@ -209,7 +199,7 @@ def parts_figure(tree: DataTree) -> Figure | None:
     temperature = values(cases, "temperature")
     nominal = nominal_temperatures(temperature)
     shown = thinned(nominal.size, MOST_PANELS)
-    figure = new_figure(7.4, 3.0 * len(shown))
+    figure = style.new_figure(7.4, 3.0 * len(shown))
     for axes, place in zip(figure.subplots(len(shown), 1, squeeze=False)[:, 0], shown, strict=True):
         plot_friction_parts(axes, cases.isel(case=np.flatnonzero(nearest(nominal, temperature) == place)))
     return figure

@@ -10,19 +10,7 @@ from matplotlib.axes import Axes
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import check_choice
-from viscofric.report.figures.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    INK,
-    ORANGE,
-    PURPLE,
-    VERMILION,
-    Unit,
-    looks,
-    speed_ticks,
-    unit_for,
-)
+from viscofric.report.figures import style
 from viscofric.report.texts.numbers import degrees, prefixed
 from viscofric.units import celsius
 
@@ -37,29 +25,29 @@ class _Line(NamedTuple):
 
 #: Quantity -> label of its axis, and what is drawn of it where the data set has it.
 _QUANTITIES: dict[str, tuple[str, tuple[_Line, ...]]] = {
-    "load": ("normal load $F$", (_Line("load", INK),)),
-    "indentation": (r"indentation $\delta$", (_Line("indentation", GREEN),)),
-    "friction_force": ("friction force $T$", (_Line("friction_force", VERMILION),)),
-    "friction_coefficient": (r"friction coefficient $\mu$", (_Line("friction_coefficient", VERMILION),)),
+    "load": ("normal load $F$", (_Line("load", style.INK),)),
+    "indentation": (r"indentation $\delta$", (_Line("indentation", style.GREEN),)),
+    "friction_force": ("friction force $T$", (_Line("friction_force", style.VERMILION),)),
+    "friction_coefficient": (r"friction coefficient $\mu$", (_Line("friction_coefficient", style.VERMILION),)),
     "contact": (
         "contact",
         (
-            _Line("contact_radius", BLUE, "radius"),
-            _Line("front", BLUE, "ahead of the axis"),
-            _Line("rear", ORANGE, "behind the axis"),
-            _Line("half_width", PURPLE, "half-width across"),
+            _Line("contact_radius", style.BLUE, "radius"),
+            _Line("front", style.BLUE, "ahead of the axis"),
+            _Line("rear", style.ORANGE, "behind the axis"),
+            _Line("half_width", style.PURPLE, "half-width across"),
         ),
     ),
     "energy": (
         "energy",
         (
-            _Line("work", INK, "work on the material"),
-            _Line("stored", BLUE, "stored"),
-            _Line("dissipated", VERMILION, "dissipated"),
+            _Line("work", style.INK, "work on the material"),
+            _Line("stored", style.BLUE, "stored"),
+            _Line("dissipated", style.VERMILION, "dissipated"),
         ),
     ),
 }
-_AREA = (_Line("contact_area", BLUE),)
+_AREA = (_Line("contact_area", style.BLUE),)
 #: Labels of a periodic contact, whose loads are mean pressures.
 _PER_AREA = {
     "load": r"mean pressure $\bar p$",
@@ -105,7 +93,7 @@ def plot_transient(axes: Axes, data: Dataset, quantity: str = "friction_coeffici
             bound = np.asarray(error) / unit.size
             axes.fill_between(along, values - bound, values + bound, color=line.colour, alpha=0.2, linewidth=0.0)
         axes.plot(along, values, color=line.colour, label=line.words)
-    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     axes.set(xlabel=label, ylabel=f"{title} ({unit.name})" if unit.name else title)
     if len(lines) > 1:
         axes.legend(loc="best")
@@ -123,7 +111,7 @@ def plot_force_depth(axes: Axes, data: Dataset) -> None:
     inside = data.where(data["load"] > 0.0, 0.0)
     depth, load = _unit_of(inside, ["indentation"]), _unit_of(data, ["load"])
     x, y = np.asarray(data["indentation"]) / depth.size, np.asarray(data["load"]) / load.size
-    axes.plot(x, y, color=INK)
+    axes.plot(x, y, color=style.INK)
     if np.any(y > 0.0):  # flights between contacts reach far above the surface
         low, high = min(0.0, float(x[y > 0.0].min())), float(x[y > 0.0].max())
         axes.set_xlim(low - _BESIDE * (high - low), high + _BESIDE * (high - low))
@@ -142,17 +130,17 @@ def plot_friction_loop(axes: Axes, data: Dataset) -> None:
         As `TransientSolution.to_dataset` returns it.
     """
     position = position_along(data)
-    where = unit_for(float(np.abs(position).max()))
+    where = style.unit_for(float(np.abs(position).max()))
     unit = _unit_of(data, ["friction_force"])
     x, y = position / where.size, np.asarray(data["friction_force"]) / unit.size
-    axes.plot(x, y, color=VERMILION)
-    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    axes.plot(x, y, color=style.VERMILION)
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     for place in _arrow_places(x):
         axes.annotate(
             "",
             xy=(float(x[place + 1]), float(y[place + 1])),
             xytext=(float(x[place]), float(y[place])),
-            arrowprops={"arrowstyle": "->", "color": VERMILION, "linewidth": 1.2},
+            arrowprops={"arrowstyle": "->", "color": style.VERMILION, "linewidth": 1.2},
         )
     axes.set_xlabel(f"position along the motion ({where.name})")
     axes.set_ylabel(f"{_title(data, 'friction_force')} ({unit.name})")
@@ -173,18 +161,18 @@ def plot_restitution(axes: Axes, data: Dataset) -> None:
     speeds, values = np.asarray(data["speed"]), np.asarray(curve.transpose("temperature", "speed"))
     kelvins = np.atleast_1d(np.asarray(data["temperature"])) if "temperature" in data.coords else None
     if kelvins is not None and len(kelvins) > len(speeds):
-        for value, column, look in zip(speeds, values.T, looks(len(speeds)), strict=True):
+        for value, column, look in zip(speeds, values.T, style.looks(len(speeds)), strict=True):
             words = prefixed(float(value), None, "m/s")
             celsius_values = [celsius(float(one)) for one in kelvins]
             axes.plot(celsius_values, column, color=look.colour, marker=look.marker, label=words)
         axes.set_xlabel("temperature (°C)")
     else:
         names = [""] if kelvins is None else [degrees(float(one)) for one in kelvins]
-        for words, row, look in zip(names, values, looks(len(values)), strict=True):
+        for words, row, look in zip(names, values, style.looks(len(values)), strict=True):
             axes.plot(speeds, row, color=look.colour, marker=look.marker, label=words)
         if len(speeds) > 1:
             axes.set_xscale("log")
-            speed_ticks(axes.xaxis)
+            style.speed_ticks(axes.xaxis)
         axes.set_xlabel("speed of the impact (m/s)")
     axes.set_ylim(0.0, 1.05)
     axes.set_ylabel("coefficient of restitution $e$")
@@ -218,7 +206,7 @@ def returns(data: Dataset) -> bool:
 def _along(data: Dataset, against: str) -> tuple[Array, str]:
     """Return the values of the axis across, and its label."""
     values, base = (np.asarray(data["time"]), "s") if against == "time" else (distance(data), "m")
-    unit = unit_for(float(np.abs(values).max()), base)
+    unit = style.unit_for(float(np.abs(values).max()), base)
     return values / unit.size, f"{against} {'$t$' if against == 'time' else '$s$'} ({unit.name})"
 
 
@@ -236,15 +224,15 @@ def _title(data: Dataset, quantity: str) -> str:
     return titles.get(quantity, _QUANTITIES[quantity][0])
 
 
-def _unit_of(data: Dataset, columns: list[str]) -> Unit:
+def _unit_of(data: Dataset, columns: list[str]) -> style.Unit:
     """Return the unit in which some columns are drawn."""
     base = str(data[columns[0]].attrs["units"])
     if base == "1":
-        return Unit(1.0, "")
+        return style.Unit(1.0, "")
     largest = max(float(np.abs(np.asarray(data[name])).max(initial=0.0)) for name in columns)
     if base == "m2":
-        return Unit(1e-6, "mm²") if largest < 1e-2 else Unit(1.0, "m²")
-    return unit_for(largest, base.replace("m2", "m²"))
+        return style.Unit(1e-6, "mm²") if largest < 1e-2 else style.Unit(1.0, "m²")
+    return style.unit_for(largest, base.replace("m2", "m²"))
 
 
 def _arrow_places(x: Array) -> list[int]:

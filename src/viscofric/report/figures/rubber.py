@@ -21,17 +21,7 @@ from viscofric.report.data import (
     moduli_of_sweeps,
     modulus_band,
 )
-from viscofric.report.figures.style import (
-    BLUE,
-    GREY,
-    INK,
-    VERMILION,
-    at_temperature,
-    legend_above,
-    logarithmic,
-    origin,
-    temperature_scale,
-)
+from viscofric.report.figures import style
 from viscofric.report.results import nearest, nominal_temperatures, number, values
 from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.spectra.modulus_table import ModulusTable
@@ -71,7 +61,7 @@ def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "l
     columns = (measured.temperature, measured.angular_frequency, value)
     scale = draw_by_temperature(axes, *(column[order] for column in columns), marker=marker)
     axes.set(xlabel=r"angular frequency $\omega$ (rad/s)", ylabel=modulus_label(measured.symbol, modulus))
-    logarithmic(axes)
+    style.logarithmic(axes)
     return scale
 
 
@@ -80,7 +70,7 @@ def draw_by_temperature(axes: Axes, temperature: Array, x: Array, y: Array, **lo
     nominal = nominal_temperatures(temperature)
     if not nominal.size:
         nominal = np.array([293.15])  # a scale for the colour bar of an empty figure
-    scale = temperature_scale(nominal)
+    scale = style.temperature_scale(nominal)
     which = nearest(nominal, temperature)
     look = {"marker": "o", "markersize": 3, "linewidth": 0.8, **look}
     for index, kelvin in enumerate(nominal):
@@ -134,16 +124,16 @@ def plot_master_curve(
     handles: list[Any] = []
     bands: list[Any] = []
     for name, symbol, marker, colour, dashes in (
-        ("storage", "$E'$", "s", BLUE, "-"),
-        ("loss", "$E''$", "o", VERMILION, (0, (5, 1.5))),
+        ("storage", "$E'$", "s", style.BLUE, "-"),
+        ("loss", "$E''$", "o", style.VERMILION, (0, (5, 1.5))),
     ):
         value = getattr(measured, name) / _PASCAL_PER_MEGAPASCAL
         dots: dict[str, Any] = {"color": colour, "markersize": 3.5, "markeredgewidth": 0.8, "fillstyle": "none"}
-        handles += axes.plot(frequency, value, marker, label=f"{symbol} {origin(synthetic)}", **dots)
+        handles += axes.plot(frequency, value, marker, label=f"{symbol} {style.origin(synthetic)}", **dots)
         if fitted is not None:
             order = np.argsort(fitted.angular_frequency, kind="stable")
             line, part = fitted.angular_frequency[order], getattr(fitted, name)[order] / _PASCAL_PER_MEGAPASCAL
-            handles += axes.plot(line, part, color=INK, linestyle=dashes, linewidth=1.2, label=f"{symbol} fitted")
+            handles += axes.plot(line, part, color=style.INK, linestyle=dashes, linewidth=1.2, label=f"{symbol} fitted")
         if bounds is not None:
             lower, upper = getattr(bounds, name) / _PASCAL_PER_MEGAPASCAL
             look: dict[str, Any] = {"color": colour, "alpha": 0.25, "linewidth": 0, "zorder": 1}
@@ -152,8 +142,8 @@ def plot_master_curve(
     if bands and frequency.size:
         bands += _shade_beyond(axes, float(frequency.min()), float(frequency.max()))
     axes.set(xlabel=_reduced_label(measured, reference_temperature), ylabel="modulus (MPa)")
-    logarithmic(axes)
-    legend_above(axes, handles + bands, columns=3 if bands else 2)
+    style.logarithmic(axes)
+    style.legend_above(axes, handles + bands, columns=3 if bands else 2)
 
 
 def plot_residuals(
@@ -176,25 +166,25 @@ def plot_residuals(
     handles: list[Any] = []
     largest = 0.01
     for symbol, value, fit, marker, colour in (
-        ("$E'$", measured.storage, fitted.storage, "s", BLUE),
-        ("$E''$", measured.loss, fitted.loss, "o", VERMILION),
+        ("$E'$", measured.storage, fitted.storage, "s", style.BLUE),
+        ("$E''$", measured.loss, fitted.loss, "o", style.VERMILION),
     ):
         left = np.log10(value / fit)
         rms = float(np.sqrt(np.mean(left**2))) if left.size else 0.0
         largest = max(largest, float(np.max(np.abs(left), initial=0.0)))
         dots: dict[str, Any] = {"color": colour, "markersize": 3, "markeredgewidth": 0.7, "fillstyle": "none"}
         handles += axes.plot(frequency, left, marker, label=f"{symbol}, rms {rms:#.3g}", **dots)
-    axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=0)
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8, zorder=0)
     axes.set_ylim(-1.12 * largest, 1.12 * largest)
     axes.set_xlabel(_reduced_label(measured, reference_temperature))
     axes.set_ylabel(r"$\log_{10}\,\frac{\mathrm{measured}}{\mathrm{fit}}$")
-    logarithmic(axes, "x")
-    legend_above(axes, handles)
+    style.logarithmic(axes, "x")
+    style.legend_above(axes, handles)
 
 
 def _reduced_label(measured: Moduli, reference: float | None) -> str:
     at = measured.reference if reference is None else reference
-    return r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(at)
+    return r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + style.at_temperature(at)
 
 
 def _wide(frequency: Array) -> Array:
@@ -223,15 +213,17 @@ def plot_step_master_curve(axes: Axes, curve: Dataset, *, synthetic: bool = Fals
     response = factor * np.asarray(curve[name])
     points: dict[str, Any] = {"marker": "o", "linestyle": "none", "markersize": 3, "fillstyle": "none"}
     scale = draw_by_temperature(axes, kelvin, time, response, **points)
-    handles = axes.plot([], [], color=INK, label=origin(synthetic), **points)
+    handles = axes.plot([], [], color=style.INK, label=style.origin(synthetic), **points)
     if f"fitted_{name}" in curve:
         fitted = factor * np.asarray(curve[f"fitted_{name}"])
         order = np.argsort(time, kind="stable")
-        handles += axes.plot(time[order], fitted[order], color=INK, linewidth=1.2, label="fitted")
-    axes.set_xlabel(r"reduced time $t/\alpha_T$ (s)" + at_temperature(number(curve.attrs, "reference_temperature")))
+        handles += axes.plot(time[order], fitted[order], color=style.INK, linewidth=1.2, label="fitted")
+    axes.set_xlabel(
+        r"reduced time $t/\alpha_T$ (s)" + style.at_temperature(number(curve.attrs, "reference_temperature"))
+    )
     axes.set_ylabel(label)
-    logarithmic(axes)
-    legend_above(axes, handles, columns=2)
+    style.logarithmic(axes)
+    style.legend_above(axes, handles, columns=2)
     return scale
 
 
@@ -257,12 +249,12 @@ def plot_retardation_spectrum(
     modes, fit = as_dataset(spectrum), getattr(spectrum, "fit", None)
     frequencies = None if fit is None else fit.frequency_range
     tau, C = values(modes, "retardation_time"), values(modes, "creep_coefficient")
-    _draw_modes(axes, tau, C * _PASCAL_PER_MEGAPASCAL, BLUE, "o")
+    _draw_modes(axes, tau, C * _PASCAL_PER_MEGAPASCAL, style.BLUE, "o")
     handles = [] if samples is None else _draw_band(axes, samples)
     if frequencies is not None:
         handles += _shade_beyond(axes, 1.0 / frequencies[1], 1.0 / frequencies[0])
     if handles:
-        legend_above(axes, handles)
+        style.legend_above(axes, handles)
     axes.set(xlabel=r"retardation time $\tau_k$ (s)", ylabel=r"compliance of a mode $C_k$ (1/MPa)")
 
 
@@ -277,7 +269,7 @@ def plot_relaxation_spectrum(axes: Axes, spectrum: RelaxationSpectrum | Retardat
     """
     series = as_dataset(spectrum.to_relaxation() if isinstance(spectrum, RetardationSpectrum) else spectrum)
     modulus = values(series, "modulus") / _PASCAL_PER_MEGAPASCAL
-    _draw_modes(axes, values(series, "relaxation_time"), modulus, VERMILION, "s")
+    _draw_modes(axes, values(series, "relaxation_time"), modulus, style.VERMILION, "s")
     axes.set(xlabel=r"relaxation time $\tau_k$ (s)", ylabel=r"modulus of a mode $E_k$ (MPa)")
 
 
@@ -293,7 +285,7 @@ def _draw_modes(axes: Axes, tau: Array, strength: Array, colour: str, marker: st
     axes.set_xlim(tau[shown].min() / 3.0, tau[shown].max() * 3.0)
     axes.vlines(tau[shown], axes.get_ylim()[0], strength[shown], color=colour, linewidth=1.1)
     axes.plot(tau[shown], strength[shown], marker, color=colour, markersize=4)
-    logarithmic(axes)
+    style.logarithmic(axes)
 
 
 def _draw_band(axes: Axes, samples: MaterialSamples) -> list[Any]:
@@ -302,7 +294,7 @@ def _draw_band(axes: Axes, samples: MaterialSamples) -> list[Any]:
     limits, band = axes.axis(), samples.spectrum_band()
     lower, upper = (np.maximum(side * _PASCAL_PER_MEGAPASCAL, limits[2]) for side in (band.lower, band.upper))
     filled = axes.fill_between(
-        samples.tau[0], lower, upper, color=BLUE, alpha=0.2, linewidth=0, zorder=1, label="95 % band"
+        samples.tau[0], lower, upper, color=style.BLUE, alpha=0.2, linewidth=0, zorder=1, label="95 % band"
     )
     axes.axis(limits)
     return [filled]
@@ -312,7 +304,7 @@ def _shade_beyond(axes: Axes, first: float, last: float) -> list[Any]:
     """Put grey behind what lies below the first and above the last measured place."""
     left, right = axes.get_xlim()
     spans = [
-        axes.axvspan(start, end, color=GREY, alpha=0.18, linewidth=0, zorder=0, label="extrapolated")
+        axes.axvspan(start, end, color=style.GREY, alpha=0.18, linewidth=0, zorder=0, label="extrapolated")
         for start, end in ((left, min(first, right)), (max(last, left), right))
         if start < end
     ]

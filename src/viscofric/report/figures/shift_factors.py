@@ -12,17 +12,7 @@ from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.report.data import FARTHER, Shifts, ShiftTable, as_dataset, law_line, law_residuals, shift_table
-from viscofric.report.figures.style import (
-    BLUE,
-    GREY,
-    INK,
-    VERMILION,
-    at_temperature,
-    legend_above,
-    logarithmic,
-    looks,
-    plain_numbers,
-)
+from viscofric.report.figures import style
 from viscofric.report.results import SAME_TEMPERATURE, values
 from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, WLFArrhenius
@@ -52,7 +42,7 @@ def plot_shift_factors(axes: Axes, shift_factors: Shifts, law: ShiftLaw | str | 
     table = shift_table(shift_factors)
     if isinstance(law, str):
         law = _fitted(shift_factors, law)
-    handles = [_points(axes, table, BLUE, "o", "isotherms, ± standard error")]
+    handles = [_points(axes, table, style.BLUE, "o", "isotherms, ± standard error")]
     if law is not None:
         handles += draw_law(axes, law, table.temperature)
     low, high = np.nanmin(table.log10), np.nanmax(table.log10)
@@ -76,13 +66,13 @@ def plot_vertical_shift(
     warm, b = values(data, "temperature") - CELSIUS_ZERO, 10.0 ** values(data, "log10_vertical_shift")
     if "vertical_standard_error" in data:
         error = np.log(10.0) * b * values(data, "vertical_standard_error")
-        axes.errorbar(warm, b, yerr=error, fmt="o", color=BLUE, markersize=4.5, elinewidth=1.0)
+        axes.errorbar(warm, b, yerr=error, fmt="o", color=style.BLUE, markersize=4.5, elinewidth=1.0)
     else:
-        axes.plot(warm, b, color=VERMILION)
-    axes.axhline(1.0, color=GREY, linewidth=0.8, zorder=0)
+        axes.plot(warm, b, color=style.VERMILION)
+    axes.axhline(1.0, color=style.GREY, linewidth=0.8, zorder=0)
     axes.set(xlabel="temperature (°C)", ylabel=r"vertical shift $b_T$")
-    plain_numbers(axes, "x")
-    plain_numbers(axes, "y")
+    style.plain_numbers(axes, "x")
+    style.plain_numbers(axes, "y")
 
 
 def _vertical(source: Any, temperatures: Array | None) -> Dataset:
@@ -108,11 +98,11 @@ def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLa
     warm = table.temperature - CELSIUS_ZERO
     doubt = LEVEL_95 * table.error
     handles: list[Any] = [
-        axes.fill_between(warm, -doubt, doubt, color=GREY, alpha=0.3, linewidth=0, label="95 % of the factors")
+        axes.fill_between(warm, -doubt, doubt, color=style.GREY, alpha=0.3, linewidth=0, label="95 % of the factors")
     ]
-    axes.axhline(0.0, color=GREY, linewidth=0.8, zorder=1)
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8, zorder=1)
     every = []
-    for law, look in zip(laws, looks(len(laws)), strict=True):
+    for law, look in zip(laws, style.looks(len(laws)), strict=True):
         residuals = law_residuals(law, table)
         left = values(residuals, "log10_residual")
         handles += axes.plot(
@@ -128,8 +118,8 @@ def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLa
         every.append(left)
     axes.set_ylim(*_limits_of_residuals(every, doubt))
     axes.set(xlabel="temperature (°C)", ylabel=r"$\log_{10}$ of measured over law's $\alpha_T$")
-    plain_numbers(axes, "x")
-    legend_above(axes, handles, columns=2)
+    style.plain_numbers(axes, "x")
+    style.legend_above(axes, handles, columns=2)
 
 
 def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -> None:
@@ -166,20 +156,20 @@ def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -
                 code="other-reference",
             )
         other = _between(other, table.temperature)
-        handles.append(_points(axes, other, INK, "s", "of the modulus, ± standard error"))
+        handles.append(_points(axes, other, style.INK, "s", "of the modulus, ± standard error"))
         lowest, highest = float(np.min(other.log10)), float(np.max(other.log10))
-    handles.append(_points(axes, table, BLUE, "o", "from friction, ± standard error"))
+    handles.append(_points(axes, table, style.BLUE, "o", "from friction, ± standard error"))
     low, high = min(lowest, float(table.log10.min())), max(highest, float(table.log10.max()))
-    _finish(axes, low, high, 0.08 * max(high - low, 0.5), handles, at_temperature(table.reference, ", 1"))
+    _finish(axes, low, high, 0.08 * max(high - low, 0.5), handles, style.at_temperature(table.reference, ", 1"))
 
 
 def _finish(axes: Axes, low: float, high: float, room: float, handles: list[Any], at: str = "") -> None:
     """Give axes of shift factors their limits (log10), with room beyond them, and their labels."""
     axes.set_ylim(10.0 ** (low - room), 10.0 ** (high + room))
     axes.set(xlabel="temperature (°C)", ylabel=r"shift factor $\alpha_T$" + at)
-    plain_numbers(axes, "x")
-    logarithmic(axes, "y")
-    legend_above(axes, handles, columns=1)
+    style.plain_numbers(axes, "x")
+    style.logarithmic(axes, "y")
+    style.legend_above(axes, handles, columns=1)
 
 
 def _between(table: ShiftTable, temperatures: Array) -> ShiftTable:
@@ -232,13 +222,13 @@ def draw_law(axes: Axes, law: ShiftLaw, temperatures: Array, whose: str = "") ->
         return []
     warm, log10 = values(line, "temperature") - CELSIUS_ZERO, values(line, "log10_shift_factor")
     handles: list[Any] = axes.plot(
-        warm, 10.0 ** np.clip(log10, -_LARGEST, _LARGEST), color=VERMILION, label=f"{whose}{_described(law)}"
+        warm, 10.0 ** np.clip(log10, -_LARGEST, _LARGEST), color=style.VERMILION, label=f"{whose}{_described(law)}"
     )
     if "standard_error" in line:
         doubt = LEVEL_95 * values(line, "standard_error")
         lower, upper = (10.0 ** np.clip(log10 + side * doubt, -_LARGEST, _LARGEST) for side in (-1.0, 1.0))
         handles.append(
-            axes.fill_between(warm, lower, upper, color=VERMILION, alpha=0.25, linewidth=0, label="its 95 % band")
+            axes.fill_between(warm, lower, upper, color=style.VERMILION, alpha=0.25, linewidth=0, label="its 95 % band")
         )
     return handles
 

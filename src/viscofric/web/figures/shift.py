@@ -7,34 +7,19 @@ from typing import Any
 import numpy as np
 
 from viscofric.units import shown_number
-from viscofric.web.figures.spec import (
-    ISOTHERMS,
-    MODULUS,
-    REDUCED_FREQUENCY,
-    TEMPERATURE,
-    Spec,
-    around,
-    axis,
-    figure,
-    isotherms,
-    line,
-    number,
-    points,
-    quantity,
-    table,
-)
+from viscofric.web.figures import spec
 
 _LAWS = ("green", "purple", "orange", "sky")
-_LOG_ALPHA = axis("log₁₀ α")
+_LOG_ALPHA = spec.axis("log₁₀ α")
 #: A law is hidden at first whose largest residual is so many times that of the best, which counts as 0.005 at least.
 _FAR, _LEAST = 20.0, 0.005
 #: Columns of the isotherms, with their axes.
 _COLUMNS = {
-    "storage_modulus": {**MODULUS, "label": "E′"},
-    "loss_modulus": {**MODULUS, "label": "E″"},
-    "dynamic_modulus": {**MODULUS, "label": "|E*|"},
-    "loss_angle": axis("loss angle δ", "angle"),
-    "loss_tangent": axis("tan δ", log=True),
+    "storage_modulus": {**spec.MODULUS, "label": "E′"},
+    "loss_modulus": {**spec.MODULUS, "label": "E″"},
+    "dynamic_modulus": {**spec.MODULUS, "label": "|E*|"},
+    "loss_angle": spec.axis("loss angle δ", "angle"),
+    "loss_tangent": spec.axis("tan δ", log=True),
 }
 #: Diagrams that no shift along the frequency changes.
 _DIAGRAMS = {
@@ -49,7 +34,7 @@ _RESPONSES = {
 }
 
 
-def shift_figures(found: dict[str, Any]) -> dict[str, Spec]:
+def shift_figures(found: dict[str, Any]) -> dict[str, spec.Spec]:
     """Return the figures of the shift of a result of the job ``rubber``."""
     shift, check = found["shift"], found["check"] or {}
     figures = {"shift-factors": _factors(shift)}
@@ -63,25 +48,25 @@ def shift_figures(found: dict[str, Any]) -> dict[str, Spec]:
     for name in ("storage_modulus", "loss_modulus", "loss_tangent"):
         y = _COLUMNS[name]
         over_b = "/b" if shift["vertical"] and y["kind"] else ""
-        figures[f"shifted-{name}"] = figure(
+        figures[f"shifted-{name}"] = spec.figure(
             "Isotherms shifted to the reference",
-            REDUCED_FREQUENCY,
+            spec.REDUCED_FREQUENCY,
             {**y, "label": f"{y['label']}{over_b}"},
             [
                 {**one, "symbol": "square"} if about["held"] else one
                 for one, about in zip(
-                    isotherms("shift.isotherms", shift["isotherms"], "angular_frequency", name),
+                    spec.isotherms("shift.isotherms", shift["isotherms"], "angular_frequency", name),
                     shift["isotherms"],
                     strict=True,
                 )
             ],
             "Squares are fixed manually." if any(one["held"] for one in shift["isotherms"]) else "",
-            look=ISOTHERMS,
+            look=spec.ISOTHERMS,
         )
     return figures | (_quality(check, shift["isotherms"]) if shift["isotherms"] else {})
 
 
-def _factors(shift: dict[str, Any]) -> Spec:
+def _factors(shift: dict[str, Any]) -> spec.Spec:
     factors, traces = shift["factors"], []
     if factors:
         held = np.array(factors["held"], dtype=bool)
@@ -92,7 +77,7 @@ def _factors(shift: dict[str, Any]) -> Spec:
             names = ("temperature", "log10_shift_factor", "error95")
             x, y, error = (np.array(factors[one], dtype=float)[rows] for one in names)
             if rows.any():
-                traces.append(points(x, y, name, error=error, symbol=symbol, colour=colour))
+                traces.append(spec.points(x, y, name, error=error, symbol=symbol, colour=colour))
     drawn = [row for row in shift["laws"] if row.get("line") and row["same_as"] == ""]
     shown = next((row for row in drawn if row["used"]), next((row for row in drawn if row["chosen"]), None))
     for at, row in enumerate(drawn):
@@ -101,9 +86,9 @@ def _factors(shift: dict[str, Any]) -> Spec:
         traces += _law(row, name, colour, hidden=row is not shown)
     if not factors:
         traces += _law(shift["material"], "α(T) of the material", "vermilion")
-    return figure(
+    return spec.figure(
         "Shift factor against temperature",
-        TEMPERATURE,
+        spec.TEMPERATURE,
         _LOG_ALPHA,
         traces,
         f"{_limits_in_words(shift['material'])} Bars and bands are 95 %. Dotted lines are extrapolated; they end at "
@@ -112,67 +97,67 @@ def _factors(shift: dict[str, Any]) -> Spec:
     )
 
 
-def _law(row: dict[str, Any], name: str, colour: str, *, hidden: bool = False) -> list[Spec]:
+def _law(row: dict[str, Any], name: str, colour: str, *, hidden: bool = False) -> list[spec.Spec]:
     """Draw a law as a solid line where it was fitted, dotted on either side."""
     kelvin, log10 = (np.array(row["line"][one]) for one in ("temperature", "log10_shift_factor"))
     error = row["line"].get("error95")
-    band = None if error is None or hidden else around(log10, error)
+    band = None if error is None or hidden else spec.around(log10, error)
     low, high = (row["limits"] or {}).get("fitted") or (-np.inf, np.inf)
     first, last = np.flatnonzero((kelvin >= low) & (kelvin <= high))[[0, -1]]
-    look: Spec = {"colour": colour, "group": name, "hidden": hidden}
-    beyond: Spec = {**look, "legend": False, "dash": "dot"}
+    look: spec.Spec = {"colour": colour, "group": name, "hidden": hidden}
+    beyond: spec.Spec = {**look, "legend": False, "dash": "dot"}
 
-    def part(start: int, end: int, words: str, look: Spec) -> Spec:
+    def part(start: int, end: int, words: str, look: spec.Spec) -> spec.Spec:
         rows = slice(start, end + 1)
         edges = None if band is None else (band[0][rows], band[1][rows])
-        return line(kelvin[rows], log10[rows], words, band=edges, **look)
+        return spec.line(kelvin[rows], log10[rows], words, band=edges, **look)
 
     ends = [(0, first)] if first > 0 else []
     ends += [(last, kelvin.size - 1)] if last < kelvin.size - 1 else []
     return [part(first, last, name, look), *(part(*both, f"{name}, extrapolated", beyond) for both in ends)]
 
 
-def _residuals(shift: dict[str, Any]) -> Spec:
+def _residuals(shift: dict[str, Any]) -> spec.Spec:
     traces = []
     if shift["factors"]:
         error = np.array(shift["factors"]["error95"], dtype=float)
         zero = np.zeros_like(error)
         band = (-error, error)
-        traces = [line("shift.factors.temperature", zero, "95 % of the factors", band=band, colour="sky", width=0)]
+        traces = [spec.line("shift.factors.temperature", zero, "95 % of the factors", band=band, colour="sky", width=0)]
     rows = [(at, row) for at, row in enumerate(shift["laws"]) if row.get("residual") and row["same_as"] == ""]
     worst = {at: np.max(np.abs(row["residual"]["log10_residual"])) for at, row in rows}
     most = _FAR * max(min(worst.values(), default=0.0), _LEAST)
     for at, row in rows:
         where = f"shift.laws[{at}].residual"
-        look: Spec = {"mode": "lines+markers", "size": 5, "width": 1.2, "hidden": bool(worst[at] > most)}
-        traces.append(line(f"{where}.temperature", f"{where}.log10_residual", row["title"], **look))
-    return figure(
+        look: spec.Spec = {"mode": "lines+markers", "size": 5, "width": 1.2, "hidden": bool(worst[at] > most)}
+        traces.append(spec.line(f"{where}.temperature", f"{where}.log10_residual", row["title"], **look))
+    return spec.figure(
         "Measured factors over each law",
-        TEMPERATURE,
-        axis("log₁₀ measured/law"),
+        spec.TEMPERATURE,
+        spec.axis("log₁₀ measured/law"),
         traces,
         "log₁₀ of the measured over the law’s α; the band is the measurement’s 95 %.",
     )
 
 
-def _vertical(vertical: dict[str, Any]) -> Spec:
+def _vertical(vertical: dict[str, Any]) -> spec.Spec:
     where, upper = ("shift.vertical.temperature", "shift.vertical.b"), vertical["upper"]
     bars = None if upper is None else np.subtract(upper, vertical["b"])
-    return figure(
+    return spec.figure(
         "Vertical shift b(T)",
-        TEMPERATURE,
-        axis("b"),
-        [points(*where, error=bars) if upper else line(*where, mode="lines+markers")],
+        spec.TEMPERATURE,
+        spec.axis("b"),
+        [spec.points(*where, error=bars) if upper else spec.line(*where, mode="lines+markers")],
         "Fitted with the shift factors; bars are 95 %." if upper else "ρT/(ρ₀T₀), from rubber elasticity.",
         marks=[{"y": 1.0}],
     )
 
 
-def step_figure(title: str, steps: dict[str, Any], path: str, deformation: str | None) -> Spec:
+def step_figure(title: str, steps: dict[str, Any], path: str, deformation: str | None) -> spec.Spec:
     """Return creep or relaxation tests, as measured or with their fit over reduced time."""
     word, symbols, otherwise, unit, kind, scale = _RESPONSES[steps["kind"]]
     fit = steps.get("fit")
-    traces = isotherms(f"{path}.curves", steps["curves"], "time", "response")
+    traces = spec.isotherms(f"{path}.curves", steps["curves"], "time", "response")
     if scale != 1.0:
         traces = [
             {**one, "y": [scale * value for value in curve["response"]]}
@@ -180,34 +165,34 @@ def step_figure(title: str, steps: dict[str, Any], path: str, deformation: str |
         ]
     if fit:
         fitted = scale * np.array(fit["response"])
-        traces.append(line(f"{path}.fit.time", fitted, "fitted", mode="lines", colour="vermilion", width=1.5))
-    time = axis("reduced time t/α" if fit else "time", "time", log=True)
+        traces.append(spec.line(f"{path}.fit.time", fitted, "fitted", mode="lines", colour="vermilion", width=1.5))
+    time = spec.axis("reduced time t/α" if fit else "time", "time", log=True)
     label = f"{word} {symbols.get(deformation or '', otherwise)}{unit}"
-    look = {**ISOTHERMS, "mode": "markers" if fit else "lines+markers", "size": 4}
-    return figure(title, time, axis(label, kind, log=True), traces, look=look)
+    look = {**spec.ISOTHERMS, "mode": "markers" if fit else "lines+markers", "size": 4}
+    return spec.figure(title, time, spec.axis(label, kind, log=True), traces, look=look)
 
 
-def _quality(check: dict[str, Any], shifted: list[dict[str, Any]]) -> dict[str, Spec]:
+def _quality(check: dict[str, Any], shifted: list[dict[str, Any]]) -> dict[str, spec.Spec]:
     """Draw what shows whether superposition holds."""
     figures = {
-        f"diagram-{name}": figure(
+        f"diagram-{name}": spec.figure(
             title,
             _COLUMNS[x],
             _COLUMNS[y],
-            isotherms("shift.isotherms", shifted, x, y),
+            spec.isotherms("shift.isotherms", shifted, x, y),
             "No shift along the frequency changes these points.",
-            look={**ISOTHERMS, "width": 1},
+            look={**spec.ISOTHERMS, "width": 1},
         )
         for name, (title, x, y) in _DIAGRAMS.items()
     }
     pairs = check["neighbours"]
     between = [0.5 * (pair["colder"] + pair["warmer"]) for pair in pairs]
     distance, error = ([pair[name] for pair in pairs] for name in ("distance", "error95"))
-    figures["neighbour-distances"] = figure(
+    figures["neighbour-distances"] = spec.figure(
         "Distance of neighbouring isotherms",
-        {**TEMPERATURE, "label": "temperature between them"},
-        axis("distance (decades)"),
-        [points(between, distance, error=error)],
+        {**spec.TEMPERATURE, "label": "temperature between them"},
+        spec.axis("distance (decades)"),
+        [spec.points(between, distance, error=error)],
         "In tan δ against |E*|, which no shift changes; bars: 95 % range of the noise.",
         marks=[{"y": 0.0}],
     )
@@ -215,7 +200,7 @@ def _quality(check: dict[str, Any], shifted: list[dict[str, Any]]) -> dict[str, 
     return figures if causal is None else figures | {"kramers-kronig": _causal(causal)}
 
 
-def _causal(found: dict[str, Any]) -> Spec:
+def _causal(found: dict[str, Any]) -> spec.Spec:
     """Draw each modulus computed from the other; open points at the ends are not judged."""
     judged, traces = np.array(found["judged"], dtype=bool), []
     for inside in (True, False):
@@ -225,12 +210,12 @@ def _causal(found: dict[str, Any]) -> Spec:
             ("loss", "E″ computed from E′", "circle", "vermilion"),
         ):
             x, y = (np.array(found[one], dtype=float)[rows] for one in ("angular_frequency", f"{key}_deviation"))
-            look: Spec = {"symbol": symbol, "colour": colour, "size": 6, "open": not inside, "legend": inside}
-            traces.append(points(x, y, name if inside else f"{name}, not evaluated", group=name, **look))
-    return figure(
+            look: spec.Spec = {"symbol": symbol, "colour": colour, "size": 6, "open": not inside, "legend": inside}
+            traces.append(spec.points(x, y, name if inside else f"{name}, not evaluated", group=name, **look))
+    return spec.figure(
         "Kramers–Kronig",
-        REDUCED_FREQUENCY,
-        axis("log₁₀ demanded/measured"),
+        spec.REDUCED_FREQUENCY,
+        spec.axis("log₁₀ demanded/measured"),
         traces,
         f"{found['sentence']} Drawn: log₁₀ of each modulus computed from the other, over the measured one; open points "
         "at the ends are not evaluated.",
@@ -238,7 +223,7 @@ def _causal(found: dict[str, Any]) -> Spec:
     )
 
 
-def verdict_numbers(found: dict[str, Any]) -> list[Spec]:
+def verdict_numbers(found: dict[str, Any]) -> list[spec.Spec]:
     """Return the numbers behind the verdict on superposition."""
     check, shift = found["check"], found["shift"]
     misfit, merit = shift["misfit"], check.get("figure_of_merit")
@@ -254,13 +239,15 @@ def verdict_numbers(found: dict[str, Any]) -> list[Spec]:
     causal = (check.get("kramers_kronig") or {}).get("holds")
     numbers = [
         misfit
-        and number(
-            "overlap", f"{shown_number(misfit['joint'], 'z.3f')} decades", remark=f"rms over {misfit['points']} points"
+        and spec.number(
+            "overlap",
+            f"{shown_number(misfit['joint'], 'z.3f')} decades",
+            remark=f"rms over {misfit['points']} points",
         ),
-        merit is not None and number("figure of merit", merit, digits=2, remark="good if ≤ 1"),
+        merit is not None and spec.number("figure of merit", merit, digits=2, remark="good if ≤ 1"),
         bool(shift["isotherms"])
-        and number("E′ against E″", agree[None if causal is None else bool(causal)], remark="Kramers–Kronig"),
-        number("α(T) used", "as measured" if shift["used"] == "measured" else shift["used"], remark=origin),
+        and spec.number("E′ against E″", agree[None if causal is None else bool(causal)], remark="Kramers–Kronig"),
+        spec.number("α(T) used", "as measured" if shift["used"] == "measured" else shift["used"], remark=origin),
     ]
     return [one for one in numbers if one]
 
@@ -269,7 +256,7 @@ def _limits_in_words(material: dict[str, Any]) -> str:
     """Return what law is used and where it is valid."""
     if not material["limits"]:
         return str(material["words"])
-    low, high = (None if end is None else quantity(end, "temperature") for end in material["limits"]["valid"])
+    low, high = (None if end is None else spec.quantity(end, "temperature") for end in material["limits"]["valid"])
     inside = (
         f"from {low} to {high}"
         if low and high
@@ -280,10 +267,10 @@ def _limits_in_words(material: dict[str, Any]) -> str:
     return f"Used: {material['words']}. Valid {inside}."
 
 
-def law_table(laws: list[dict[str, Any]]) -> Spec:
+def law_table(laws: list[dict[str, Any]]) -> spec.Spec:
     """Return the laws that were compared."""
     head = ["law", "constants", "AIC", "weight", "scatter (decades)", "valid", ""]
-    return table("Comparison of laws: a lower AIC is better", head, [_law_row(row) for row in laws])
+    return spec.table("Comparison of laws: a lower AIC is better", head, [_law_row(row) for row in laws])
 
 
 def _law_row(row: dict[str, Any]) -> list[Any]:
@@ -291,7 +278,7 @@ def _law_row(row: dict[str, Any]) -> list[Any]:
     same = f"same curve as {row['same_as'].upper()}" if row["same_as"] else ""
     valid = "–"
     if limits:
-        valid = " to ".join("∞" if end is None else quantity(end, "temperature") for end in limits["valid"])
+        valid = " to ".join("∞" if end is None else spec.quantity(end, "temperature") for end in limits["valid"])
     return [
         row["title"],
         refused or row["words"],

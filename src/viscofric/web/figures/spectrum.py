@@ -7,19 +7,7 @@ from typing import Any
 import numpy as np
 
 from viscofric.units import shown_number
-from viscofric.web.figures.spec import (
-    FREQUENCY,
-    MODULUS,
-    REDUCED_FREQUENCY,
-    Spec,
-    axis,
-    figure,
-    line,
-    number,
-    points,
-    quantity,
-    table,
-)
+from viscofric.web.figures import spec
 
 #: Modes weaker than the strongest by more change nothing that can be seen.
 _SEEN = 1e-10
@@ -29,24 +17,24 @@ _TANGENT = (("loss_tangent", "tan δ", "diamond", "green"),)
 
 def moduli_figures(
     found: dict[str, Any], temperature: float | None, *, fitted: bool, path: str = "", moved: str = "moved"
-) -> dict[str, Spec]:
+) -> dict[str, spec.Spec]:
     """Return the figures of E' and E'', and of tan δ, at a temperature (K), with band and isotherm where known."""
     band, sweep = found.get("band"), found.get("isotherm")
 
     def over_frequency(path: str, key: str) -> tuple[str, str]:
         return f"{path}.angular_frequency", f"{path}.{key}"
 
-    def traces(parts: tuple[tuple[str, str, str, str], ...]) -> list[Spec]:
-        all_traces: list[Spec] = []
+    def traces(parts: tuple[tuple[str, str, str, str], ...]) -> list[spec.Spec]:
+        all_traces: list[spec.Spec] = []
         for key, name, symbol, colour in parts if moved else ():
-            look: Spec = {"symbol": symbol, "colour": colour, "open": True, "size": 4}
-            all_traces.append(points(*over_frequency(moved, key), f"{name} measured", **look))
+            look: spec.Spec = {"symbol": symbol, "colour": colour, "open": True, "size": 4}
+            all_traces.append(spec.points(*over_frequency(moved, key), f"{name} measured", **look))
         for key, name, _, colour in parts:
             edges = (f"band.{key}_lower", f"band.{key}_upper") if band else None
-            all_traces.append(line(*over_frequency(f"{path}modulus", key), name, band=edges, colour=colour))
+            all_traces.append(spec.line(*over_frequency(f"{path}modulus", key), name, band=edges, colour=colour))
         for key, name, symbol, colour in parts if sweep else ():
             look = {"symbol": symbol, "colour": colour, "legend": False}
-            all_traces.append(points(*over_frequency("isotherm", key), f"{name} of this sweep", **look))
+            all_traces.append(spec.points(*over_frequency("isotherm", key), f"{name} of this sweep", **look))
         return all_traces
 
     measured: Any = found
@@ -54,11 +42,11 @@ def moduli_figures(
         measured = measured.get(part) or {}
     seen = measured.get("angular_frequency") if moved and fitted else None
     ends = [] if not seen else [{"x": min(seen), "label": "measured from"}, {"x": max(seen), "label": "to"}]
-    at = "" if temperature is None else f" at {quantity(temperature, 'temperature')}"
+    at = "" if temperature is None else f" at {spec.quantity(temperature, 'temperature')}"
     sentences = [
         band and f"95 % bands of each modulus ({band['draws']} bootstrap samples).",
         moved and "Points: all measurements, shifted to this temperature.",
-        sweep and f"Filled points: the sweep measured at {quantity(sweep['temperature'], 'temperature')}.",
+        sweep and f"Filled points: the sweep measured at {spec.quantity(sweep['temperature'], 'temperature')}.",
         f"Beyond the points{' (dotted lines)' if ends else ''} the spectrum is extrapolated"
         f"{', and its bands show what a continuation may be' if band else ''}."
         if fitted
@@ -66,12 +54,14 @@ def moduli_figures(
     ]
     caption = " ".join(filter(None, sentences))
     return {
-        "modulus": figure(f"E′ and E″{at}", FREQUENCY, MODULUS, traces(_MODULI), caption, marks=ends),
-        "loss-tangent": figure(f"tan δ{at}", FREQUENCY, axis("tan δ", log=True), traces(_TANGENT), marks=ends),
+        "modulus": spec.figure(f"E′ and E″{at}", spec.FREQUENCY, spec.MODULUS, traces(_MODULI), caption, marks=ends),
+        "loss-tangent": spec.figure(
+            f"tan δ{at}", spec.FREQUENCY, spec.axis("tan δ", log=True), traces(_TANGENT), marks=ends
+        ),
     }
 
 
-def spectrum_figures(found: dict[str, Any]) -> dict[str, Spec]:
+def spectrum_figures(found: dict[str, Any]) -> dict[str, spec.Spec]:
     """Return the figures of a result of the job ``rubber``."""
     spectrum = found["spectrum"]
     points_of = "spectrum.measured" if spectrum["measured"] else ""
@@ -80,13 +70,13 @@ def spectrum_figures(found: dict[str, Any]) -> dict[str, Spec]:
     if spectrum["residual"]:
         residuals = []
         for key, name, symbol, colour in _MODULI:
-            look: Spec = {"symbol": symbol, "colour": colour, "open": True, "size": 5}
+            look: spec.Spec = {"symbol": symbol, "colour": colour, "open": True, "size": 5}
             where = ("spectrum.measured.angular_frequency", f"spectrum.residual.{key}")
-            residuals.append(points(*where, name, **look))
-        figures["spectrum-residuals"] = figure(
+            residuals.append(spec.points(*where, name, **look))
+        figures["spectrum-residuals"] = spec.figure(
             "Measured over fitted modulus",
-            REDUCED_FREQUENCY,
-            axis("log₁₀ measured/fit"),
+            spec.REDUCED_FREQUENCY,
+            spec.axis("log₁₀ measured/fit"),
             residuals,
             "log₁₀, at the points of the master curve.",
             marks=[{"y": 0.0}],
@@ -96,7 +86,7 @@ def spectrum_figures(found: dict[str, Any]) -> dict[str, Spec]:
     return figures
 
 
-def _modes(found: dict[str, Any], kind: str) -> Spec:
+def _modes(found: dict[str, Any], kind: str) -> spec.Spec:
     """Draw a stem for each mode, with its band and the times that no measured frequency reaches."""
     spectrum, band = found["spectrum"], (found.get("band") or {}).get("modes")
     relaxation = kind == "relaxation"
@@ -112,7 +102,7 @@ def _modes(found: dict[str, Any], kind: str) -> Spec:
         times, lower, upper = (np.array(band[name]) for name in ("retardation_time", "lower", "upper"))
         rows = upper > floor
         edges = (np.maximum(lower, floor)[rows], upper[rows])
-        bands = [line(times[rows], upper[rows], "95 % band", band=edges, colour="sky", width=0)]
+        bands = [spec.line(times[rows], upper[rows], "95 % band", band=edges, colour="sky", width=0)]
     measured = (spectrum["fit"] or {}).get("frequency_range")
     caption = [
         "Modulus E of each mode over its relaxation time; the same material, converted exactly."
@@ -122,14 +112,14 @@ def _modes(found: dict[str, Any], kind: str) -> Spec:
         "A single mode is poorly determined, since its neighbours can replace it." if bands else None,
     ]
     symbol = "square" if relaxation else "circle"
-    return figure(
+    return spec.figure(
         "Relaxation modes (Prony series)" if relaxation else "Retardation modes",
-        axis("time τ", "time", log=True),
-        axis("modulus E", "modulus", log=True) if relaxation else axis("compliance C (1/Pa)", log=True),
+        spec.axis("time τ", "time", log=True),
+        spec.axis("modulus E", "modulus", log=True) if relaxation else spec.axis("compliance C (1/Pa)", log=True),
         [
             *bands,
-            line(np.repeat(tau, 3), stems, legend=False, decoration=True, colour=colour, width=1.2),
-            points(tau, strength, "E_k" if relaxation else "C_k", symbol=symbol, colour=colour),
+            spec.line(np.repeat(tau, 3), stems, legend=False, decoration=True, colour=colour, width=1.2),
+            spec.points(tau, strength, "E_k" if relaxation else "C_k", symbol=symbol, colour=colour),
         ],
         " ".join(filter(None, caption)),
         marks=[
@@ -140,35 +130,37 @@ def _modes(found: dict[str, Any], kind: str) -> Spec:
     )
 
 
-def spectrum_numbers_shown(found: dict[str, Any]) -> list[Spec]:
+def spectrum_numbers_shown(found: dict[str, Any]) -> list[spec.Spec]:
     """Return the main numbers of a result of the job ``rubber``."""
     spectrum, band = found["spectrum"], found.get("band") or {}
     if not spectrum["modes"]:
-        return [number("material", "a table of moduli", remark="without modes")]
+        return [spec.number("material", "a table of moduli", remark="without modes")]
     fit = spectrum["fit"] or {}
 
-    def end(label: str, name: str) -> Spec:
+    def end(label: str, name: str) -> spec.Spec:
         error = band.get(f"{name}_error95")
-        remarks = [f"± {quantity(error, 'modulus', 2)} (95 %)" if error else "", fit.get(f"{name}_remark") or ""]
-        return number(label, spectrum["modes"][name], "modulus", remark="; ".join(filter(None, remarks)))
+        remarks = [f"± {spec.quantity(error, 'modulus', 2)} (95 %)" if error else "", fit.get(f"{name}_remark") or ""]
+        return spec.number(label, spectrum["modes"][name], "modulus", remark="; ".join(filter(None, remarks)))
 
     misfits = []
     if fit.get("rms_step") is not None:
-        misfits.append(number("misfit of the step tests", shown_number(fit["rms_step"], "z.3f"), remark="decades, rms"))
+        misfits.append(
+            spec.number("misfit of the step tests", shown_number(fit["rms_step"], "z.3f"), remark="decades, rms")
+        )
     if fit.get("rms_storage") is not None:
         both = ", ".join(shown_number(fit[name], "z.3f") for name in ("rms_storage", "rms_loss"))
-        misfits.append(number("misfit of E′, E″", both, remark="decades, rms"))
+        misfits.append(spec.number("misfit of E′, E″", both, remark="decades, rms"))
     count, method = len(spectrum["modes"]["retardation_time"]), fit.get("method") or "from the material file"
     return [
         end("E₀, relaxed", "E0"),
         end("E∞, glassy", "E_inf"),
-        number("modes", str(count), remark=method),
+        spec.number("modes", str(count), remark=method),
         *misfits,
-        number("Poisson’s ratio", spectrum["poisson_ratio"]),
+        spec.number("Poisson’s ratio", spectrum["poisson_ratio"]),
     ]
 
 
-def modes_table(spectrum: dict[str, Any]) -> Spec:
+def modes_table(spectrum: dict[str, Any]) -> spec.Spec:
     """Return the modes in both forms, in SI units."""
     columns = [
         spectrum["modes"]["retardation_time"],
@@ -181,4 +173,4 @@ def modes_table(spectrum: dict[str, Any]) -> Spec:
         for at in range(max(map(len, columns)))
     ]
     head = ["k", "retardation time τ (s)", "compliance C (1/Pa)", "relaxation time (s)", "modulus E (Pa)"]
-    return table("Retardation modes, and the same material as a Prony series", head, rows)
+    return spec.table("Retardation modes, and the same material as a Prony series", head, rows)

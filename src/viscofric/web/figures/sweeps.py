@@ -4,25 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from viscofric.web.figures import spec
 from viscofric.web.figures.shift import step_figure
-from viscofric.web.figures.spec import (
-    FREQUENCY,
-    ISOTHERMS,
-    MODULUS,
-    TEMPERATURE,
-    Spec,
-    axis,
-    figure,
-    isotherms,
-    line,
-    number,
-    points,
-    quantity,
-    table,
-)
 
 _MOST_ROWS = 200
-_RAMPS: Spec = {"mode": "lines+markers", "size": 4, "width": 1.2}
+_RAMPS: spec.Spec = {"mode": "lines+markers", "size": 4, "width": 1.2}
 _MODULI = {
     "storage_modulus": ("Storage modulus", "′"),
     "loss_modulus": ("Loss modulus", "″"),
@@ -38,8 +24,8 @@ def sweeps_view(found: dict[str, Any], given: str | None) -> dict[str, Any]:
     letter = "G" if found.get("deformation") == "shear" else "E"
     for key in _MODULI if found["source"] in ("dma", "ramps") else ():
         traces = _of_ramps(found["ramps"], key) if "ramps" in found else _of_sweeps(found, key)
-        x, look = (TEMPERATURE, _RAMPS) if "ramps" in found else (FREQUENCY, ISOTHERMS)
-        figures[_id(key)] = figure(_MODULI[key][0], x, _axis(key, letter), traces, look=look)
+        x, look = (spec.TEMPERATURE, _RAMPS) if "ramps" in found else (spec.FREQUENCY, spec.ISOTHERMS)
+        figures[_id(key)] = spec.figure(_MODULI[key][0], x, _axis(key, letter), traces, look=look)
     tables = {}
     if found.get("files"):
         tables["files"] = _files(found["files"])
@@ -48,16 +34,16 @@ def sweeps_view(found: dict[str, Any], given: str | None) -> dict[str, Any]:
     return {"figures": figures, "tables": tables, "key_numbers": _numbers(found, given)}
 
 
-def moduli_of_material(spectrum: dict[str, Any]) -> dict[str, Spec]:
+def moduli_of_material(spectrum: dict[str, Any]) -> dict[str, spec.Spec]:
     """Return the figures of a material without measured moduli, at its reference."""
     kelvin = spectrum["reference"]
-    at = "" if kelvin is None else f" at {quantity(kelvin, 'temperature')}"
+    at = "" if kelvin is None else f" at {spec.quantity(kelvin, 'temperature')}"
     return {
-        _id(key): figure(
+        _id(key): spec.figure(
             f"{title}{at}",
-            FREQUENCY,
+            spec.FREQUENCY,
             _axis(key, "E"),
-            [line("spectrum.modulus.angular_frequency", f"spectrum.modulus.{key}", title.lower(), legend=False)],
+            [spec.line("spectrum.modulus.angular_frequency", f"spectrum.modulus.{key}", title.lower(), legend=False)],
         )
         for key, (title, _) in _MODULI.items()
         if key != "loss_tangent"
@@ -68,21 +54,29 @@ def _id(key: str) -> str:
     return f"isotherms-{key.replace('_', '-')}"
 
 
-def _axis(key: str, letter: str) -> Spec:
+def _axis(key: str, letter: str) -> spec.Spec:
     title, primes = _MODULI[key]
-    return {**MODULUS, "label": f"{title.lower()} {letter}{primes}"} if primes else axis("loss tangent tan δ", log=True)
+    return (
+        {**spec.MODULUS, "label": f"{title.lower()} {letter}{primes}"}
+        if primes
+        else spec.axis("loss tangent tan δ", log=True)
+    )
 
 
-def _of_ramps(ramps: list[dict[str, Any]], key: str) -> list[Spec]:
+def _of_ramps(ramps: list[dict[str, Any]], key: str) -> list[spec.Spec]:
     return [
-        line(f"ramps[{at}].temperature", f"ramps[{at}].{key}", quantity(one["angular_frequency"], "angular_frequency"))
+        spec.line(
+            f"ramps[{at}].temperature",
+            f"ramps[{at}].{key}",
+            spec.quantity(one["angular_frequency"], "angular_frequency"),
+        )
         for at, one in enumerate(ramps)
     ]
 
 
-def _of_sweeps(found: dict[str, Any], key: str) -> list[Spec]:
+def _of_sweeps(found: dict[str, Any], key: str) -> list[spec.Spec]:
     """Draw the isotherms with the readings that were left out, or are far from their neighbours."""
-    traces = isotherms("isotherms", found["isotherms"], "angular_frequency", key)
+    traces = spec.isotherms("isotherms", found["isotherms"], "angular_frequency", key)
 
     def value(one: dict[str, Any]) -> float:
         storage, loss = (one[name] or 0.0 for name in ("storage_modulus", "loss_modulus"))
@@ -98,27 +92,27 @@ def _of_sweeps(found: dict[str, Any], key: str) -> list[Spec]:
         ]
         if some:
             omega, text = [one["angular_frequency"] for one in some], [f"{one['place']}: {one['why']}" for one in some]
-            look: Spec = {"symbol": symbol, "open": not left, "colour": "red", "size": 9, "text": text}
-            traces.append(points(omega, [value(one) for one in some], name, **look))
+            look: spec.Spec = {"symbol": symbol, "open": not left, "colour": "red", "size": 9, "text": text}
+            traces.append(spec.points(omega, [value(one) for one in some], name, **look))
     return traces
 
 
 def _span(values: list[float] | None, kind: str) -> str:
     """Return "20 °C to 90 °C"; one of them where both are the same, and a dash without any."""
-    ends = dict.fromkeys(quantity(end, kind) for end in (min(values), max(values))) if values else ["–"]
+    ends = dict.fromkeys(spec.quantity(end, kind) for end in (min(values), max(values))) if values else ["–"]
     return " to ".join(ends)
 
 
-def _numbers(found: dict[str, Any], given: str | None) -> list[Spec]:
+def _numbers(found: dict[str, Any], given: str | None) -> list[spec.Spec]:
     source = found["source"]
     if source in ("master_curve", "file", "catalogue"):
         reference = found["reference"]
         synthetic = "synthetic, not measured" if found["synthetic"] else ""
         return [
-            number("material", found["name"] or "unnamed", remark=synthetic),
-            number("reference", "none", remark="valid at one temperature only")
+            spec.number("material", found["name"] or "unnamed", remark=synthetic),
+            spec.number("reference", "none", remark="valid at one temperature only")
             if reference is None
-            else number("reference", reference, "temperature"),
+            else spec.number("reference", reference, "temperature"),
         ]
     asked = "deformation" in found["left_open"]
     curves = found["isotherms"] if source == "dma" else found.get("ramps") or found["steps"]["curves"]
@@ -126,20 +120,20 @@ def _numbers(found: dict[str, Any], given: str | None) -> list[Spec]:
     kelvin, values = _all(curves, "temperature"), _all(curves, over)
     count = {"dma": len(values), "ramps": len(kelvin)}.get(source) or found["steps"]["points"]
     numbers = [
-        number("measured in", "?", remark="please select tension or shear")
+        spec.number("measured in", "?", remark="please select tension or shear")
         if asked and given is None
-        else number("measured in", found["deformation"], remark="as given" if asked else "from the file"),
-        number(
+        else spec.number("measured in", found["deformation"], remark="as given" if asked else "from the file"),
+        spec.number(
             {"dma": "isotherms", "ramps": "frequencies"}.get(source, "tests"),
             str(len(curves)),
             remark=_span(kelvin, "temperature"),
         ),
-        number("points", str(count), remark=_span(values, over)),
+        spec.number("points", str(count), remark=_span(values, over)),
     ]
     if source != "dma":
         return numbers
     left, outliers = found["left_out"], sum(one["why"] != "left out" for one in found["flagged"])
-    return [*numbers, number("flagged", str(left + outliers), remark=f"{left} left out, {outliers} outliers")]
+    return [*numbers, spec.number("flagged", str(left + outliers), remark=f"{left} left out, {outliers} outliers")]
 
 
 def _all(curves: list[dict[str, Any]], name: str) -> list[float]:
@@ -147,7 +141,7 @@ def _all(curves: list[dict[str, Any]], name: str) -> list[float]:
     return [one for curve in curves for one in (curve[name] if isinstance(curve[name], list) else [curve[name]])]
 
 
-def _files(files: list[dict[str, Any]]) -> Spec:
+def _files(files: list[dict[str, Any]]) -> spec.Spec:
     head = ["file", "format", "deformation", "readings", "temperatures", "frequencies"]
     rows = [
         [
@@ -160,10 +154,10 @@ def _files(files: list[dict[str, Any]]) -> Spec:
         ]
         for one in files[:_MOST_ROWS]
     ]
-    return table("Files as read", head, rows)
+    return spec.table("Files as read", head, rows)
 
 
-def _flagged(flagged: list[dict[str, Any]]) -> Spec:
+def _flagged(flagged: list[dict[str, Any]]) -> spec.Spec:
     kinds = {
         "temperature": "temperature",
         "angular_frequency": "angular_frequency",
@@ -172,7 +166,7 @@ def _flagged(flagged: list[dict[str, Any]]) -> Spec:
     }
     head = ["location", "reason", "temperature", "frequency", "storage modulus", "loss modulus"]
     rows = [
-        [one["place"], one["why"], *(quantity(one[name], kind) for name, kind in kinds.items())]
+        [one["place"], one["why"], *(spec.quantity(one[name], kind) for name, kind in kinds.items())]
         for one in flagged[:_MOST_ROWS]
     ]
-    return table("Flagged readings", head, rows)
+    return spec.table("Flagged readings", head, rows)
