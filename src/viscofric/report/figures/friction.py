@@ -25,19 +25,8 @@ from viscofric.report.data import (
     measured_line,
     predicted,
 )
+from viscofric.report.figures import style
 from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors
-from viscofric.report.figures.style import (
-    GREY,
-    INK,
-    at_temperature,
-    legend_beside,
-    looks,
-    new_figure,
-    origin,
-    plain_numbers,
-    speed_ticks,
-    temperature_handles,
-)
 from viscofric.report.results import nearest, nominal_temperatures, number
 from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.shifts.shift_law import ShiftLaw
@@ -75,7 +64,7 @@ def plot_friction_curves(
     points = None if measurement is None else measured(measurement)
     nominal = nominal_temperatures(*(part.temperature for part in (lines, points) if part is not None))
     handles = []
-    for index, look in enumerate(looks(nominal.size)):
+    for index, look in enumerate(style.looks(nominal.size)):
         marker, line = "none", "none"
         if lines is not None and np.any(here := nearest(nominal, lines.temperature) == index):
             _plot_loads(axes, lines.rows(here), look, alone=points is None)
@@ -87,7 +76,7 @@ def plot_friction_curves(
     if points is not None:
         plot_measured(axes, points, nominal)
     axes.set_xlabel(r"speed $v$ (mm/s)")
-    title = [] if points is None else [f"points: {origin(synthetic)} ± scatter"]
+    title = [] if points is None else [f"points: {style.origin(synthetic)} ± scatter"]
     if lines is not None:
         title.append(("lines: predicted" if title else "predicted") + (", 95 % bands" if lines.has_band else ""))
     _finish(axes, handles[::-1], "\n".join(title), r"viscoelastic friction coefficient $\mu$")
@@ -132,13 +121,13 @@ def plot_friction_master_curve(
     if measurement is not None:
         points = measured(measurement, speed="reduced_speed")
         nominal = nominal_temperatures(points.temperature)
-        handles += temperature_handles(nominal)[::-1]
+        handles += style.temperature_handles(nominal)[::-1]
         plot_measured(axes, points, nominal)
     at = reference_temperature
     if at is None and measurement is not None:
         at = number(as_dataset(measurement).attrs, "reference_temperature")
-    axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + at_temperature(at))
-    title = "" if measurement is None else f"points: {origin(synthetic)} ± scatter"
+    axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + style.at_temperature(at))
+    title = "" if measurement is None else f"points: {style.origin(synthetic)} ± scatter"
     _finish(axes, handles, title, r"viscoelastic friction coefficient $\mu$")
 
 
@@ -147,13 +136,13 @@ def plot_friction_master_curves(
 ) -> None:
     """Draw predicted friction of several rubbers (by name) against the reduced speed αv."""
     handles: list[Any] = []
-    for look, (name, prediction) in zip(looks(len(predictions)), predictions.items(), strict=True):
+    for look, (name, prediction) in zip(style.looks(len(predictions)), predictions.items(), strict=True):
         lines = predicted(prediction)
         lines = lines.rows(np.ones(lines.speed.size, dtype=bool))
         _plot_band(axes, lines, look.colour, 1.0)
         _plot_predicted(axes, lines, color=look.colour, linestyle=look.dashes)
         handles.append(Line2D([], [], color=look.colour, linestyle=look.dashes, label=name))
-    axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + at_temperature(reference_temperature))
+    axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + style.at_temperature(reference_temperature))
     _finish(axes, handles, "predicted", r"viscoelastic friction coefficient $\mu$")
 
 
@@ -183,8 +172,8 @@ def plot_coulomb_friction(axes: Axes, measurement: Friction, *, synthetic: bool 
     axes.set_xlabel(r"speed $v$ (mm/s)")
     _finish(
         axes,
-        temperature_handles(nominal)[::-1],
-        f"{origin(synthetic)} ± scatter",
+        style.temperature_handles(nominal)[::-1],
+        f"{style.origin(synthetic)} ± scatter",
         r"Coulomb friction coefficient $\mu_\mathrm{c}$",
     )
 
@@ -204,25 +193,25 @@ def _plot_loads(axes: Axes, lines: Predicted, look: Any, *, alone: bool) -> None
         marker = look.marker if alone or np.isfinite(line.friction).sum() == 1 else "none"
         alpha = 1.0 if load == loads[0] else 0.55
         _plot_band(axes, line, look.colour, alpha)
-        style = {"linestyle": look.dashes, "marker": marker, "markersize": 4, "alpha": alpha}
-        _plot_predicted(axes, line, color=look.colour, **style)
+        marks = {"linestyle": look.dashes, "marker": marker, "markersize": 4, "alpha": alpha}
+        _plot_predicted(axes, line, color=look.colour, **marks)
 
 
 def _plot_line(axes: Axes, lines: Predicted, label: str) -> list[Any]:
     """Draw one line over the reduced speed, with its band, and return what the legend shows of them."""
     lines = lines.rows(np.ones(lines.speed.size, dtype=bool))
     alone = {"marker": "o", "markersize": 4} if np.isfinite(lines.friction).sum() == 1 else {}
-    _plot_band(axes, lines, GREY, 1.0)
-    _plot_predicted(axes, lines, color=INK, **alone)
-    handles: list[Any] = [Line2D([], [], color=INK, label=label, **alone)]  # type: ignore[arg-type]
+    _plot_band(axes, lines, style.GREY, 1.0)
+    _plot_predicted(axes, lines, color=style.INK, **alone)
+    handles: list[Any] = [Line2D([], [], color=style.INK, label=label, **alone)]  # type: ignore[arg-type]
     if lines.has_band:
-        handles.append(Patch(facecolor=GREY, alpha=2.0 * _BAND, label="its 95 % band"))
+        handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="its 95 % band"))
     return handles
 
 
 def _plot_band(axes: Axes, lines: Predicted, colour: Any, alpha: float) -> None:
     if lines.has_band:
-        shade = {"color": colour, "alpha": alpha * (2.0 * _BAND if colour == GREY else _BAND), "linewidth": 0.0}
+        shade = {"color": colour, "alpha": alpha * (2.0 * _BAND if colour == style.GREY else _BAND), "linewidth": 0.0}
         axes.fill_between(_MILLIMETRES * lines.speed, lines.lower, lines.upper, zorder=1, **shade)
 
 
@@ -241,7 +230,7 @@ def plot_measured(axes: Axes, points: Measured, nominal: Array) -> None:
     """Draw points with their bars over the speed, with the look of each nominal temperature."""
     which = nearest(nominal, points.temperature)
     speed = _MILLIMETRES * points.speed
-    for index, look in enumerate(looks(nominal.size)):
+    for index, look in enumerate(style.looks(nominal.size)):
         rows = np.flatnonzero((which == index) & np.isfinite(speed) & np.isfinite(points.friction))
         if rows.size:
             bars: dict[str, Any] = {
@@ -257,18 +246,18 @@ def _finish(axes: Axes, handles: list[Any], title: str, label: str) -> None:
     axes.set(xscale="log", ylabel=label)
     if axes.get_ylim()[1] > 0.0 and axes.dataLim.y0 >= 0.0:
         axes.set_ylim(0.0, max(axes.get_ylim()[1], _HEADROOM * axes.dataLim.y1))
-    speed_ticks(axes.xaxis)
-    plain_numbers(axes, "y")
-    legend_beside(axes, handles, title, ncols=1 + len(handles) // 18)
+    style.speed_ticks(axes.xaxis)
+    style.plain_numbers(axes, "y")
+    style.legend_beside(axes, handles, title, ncols=1 + len(handles) // 18)
 
 
 def friction_figure(curves: FrictionCurves, *, synthetic: bool = False) -> Figure:
     """Return a figure of measured viscoelastic friction, and of Coulomb friction where there is any below it."""
     if curves.coulomb is None:
-        figure = new_figure(_WIDTH, _HEIGHT)
+        figure = style.new_figure(_WIDTH, _HEIGHT)
         plot_friction_curves(figure.subplots(), measurement=curves, synthetic=synthetic)
         return figure
-    figure = new_figure(_WIDTH, 1.8 * _HEIGHT)
+    figure = style.new_figure(_WIDTH, 1.8 * _HEIGHT)
     top, bottom = figure.subplots(2, 1, sharex=True)
     plot_friction_curves(top, measurement=curves, synthetic=synthetic)
     plot_coulomb_friction(bottom, curves, synthetic=synthetic)
@@ -278,7 +267,7 @@ def friction_figure(curves: FrictionCurves, *, synthetic: bool = False) -> Figur
 
 def predicted_figure(curves: FrictionCurves) -> Figure:
     """Return a figure of predicted friction against speed, with its bands where it has any."""
-    figure = new_figure(_WIDTH, _HEIGHT)
+    figure = style.new_figure(_WIDTH, _HEIGHT)
     plot_friction_curves(figure.subplots(), curves)
     return figure
 
@@ -286,10 +275,10 @@ def predicted_figure(curves: FrictionCurves) -> Figure:
 def shifted_figure(master: FrictionMasterCurve, known: ShiftLaw | None = None, *, synthetic: bool = False) -> Figure:
     """Return a figure of a friction master curve, and of its shift factors below it where they were found from it."""
     if not master.found:
-        figure = new_figure(_WIDTH, _HEIGHT)
+        figure = style.new_figure(_WIDTH, _HEIGHT)
         plot_friction_master_curve(figure.subplots(), measurement=master, synthetic=synthetic)
         return figure
-    figure = new_figure(_WIDTH, 2.0 * _HEIGHT)
+    figure = style.new_figure(_WIDTH, 2.0 * _HEIGHT)
     top, bottom = figure.subplots(2, 1)
     plot_friction_master_curve(top, measurement=master, synthetic=synthetic)
     if known is None:

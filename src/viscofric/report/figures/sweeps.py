@@ -16,18 +16,7 @@ from matplotlib.patches import Patch
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
-from viscofric.report.figures.style import (
-    GREY,
-    VERMILION,
-    Look,
-    decade_ticks,
-    legend_beside,
-    looks,
-    new_figure,
-    plain_numbers,
-    sequential_looks,
-    speed_ticks,
-)
+from viscofric.report.figures import style
 from viscofric.report.sweeps import (
     MOST_LINES,
     MOST_PANELS,
@@ -63,18 +52,20 @@ def plot_sweep(axes: Axes, friction: Dataset, layout: Layout, shown: Sequence[in
     for index, look in zip(shown, line_looks(lines, shown), strict=True):
         part = friction if lines is None else friction.isel({lines.name: index})
         mu, lower, upper = _middle_and_band(part, along.name)
-        style: dict[str, Any] = {"color": look.colour, "linestyle": look.dashes}
+        marks: dict[str, Any] = {"color": look.colour, "linestyle": look.dashes}
         if not along.is_ordered:
-            style["linestyle"] = "none"
+            marks["linestyle"] = "none"
         if np.isfinite(mu).sum() <= 15 or not along.is_ordered:
-            style |= {"marker": look.marker, "markersize": 4}
+            marks |= {"marker": look.marker, "markersize": 4}
         if np.isfinite(lower).any():
             axes.fill_between(x, lower, upper, color=look.colour, alpha=_BAND, linewidth=0.0, zorder=1)
-        axes.plot(x, mu, **style)
+        axes.plot(x, mu, **marks)
         if (each := _of_seeds(part, along.name)) is not None:
-            axes.plot(x, each, **(style | {"markersize": 2}), **_THIN)
+            axes.plot(x, each, **(marks | {"markersize": 2}), **_THIN)
         missing = x[~np.isfinite(mu)]
-        axes.plot(missing, np.full(missing.size, 0.03), "x", color=VERMILION, transform=axes.get_xaxis_transform())
+        axes.plot(
+            missing, np.full(missing.size, 0.03), "x", color=style.VERMILION, transform=axes.get_xaxis_transform()
+        )
 
 
 def plot_study(axes: Axes, friction: Dataset) -> None:
@@ -117,11 +108,11 @@ def _of_seeds(part: Dataset, along: str) -> Array | None:
     return np.asarray(best.transpose(along, SEED).values, dtype=float)
 
 
-def line_looks(lines: SweepAxis | None, shown: Sequence[int]) -> list[Look]:
+def line_looks(lines: SweepAxis | None, shown: Sequence[int]) -> list[style.Look]:
     """Return a look for each line: colours apart where they are few or have no order, a scale where they have one."""
     if lines is None or not lines.is_ordered or lines.name == "temperature":
-        return looks(len(shown))
-    return sequential_looks(len(shown))
+        return style.looks(len(shown))
+    return style.sequential_looks(len(shown))
 
 
 def sweep_figure(friction: Dataset) -> Figure | None:
@@ -146,16 +137,16 @@ def _finish(axes: Axes, along: SweepAxis, narrow: bool) -> None:
     if along.is_logarithmic:
         axes.set_xscale("log")
         if along.name == "speed":
-            speed_ticks(axes.xaxis, narrow)
+            style.speed_ticks(axes.xaxis, narrow)
         else:
-            decade_ticks(axes.xaxis)
+            style.decade_ticks(axes.xaxis)
     elif not along.is_ordered:
         axes.set_xticks(along.position, along.labels, rotation=30, ha="right")
         axes.set_xlim(along.position[0] - 0.5, along.position[-1] + 0.5)
         axes.tick_params(axis="x", top=False)
     if axes.get_ylim()[1] > 0.0 and axes.dataLim.y0 >= 0.0:
         axes.set_ylim(0.0, max(axes.get_ylim()[1], _HEADROOM * axes.dataLim.y1))
-    plain_numbers(axes, "y")
+    style.plain_numbers(axes, "y")
 
 
 def _label_outside(figure: Figure, along: SweepAxis, panels: Sequence[Axes]) -> None:
@@ -173,23 +164,23 @@ def _legend_beside(axes: Axes, friction: Dataset, layout: Layout, shown: Sequenc
     handles: list[Any] = []
     if layout.lines is not None:
         for index, look in zip(shown, line_looks(layout.lines, shown), strict=True):
-            style: dict[str, Any] = {"color": look.colour, "linestyle": look.dashes}
+            marks: dict[str, Any] = {"color": look.colour, "linestyle": look.dashes}
             if not layout.along.is_ordered or len(layout.along) <= 15:
-                style |= {"marker": look.marker, "markersize": 4}
-            handles.append(Line2D([], [], label=layout.lines.labels[index], **style))
+                marks |= {"marker": look.marker, "markersize": 4}
+            handles.append(Line2D([], [], label=layout.lines.labels[index], **marks))
         if layout.lines.is_ordered:
             handles.reverse()
     if seeds := seeds_averaged(friction):
-        handles.append(Patch(facecolor=GREY, alpha=2.0 * _BAND, label="95 % interval\nof the mean"))
-        handles.append(Line2D([], [], color=GREY, label=f"{seeds} seeds", **_THIN))
+        handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="95 % interval\nof the mean"))
+        handles.append(Line2D([], [], color=style.GREY, label=f"{seeds} seeds", **_THIN))
     elif SAMPLE in friction[_COEFFICIENT].dims:
-        handles.append(Patch(facecolor=GREY, alpha=2.0 * _BAND, label="95 % of samples"))
+        handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="95 % of samples"))
     elif "friction_lower" in friction and np.isfinite(friction["friction_lower"].values).any():
-        handles.append(Patch(facecolor=GREY, alpha=2.0 * _BAND, label="95 % band"))
+        handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="95 % band"))
     if not np.isfinite(friction[_COEFFICIENT].values).all():
-        handles.append(Line2D([], [], color=VERMILION, marker="x", linestyle="none", label="not solved"))
+        handles.append(Line2D([], [], color=style.VERMILION, marker="x", linestyle="none", label="not solved"))
     if handles:
-        legend_beside(axes, handles, "" if layout.lines is None else layout.lines.title)
+        style.legend_beside(axes, handles, "" if layout.lines is None else layout.lines.title)
 
 
 def columns_of(count: int) -> int:
@@ -221,7 +212,7 @@ def small_multiples(count: int) -> tuple[Figure, list[Axes]]:
     """Return a figure with so many panels on common scales, those inside without numbers on their axes."""
     columns = columns_of(count)
     rows = math.ceil(count / columns)
-    figure = new_figure(7.4, 4.3) if count == 1 else new_figure(1.7 + 2.75 * columns, 0.8 + 2.5 * rows)
+    figure = style.new_figure(7.4, 4.3) if count == 1 else style.new_figure(1.7 + 2.75 * columns, 0.8 + 2.5 * rows)
     grid = list(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel())
     for axes in grid[count:]:
         axes.remove()

@@ -4,40 +4,27 @@ from __future__ import annotations
 
 from typing import Any
 
-from viscofric.web.figures.spec import (
-    MODULUS,
-    REDUCED_FREQUENCY,
-    SPEED,
-    TEMPERATURE,
-    Spec,
-    around,
-    axis,
-    figure,
-    line,
-    points,
-    quantity,
-    table,
-)
+from viscofric.web.figures import spec
 
-_VISCOELASTIC = axis("viscoelastic friction coefficient", zero=1.08)
+_VISCOELASTIC = spec.axis("viscoelastic friction coefficient", zero=1.08)
 #: Further figures of a test: title, column, column of its bars with a factor, axis and caption.
 _OTHERS = {
     "coulomb-friction": (
         "Coulomb friction",
         ("coulomb", "coulomb_scatter", 1.0),
-        axis("Coulomb friction coefficient", zero=1.08),
+        spec.axis("Coulomb friction coefficient", zero=1.08),
         "Measured, with the standard deviation of the repetitions.",
     ),
     "four-runs": (
         "Check of the four configurations",
         ("consistency", "consistency_error", 2.0),
-        axis("residual over load"),
+        spec.axis("residual over load"),
         "(F_I − F_II + F_III − F_IV)/4 over the load, with twice its standard error: zero in a valid test.",
     ),
     "force-cell-zero": (
         "Zero of the force cell",
         ("offset", "", 1.0),
-        axis("zero", "load"),
+        spec.axis("zero", "load"),
         "As fitted at each condition; a drift is reported in the notes.",
     ),
 }
@@ -53,7 +40,7 @@ def _kept(values: list[float | None], rows: Any) -> list[float | None]:
     return [one if row else None for one, row in zip(values, rows, strict=True)]
 
 
-def measured_figures(found: dict[str, Any]) -> dict[str, Spec]:
+def measured_figures(found: dict[str, Any]) -> dict[str, spec.Spec]:
     """Return the figures of a result of the job ``measured``."""
     figures = {}
     for name, (title, (column, bars, factor), y, caption) in _OTHERS.items():
@@ -61,25 +48,27 @@ def measured_figures(found: dict[str, Any]) -> dict[str, Spec]:
         marks = [{"y": 0.0}] if name == "four-runs" else []
         traces = [one for curve in known for one in _measured(curve, column, bars, factor)]
         if known:
-            figures[name] = figure(title, SPEED, y, traces, caption, marks=marks, synthetic=found["synthetic"])
+            figures[name] = spec.figure(
+                title, spec.SPEED, y, traces, caption, marks=marks, synthetic=found["synthetic"]
+            )
     return figures | {"measured-friction": _friction(found["curves"], synthetic=found["synthetic"])}
 
 
-def agreement_figures(found: dict[str, Any], curves: list[dict[str, Any]]) -> dict[str, Spec]:
+def agreement_figures(found: dict[str, Any], curves: list[dict[str, Any]]) -> dict[str, spec.Spec]:
     """Return measured friction with its prediction, and that at the reference, of a result of ``agreement``."""
     figures = {"measured-friction": _friction(curves, found)}
     if found["along"] and "speed" in found["along"]:
-        look: Spec = {"colour": "purple", "name": "predicted", "group": "predicted"}
-        figures["along"] = figure("", SPEED, _VISCOELASTIC, _predicted(found["along"], **look))
+        look: spec.Spec = {"colour": "purple", "name": "predicted", "group": "predicted"}
+        figures["along"] = spec.figure("", spec.SPEED, _VISCOELASTIC, _predicted(found["along"], **look))
     return figures
 
 
-def _friction(curves: list[dict[str, Any]], agreement: dict[str, Any] | None = None, **more: Any) -> Spec:
+def _friction(curves: list[dict[str, Any]], agreement: dict[str, Any] | None = None, **more: Any) -> spec.Spec:
     """Draw viscoelastic friction as points, with lines and bands of the prediction behind them."""
     doubts = {} if agreement is None else {one["temperature"]: one["remark"] for one in agreement["points"]}
     lines, measured = [], []
     for one in () if agreement is None else agreement["lines"]:
-        name = f"{quantity(one['temperature'], 'temperature')}, predicted"
+        name = f"{spec.quantity(one['temperature'], 'temperature')}, predicted"
         lines += _predicted(one, temperature=one["temperature"], name=name, legend=False)
     for curve in curves:
         near = [words for kelvin, words in doubts.items() if abs(kelvin - curve["temperature"]) < _SAME]
@@ -89,12 +78,12 @@ def _friction(curves: list[dict[str, Any]], agreement: dict[str, Any] | None = N
     caption += f" Lines: predicted for the page's material{band}." if lines else ""
     if any(any(words) for words in doubts.values()):
         caption += " Open points: the prediction there is doubtful; hover to see why."
-    return figure("Viscoelastic friction", SPEED, _VISCOELASTIC, [*lines, *measured], caption, **more)
+    return spec.figure("Viscoelastic friction", spec.SPEED, _VISCOELASTIC, [*lines, *measured], caption, **more)
 
 
 def _measured(
     curve: dict[str, Any], column: str, bars: str = "", factor: float = 1.0, doubts: list[str] | None = None
-) -> list[Spec]:
+) -> list[spec.Spec]:
     """Draw points of one temperature; those that are doubtful are open."""
     kelvin, doubtful = curve["temperature"], doubts or [""] * len(curve["speed"])
     errors, repeated = (curve.get(name) or [None] * len(doubtful) for name in (f"{column}_error", "replicates"))
@@ -108,28 +97,30 @@ def _measured(
         text.append("; ".join(filter(None, words)))
     scatter = [None if one is None else factor * one for one in curve[bars]] if _known(curve, bars) else None
 
-    def some(rows: list[bool], **look: Any) -> Spec:
+    def some(rows: list[bool], **look: Any) -> spec.Spec:
         error = None if scatter is None else _kept(scatter, rows)
-        return points(curve["speed"], _kept(curve[column], rows), error=error, temperature=kelvin, text=text, **look)
+        return spec.points(
+            curve["speed"], _kept(curve[column], rows), error=error, temperature=kelvin, text=text, **look
+        )
 
     drawn = [some([not one for one in doubtful])]
     if any(doubtful):
-        name = f"{quantity(kelvin, 'temperature')}, doubtful"
+        name = f"{spec.quantity(kelvin, 'temperature')}, doubtful"
         drawn.append(some([bool(one) for one in doubtful], name=name, legend=False, open=True))
     return drawn
 
 
-def _predicted(one: dict[str, Any], **look: Any) -> list[Spec]:
+def _predicted(one: dict[str, Any], **look: Any) -> list[spec.Spec]:
     """Draw a predicted line, thin where it rests on frequencies that were not measured."""
     band = (one["lower"], one["upper"]) if _known(one, "lower") else None
     thin = any(one["extrapolated"])
-    whole = line(one["speed"], one["friction"], band=band, width=0.8 if thin else 2, **look)
+    whole = spec.line(one["speed"], one["friction"], band=band, width=0.8 if thin else 2, **look)
     sound = _kept(one["friction"], [not row for row in one["extrapolated"]])
-    strong: Spec = {**look, "legend": False, "decoration": True}
-    return [whole, line(one["speed"], sound, **strong)] if thin else [whole]
+    strong: spec.Spec = {**look, "legend": False, "decoration": True}
+    return [whole, spec.line(one["speed"], sound, **strong)] if thin else [whole]
 
 
-def master_figures(found: dict[str, Any], **more: Any) -> dict[str, Spec]:
+def master_figures(found: dict[str, Any], **more: Any) -> dict[str, spec.Spec]:
     """Return friction at one temperature, by each of the shift factors, and these, of a result of ``master``."""
     figures = {}
     for name in ("by_rubber", "found"):
@@ -141,26 +132,28 @@ def master_figures(found: dict[str, Any], **more: Any) -> dict[str, Spec]:
         lines = []
         if smoothed:
             band = (smoothed["lower"], smoothed["upper"])
-            lines = [line(smoothed["speed"], smoothed["friction"], words, band=band, colour="purple")]
+            lines = [spec.line(smoothed["speed"], smoothed["friction"], words, band=band, colour="purple")]
         measured = [trace for one in master["points"] for trace in _measured(one, "friction", "scatter")]
-        x = {**SPEED, "label": f"reduced speed α·v at {quantity(master['reference'], 'temperature')}"}
-        spec = figure("Friction at one temperature", x, _VISCOELASTIC, [*lines, *measured], master["overlap"], **more)
-        figures[f"master-{name}"] = spec
+        x = {**spec.SPEED, "label": f"reduced speed α·v at {spec.quantity(master['reference'], 'temperature')}"}
+        drawn = spec.figure(
+            "Friction at one temperature", x, _VISCOELASTIC, [*lines, *measured], master["overlap"], **more
+        )
+        figures[f"master-{name}"] = drawn
     return figures | {"friction-shift-factors": _factors(found, **more)}
 
 
-def _factors(found: dict[str, Any], **more: Any) -> Spec:
+def _factors(found: dict[str, Any], **more: Any) -> spec.Spec:
     """Draw shift factors found from friction beside those of the material."""
     own, other, traces = found["found"], found["known"], []
 
-    def dots(about: dict[str, Any], name: str, **look: Any) -> Spec:
+    def dots(about: dict[str, Any], name: str, **look: Any) -> spec.Spec:
         log10, error = about["log10_shift_factor"], about.get("standard_error")
-        return points(about["temperature"], log10, f"{name} ± standard error", error=error, **look)
+        return spec.points(about["temperature"], log10, f"{name} ± standard error", error=error, **look)
 
-    def law(about: dict[str, Any], name: str, **look: Any) -> Spec:
+    def law(about: dict[str, Any], name: str, **look: Any) -> spec.Spec:
         log10 = about["log10_shift_factor"]
-        band = around(log10, about["error95"]) if _known(about, "error95") else None
-        return line(about["temperature"], log10, name, band=band, **look)
+        band = spec.around(log10, about["error95"]) if _known(about, "error95") else None
+        return spec.line(about["temperature"], log10, name, band=band, **look)
 
     if other and other["points"]:
         traces.append(dots(other["points"], "of the material", colour="orange", symbol="square", open=True))
@@ -170,46 +163,53 @@ def _factors(found: dict[str, Any], **more: Any) -> Spec:
         traces.append(law(own["law"], "law fitted to friction, with its 95 % band", colour="sky", width=1.2))
     if own:
         traces.append(dots(own["factors"], "from friction", colour="blue"))
-    at = quantity((own or found["by_rubber"])["reference"], "temperature")
+    at = spec.quantity((own or found["by_rubber"])["reference"], "temperature")
     caption = (own or {}).get("agreement") or ""
-    return figure("Shift factors", TEMPERATURE, axis(f"log₁₀ α, 0 at {at}"), traces, caption, **more)
+    return spec.figure("Shift factors", spec.TEMPERATURE, spec.axis(f"log₁₀ α, 0 at {at}"), traces, caption, **more)
 
 
 def identified_view(found: dict[str, Any], curves: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
     """Return ``figures``, ``tables`` and ``anchored_at`` of a result of the job ``identify``."""
     lines = []
     for one in found["fit"]:
-        look: Spec = {"temperature": one["temperature"], "legend": False}
-        name = f"{quantity(one['temperature'], 'temperature')}, fitted"
-        lines.append(line(one["speed"], one["fitted"], name, band=(one["lower"], one["upper"]), **look))
+        look: spec.Spec = {"temperature": one["temperature"], "legend": False}
+        name = f"{spec.quantity(one['temperature'], 'temperature')}, fitted"
+        lines.append(spec.line(one["speed"], one["fitted"], name, band=(one["lower"], one["upper"]), **look))
     measured = [{**trace, "size": 5} for one in curves for trace in _measured(one, "viscoelastic")]
     title, sentence = "Friction of the identified material", found["sentences"][0]
-    head = ["level", f"|E| at {quantity(found['middle'], 'angular_frequency')}", "rms of friction", "χ² above the best"]
+    head = [
+        "level",
+        f"|E| at {spec.quantity(found['middle'], 'angular_frequency')}",
+        "rms of friction",
+        "χ² above the best",
+    ]
     rows = [
         [
             f"× {one['factor']}",
-            quantity(one["modulus"], "modulus"),
-            f"{quantity(100.0 * one['rms'], digits=2)} %",
-            quantity(one["penalty"], digits=2),
+            spec.quantity(one["modulus"], "modulus"),
+            f"{spec.quantity(100.0 * one['rms'], digits=2)} %",
+            spec.quantity(one["penalty"], digits=2),
         ]
         for one in found["family"]
     ]
     at, anchored = found["anchor"], ""
     if at:
         units = {"modulus": "modulus", "angular_frequency": "angular_frequency", "temperature": "temperature"}
-        where = [quantity(at[name], kind) for name, kind in units.items()]
+        where = [spec.quantity(at[name], kind) for name, kind in units.items()]
         anchored = f"Anchored to |E| = {where[0]} at {where[1]} and {where[2]}."
     return {
         "figures": {
             "identified-modulus": _identified(found, **more),
-            "identified-friction": figure(title, SPEED, _VISCOELASTIC, [*lines, *measured], sentence, **more),
+            "identified-friction": spec.figure(title, spec.SPEED, _VISCOELASTIC, [*lines, *measured], sentence, **more),
         },
-        "tables": {"family": table("Materials that friction alone hardly distinguishes", head, rows)} if rows else {},
+        "tables": {"family": spec.table("Materials that friction alone hardly distinguishes", head, rows)}
+        if rows
+        else {},
         "anchored_at": anchored,
     }
 
 
-def _identified(found: dict[str, Any], **more: Any) -> Spec:
+def _identified(found: dict[str, Any], **more: Any) -> spec.Spec:
     """Draw the modulus that friction identifies, strong where it does, with the page's material beside it."""
     identified, other, traces = found["identified"], found["known"], []
     omega, low, high = found["modulus"]["angular_frequency"], identified["low"] or 0.0, identified["high"] or 0.0
@@ -218,27 +218,27 @@ def _identified(found: dict[str, Any], **more: Any) -> Spec:
         band = (f"{where}_lower", f"{where}_upper")
         name = f"{symbol} from friction"
         inside = _kept(found["modulus"][part], [low <= one <= high for one in omega])
-        strong: Spec = {**look, "width": 2.6, "legend": False, "decoration": True}
+        strong: spec.Spec = {**look, "width": 2.6, "legend": False, "decoration": True}
         traces += [
-            line("modulus.angular_frequency", where, f"{name}, 95 % band", band=band, width=0.8, **look),
-            line("modulus.angular_frequency", inside, name, **strong),
+            spec.line("modulus.angular_frequency", where, f"{name}, 95 % band", band=band, width=0.8, **look),
+            spec.line("modulus.angular_frequency", inside, name, **strong),
         ]
         if other:
             name = f"{symbol} of {other['name'] or 'the page’s material'}"
-            dashed: Spec = {"colour": "green", "dash": "6px,3px", "width": 1.4}
-            traces.append(line("modulus.angular_frequency", f"known.{part}", name, **dashed))
-    share = f"{quantity(100.0 * identified['limit'], digits=2)} %"
+            dashed: spec.Spec = {"colour": "green", "dash": "6px,3px", "width": 1.4}
+            traces.append(spec.line("modulus.angular_frequency", f"known.{part}", name, **dashed))
+    share = f"{spec.quantity(100.0 * identified['limit'], digits=2)} %"
     level = " except for the magnitude, which friction does not determine" if identified["relative"] else ""
     marks = [{"x": low, "label": f"identified to {share} from …"}, {"x": high, "label": "… to"}]
     caption = f"Strong lines: |E| is identified to {share}{level}. "
     caption += "Beyond, it follows from the assumption of a smooth spectrum."
-    return figure(
+    return spec.figure(
         "Modulus identified from friction",
         {
-            **REDUCED_FREQUENCY,
-            "label": f"reduced {{frequency}} α {{omega}} at {quantity(found['reference'], 'temperature')}",
+            **spec.REDUCED_FREQUENCY,
+            "label": f"reduced {{frequency}} α {{omega}} at {spec.quantity(found['reference'], 'temperature')}",
         },
-        MODULUS,
+        spec.MODULUS,
         traces,
         caption if high > low else f"|E| is not identified to {share} at any frequency.",
         marks=marks if high > low else [],
