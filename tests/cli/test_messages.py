@@ -37,6 +37,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     curves(folder / "apart.csv", [303.15, 363.15])
     shutil.copy(str(files("viscofric") / "example" / "dma.csv"), folder)
     (folder / "sweep.toml").write_text(template_text("sweep"), encoding="utf-8")
+    (folder / "shift.csv").write_text("temperature (degC),a_T\n-30,1e5\n30,1\n120,1e-3\n", encoding="utf-8")
     (folder / "taken").mkdir()
     (folder / "taken" / "study.toml").touch()
     made_results(folder / "a", failed=[2])

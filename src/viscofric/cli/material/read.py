@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+import contextlib
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,6 +12,11 @@ from viscofric.cli.errors import print_notes
 from viscofric.cli.files import FILE, Source, plainly, refuse_to_overwrite
 from viscofric.cli.output import json_option, out_option, print_json
 from viscofric.cli.rubber_options import reading_options
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from viscofric.errors import InputError
 
 
 @as_command("read")
@@ -25,10 +30,19 @@ def command(files: tuple[Path, ...], out: Path | None, as_json: bool, **reading:
     FILES are frequency sweeps, temperature ramps, amplitude sweeps, creep or relaxation tests; the kind is recognised
     by content. Several files of one kind make one set, such as one file for each temperature.
     """
+    from viscofric.errors import DataFileError
+
+    refuse_to_overwrite(files, out)
+    try:
+        _print(files, out, as_json, reading)
+    except DataFileError as error:
+        raise _of_another_kind(files) or error from None
+
+
+def _print(files: tuple[Path, ...], out: Path | None, as_json: bool, reading: dict[str, Any]) -> None:
     from viscofric.cli.material.readings import described, read_kind
     from viscofric.readers.recognise import by_kind
 
-    refuse_to_overwrite(files, out)
     stated = {name: reading[name] or None for name in ("modulus_unit", "columns", "sheet")}
     kinds = by_kind(files, temperatures=reading["temperature"], **stated)
     records = []
@@ -51,3 +65,21 @@ def command(files: tuple[Path, ...], out: Path | None, as_json: bool, **reading:
         print_json({"tests": records})
     if out is not None and "dma" not in kinds:
         raise click.UsageError("--out is for frequency sweeps.")
+
+
+def _of_another_kind(files: tuple[Path, ...]) -> InputError | None:
+    """Return what is said of a file that is no test, but a material or a table of shift factors; None of others."""
+    from viscofric.errors import DataFileError, InputError
+    from viscofric.rheology.cards import open_card
+    from viscofric.rheology.shifts.shift_files import read_shift_factors
+
+    kinds: dict[Any, str] = {
+        open_card: "a material; viscofric material show reads it",
+        read_shift_factors: "a table of shift factors; viscofric material fit takes it by --shift-factors",
+    }
+    for path in files:
+        for read, words in kinds.items():
+            with contextlib.suppress(InputError):
+                read(path)
+                return DataFileError(str(path), f"is no mechanical test, but {words}.", code="no-test")
+    return None
