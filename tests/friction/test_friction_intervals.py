@@ -12,7 +12,7 @@ from scipy.stats import t as student
 
 from friction.made_runs import FOUR, friction_curves, timed_sweeps, traction_runs
 from refusals import refused
-from viscofric.friction.identification.points import relative_errors
+from viscofric.friction.curve_checks import relative_errors
 from viscofric.friction.measurement.errors import Pool, Scatter
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import codes

@@ -14,7 +14,7 @@ from viscofric.arrays import Array
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting import master_curve
 from viscofric.friction.shifting.shift import shift_friction
-from viscofric.notes import codes
+from viscofric.notes import codes, note_of
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 
 LAW = WLF(C1=8.86, C2=101.6, reference="50 degC")
@@ -127,6 +127,45 @@ def test_points_that_the_curve_goes_through_keep_their_errors() -> None:
     )
 
 
+@pytest.mark.parametrize(("stated", "replicates"), [(0.0, 0), (1.0, 0), (1.0, 3)])
+def test_outliers_count_less(stated: float, replicates: int) -> None:
+    """Beside points off by ten errors 95 % intervals held a third, and with errors of three replicates 80 % anyway."""
+    warm, near, far, noted = np.arange(305.15, 342.0, 6.0), [], [], []
+    for seed in range(40):
+        random = np.random.default_rng(500 + seed)
+        curves = shifted_curves(warm, noise=0.03, seed=seed)
+        seen = np.sqrt(random.chisquare(replicates - 1, len(curves)) / (replicates - 1)) if replicates else 1.0
+        outlier = int(random.integers(len(curves)))
+        off = np.where(np.arange(len(curves)) == outlier, 1.0 + 0.3 * random.choice([-1.0, 1.0]), 1.0)
+        master = shift_friction(
+            replace(
+                curves,
+                viscoelastic=off * curves.viscoelastic,
+                viscoelastic_error=stated * seen * curves.viscoelastic_error,
+            ),
+            shift=LAW,
+        )
+        noted += [note.values["speed"] for note in map(note_of, master.notes) if note.code == "outlying-points"]
+        at = np.geomspace(1.05 * master.reduced_range[0], master.reduced_range[1] / 1.05, 25)
+        held = np.abs(master(at) - friction(at)) < 1.96 * master.standard_error(at)
+        away = np.abs(np.log10(at / float(LAW(curves.temperature[outlier]) * curves.speed[outlier])))
+        near += held[away < 0.15].tolist()
+        far += held[away > 0.4].tolist()
+    assert len(noted) >= 36
+    # Of some 40 independent places each: three standard deviations of 0.95, and at the ends outliers pass unseen.
+    assert np.mean(near) > 0.84
+    assert np.mean(far) > 0.9
+
+
+def test_points_off_a_curve_of_one_retardation_time_are_no_outliers() -> None:
+    """The parabola is off by 1 % there, whatever the errors."""
+    for noise in (0.0, 1e-4, 3e-3):
+        curves = shifted_curves(np.arange(305.15, 342.0, 6.0), noise=noise)
+        reduced = np.asarray(LAW(curves.temperature)) * curves.speed
+        sharp = curves.viscoelastic / friction(reduced) * peak(reduced)
+        assert codes(shift_friction(replace(curves, viscoelastic=sharp), shift=LAW).notes) == set()
+
+
 @pytest.mark.parametrize("stated", [0.0, 1.0])
 def test_one_outlier_does_not_widen_all_errors(stated: float) -> None:
     """A point twice too high in the middle of 70, with 3 % of noise elsewhere, widened all six- to ninefold."""
@@ -136,10 +175,7 @@ def test_one_outlier_does_not_widen_all_errors(stated: float) -> None:
     middle = np.argsort(reduced)[len(curves) // 2]
     spoilt = replace(curves, viscoelastic=np.where(np.arange(len(curves)) == middle, 2.0, 1.0) * curves.viscoelastic)
     clean, one = (shift_friction(each, shift=LAW).standard_error(reduced.max()) for each in (curves, spoilt))
-    # A seventh of the points lie within reach of the outlier, and count up to nine medians each.  These are then 0.65
-    # of the variance instead of 0.455: 9 · 0.65/7 + 6/7 = 1.7 times the variance, 1.3 times the error; six seeds had
-    # 1.2 to 1.55.
-    assert clean <= one < 1.8 * clean
+    assert clean <= one < 1.2 * clean
 
 
 def test_scatter_that_level_errors_explain_is_counted_once() -> None:
@@ -156,7 +192,7 @@ def test_scatter_that_level_errors_explain_is_counted_once() -> None:
     assert np.median(factors) == pytest.approx(0.1, rel=0.05)
 
 
-def test_values_of_many_points_are_read_without_their_scatter(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_distances_of_many_points_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The distances of all points from the curve cost a thousand times as much as one value."""
     places: list[int] = []
     plain = master_curve.smoothing_weights
@@ -171,7 +207,6 @@ def test_values_of_many_points_are_read_without_their_scatter(monkeypatch: pytes
     for read in (master, master.standard_error, master.standard_error):
         read(0.1)
     assert sorted(places) == [1, 1, 1, 500]
-    assert places[0] == 1
 
 
 def test_overlap_is_exact_without_noise_and_shows_noise() -> None:

@@ -7,13 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, Mask
 from viscofric.errors import wrong_argument
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.intervals import threshold
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
-from viscofric.units import Quantity, number, shown_celsius
+from viscofric.rheology.uncertainty.residuals import prior_freedom
+from viscofric.units import Quantity, number, shown_celsius, shown_speed
 
 #: Fewer second differences do not give a scatter.
 FEWEST_DIFFERENCES = 6
@@ -35,6 +36,12 @@ PARABOLA, FEWEST_ABOUT = 3, 6
 #: Probability of differences by chance from which on friction may be constant.
 CHANCE = 0.01
 _FEWEST_POINTS = 3
+#: Least part of a point's own variance in its distance from a fit, for a distance that is more than rounding.
+LEAST_FREEDOM = 1e-6
+#: More outliers than this part of the points are scatter, and the mean square of normal scatter without them.
+MOST_OUTLYING, INNER_SQUARE = 0.1, 0.623
+#: Fewest errors that have a common one.
+FEWEST_ERRORS = 6
 
 
 def shared_error(value: Quantity, name: str) -> float:
@@ -89,6 +96,75 @@ def freedom_of_scatter(variance: float) -> float:
     if variance >= polygamma(1, least):
         return 2.0 * least
     return 2.0 * float(brentq(lambda half: float(polygamma(1, half)) - variance, least, most))
+
+
+def outliers(squares: Array, freedom: float, least: float) -> tuple[Array, Mask]:
+    """Return squared distances (n,) over the scatter that all but the largest have, and which are too large for chance.
+
+    `squares` are those of distances over their errors, `least` is that of the scatter; one set in a hundred has an
+    outlier by chance.
+    """
+    from scipy.special import stdtrit
+
+    inner = np.sort(squares)[: len(squares) - int(MOST_OUTLYING * len(squares))]
+    scatter = float(inner.mean()) / (INNER_SQUARE if len(inner) < len(squares) else 1.0)
+    over = squares / max(scatter, least)
+    known = np.inf if scatter <= least else max(freedom, 1.0)
+    return over, over > stdtrit(known, 1.0 - 0.5 * CHANCE / len(squares)) ** 2
+
+
+def outlying_points(speed: Array, temperature: Array, away: Array) -> tuple[Note, ...]:
+    """Return a note on points (n,) that count less, if there are any: `away` (n,) in standard errors, else zero."""
+    worst, rows = int(np.argmax(away)), np.flatnonzero(away)
+    if not rows.size:
+        return ()
+    note = Note(
+        "outlying-points",
+        f"{rows.size} of {away.size} points, farthest that at {shown_speed(float(speed[worst]))} and "
+        f"{shown_celsius(float(temperature[worst]))} °C by {away[worst]:.2g} standard errors, lie off the others by "
+        "more than chance explains and count less; check them.",
+        values={
+            "points": int(rows.size),
+            "of": int(away.size),
+            "speed": speed[rows].tolist(),
+            "temperature": temperature[rows].tolist(),
+            "standard_errors": away[rows].tolist(),
+        },
+    )
+    return (note,)
+
+
+def relative_errors(curves: FrictionCurves) -> Array:
+    """Return standard errors of ln μ, moderated towards the common one."""
+    # The scatter of few replicates is a poor estimate, with an error of a quarter for eight; weights by it would make
+    # the fit worse than its errors. With ν0 the freedom of the common variance s0², that of a point is (ν0 s0² + ν
+    # s²)/(ν0 + ν); ν0 follows from the scatter of ln s² beyond chance. The error of a mean then has Student's
+    # distribution of ν0 + ν degrees of freedom, whose variance is larger by (ν0 + ν)/(ν0 + ν − 2) (G. K. Smyth, Stat.
+    # Appl. Genet. Mol. Biol. 3 (2004) 3).
+    errors = curves.viscoelastic_error / curves.viscoelastic
+    freedom, _ = error_freedom(curves)
+    known = np.isfinite(freedom) & (errors > 0.0)
+    if np.count_nonzero(known) < FEWEST_ERRORS:
+        return np.asarray(errors)
+    errors[known] = np.sqrt(moderated_variances(errors[known] ** 2, freedom[known]))
+    return np.asarray(errors)
+
+
+def moderated_variances(variances: Array, freedom: Array) -> Array:
+    """Return sample variances (n,) with their degrees of freedom (n,), shrunk towards the common one."""
+    # They are those of Student's distribution.
+    from scipy.special import digamma
+
+    half = 0.5 * freedom
+    logarithms = np.log(variances) - digamma(half) + np.log(half)
+    prior = prior_freedom(logarithms, freedom)
+    common = float(np.exp(np.mean(logarithms)))
+    if np.isinf(prior):  # all have one variance
+        total = float(np.sum(freedom))
+        return np.full(len(variances), float(freedom @ variances) / max(total - 2.0, 0.5 * total))
+    common *= float(np.exp(digamma(0.5 * prior)) / (0.5 * prior))
+    together = prior + freedom
+    return np.asarray((prior * common + freedom * variances) / np.maximum(together - 2.0, 0.5 * together))
 
 
 def scatter_about_parabolas(curves: FrictionCurves) -> float | None:

@@ -26,7 +26,7 @@ from viscofric.errors import SuperpositionError
 from viscofric.friction.curve_files import read_friction_curves, write_friction_curves
 from viscofric.friction.identification.solving import Contacts
 from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
-from viscofric.notes import Note, codes
+from viscofric.notes import Note, codes, note_of
 
 SETTINGS = {"indenter": BALL, "accuracy": 1e-2, "samples": 40, "modes": 15}
 FEW = SETTINGS | {"samples": 20}
@@ -205,6 +205,30 @@ def test_errors_that_are_too_small_are_enlarged_and_reported() -> None:
     found = vf.identify_material(noisy, anchor=planted_anchor(), shift=RUBBER.shift, **FEW)
     assert 3.0 < found.error_scale < 10.0  # 0.03/0.0055, to the scatter of 18 points
     assert codes(found.notes) == {"errors-enlarged"}
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("closed_form")
+def test_a_point_off_by_many_errors_moves_nothing_and_is_noted() -> None:
+    curves = closed_form_curves(*WARM)
+    noisy = curves.viscoelastic * (1.0 + 0.01 * np.random.default_rng(2).standard_normal(len(curves)))
+    spoilt = noisy * np.where(np.arange(len(curves)) == 8, 1.3, 1.0)
+    plain, found = (
+        vf.identify_material(
+            replace(curves, viscoelastic=each, viscoelastic_error=0.01 * each),
+            anchor=planted_anchor(),
+            shift=RUBBER.shift,
+            **FEW,
+        )
+        for each in (noisy, spoilt)
+    )
+    [note] = [one for one in map(note_of, found.notes) if one.code == "outlying-points"]
+    assert note.values["speed"] == [float(curves.speed[8])]
+    assert note.values["standard_errors"] == [pytest.approx(26.0, abs=4.0)]  # ln 1.3 in errors of 1 %
+    assert found.error_scale == 1.0
+    omega = np.geomspace(*plain.frequency_range, 9)
+    moved = np.log(np.abs(found.material.complex_modulus(omega) / plain.material.complex_modulus(omega)))
+    assert np.abs(moved / plain.standard_error(omega)).max() < 1.0
 
 
 @pytest.mark.usefixtures("closed_form")

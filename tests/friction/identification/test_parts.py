@@ -11,9 +11,10 @@ import viscofric as vf
 from friction.identification.planted import BALL, LOAD, RUBBER
 from friction.synthetic_curves import curves_of
 from refusals import refused
+from viscofric.friction.curve_checks import moderated_variances
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.friction.identification.moduli import compliance, known_part, log_modulus
-from viscofric.friction.identification.points import moderated_variances, usable_points
+from viscofric.friction.identification.points import usable_points
 from viscofric.friction.identification.posterior import descend, draws, log_evidence
 from viscofric.friction.identification.problem import Shifts, Smoothness
 from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED

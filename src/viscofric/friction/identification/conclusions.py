@@ -10,10 +10,16 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.friction.assumption_check import ContactSize
 from viscofric.friction.coulomb import check_coupling
-from viscofric.friction.curve_checks import implausible
+from viscofric.friction.curve_checks import (
+    LEAST_FREEDOM,
+    MOST_OUTLYING,
+    implausible,
+    outliers,
+    outlying_points,
+)
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import Findings, Posterior, level_family, limits
-from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
+from viscofric.friction.identification.iteration import Weighed, freedom_of, leverage_of, most_evident, weighed
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import Problem
 from viscofric.friction.identification.result import (
@@ -66,7 +72,8 @@ class Outcome:
 
 def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels: Sequence[float]) -> IdentifiedMaterial:
     """Return the result; see `identify_material` for the arguments."""
-    fits, error_scale = _with_enlarged_errors(outcome.fits)
+    fits, away = _without_outliers(outcome.fits)
+    fits, error_scale = _with_enlarged_errors(fits)
     best = most_evident(fits)
     low, high = _frequencies(best)
     ratio, anchored = outcome.contacts.poisson_ratio, outcome.anchored
@@ -74,6 +81,8 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         fits, (low, high), shift=outcome.shift, poisson_ratio=ratio, name=outcome.name, samples=samples, seed=seed
     )
     middle, drawn, points = found.middle, found.drawn, best.problem.points
+    measured = outcome.curves.select(points.rows)
+    of_outliers = outlying_points(measured.speed, measured.temperature, away)
     doubts = tuple(_doubts(outcome, error_scale, best, limit))
     bands = [
         IdentifiedBand(middle, middle, limit, not anchored)
@@ -96,9 +105,29 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         friction=fitted,
         residuals=residuals,
         iterations=outcome.iterations,
-        notes=(*points.notes, *doubts, *_coupling(outcome, common["material"]), *of_anchors),
+        notes=(*points.notes, *of_outliers, *doubts, *_coupling(outcome, common["material"]), *of_anchors),
     )
     return replace(result, material=with_origin(result, outcome.curves.source))
+
+
+def _without_outliers(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], Array]:
+    """Enlarge the errors of single points that do not agree with the others, and fit again.
+
+    Also returns by how many standard errors each point (n,) lies off; zero for all that are no outliers.
+    """
+    best = most_evident(fits)
+    errors = best.problem.point_errors
+    found, larger = fits, np.zeros(len(errors))
+    while np.count_nonzero(larger) <= MOST_OUTLYING * len(errors):
+        freedom = np.maximum(1.0 - leverage_of(best, len(errors)), LEAST_FREEDOM)
+        squares, outlying = outliers(_residuals(best) ** 2 / freedom, float(np.sum(freedom)), 1.0)
+        worst = int(np.argmax(squares))
+        if not outlying[worst]:
+            return found, np.abs(_residuals(best)) * larger
+        larger[worst] = max(larger[worst], 1.0) * np.sqrt(squares[worst])
+        found = weighed(best.problem.with_errors(errors * np.maximum(larger, 1.0)), best.minimum.place)
+        best = most_evident(found)
+    return fits, np.zeros(len(errors))
 
 
 def _with_enlarged_errors(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], float]:

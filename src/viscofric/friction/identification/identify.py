@@ -153,7 +153,8 @@ def identify_material(
     to 1 % only.  A step that does not improve the fit as predicted is shortened (a trust region).  The uncertainty is
     that of fits to other errors, of the measurement and of the prior (randomised maximum likelihood).
 
-    Errors of the points are taken as independent.  Those of replicates are moderated towards a common scatter.  Errors
+    Errors of the points are taken as independent.  Those of replicates are moderated towards a common scatter.  Points
+    that do not agree with the others, a tenth at most, get the error of their distance, with a note.  Errors
     that points share cannot be seen in the residuals: a fit follows them.  Those that are given (`level_error` …) are
     unknowns with these standard errors, and widen all bands; others are not in the bands.  Contacts are solved
     without shear: a note gives the effect of measured Coulomb friction on a half-space of the Poisson ratio; for thin

@@ -75,9 +75,13 @@ def most_evident(fits: list[Weighed[AnyProblem]]) -> Weighed[AnyProblem]:
 
 def freedom_of(best: Weighed[Any], count: int) -> float:
     """Return the number of points, the first `count` residuals, minus the trace of the hat matrix."""
-    _, jacobian = best.problem.measured(best.minimum.place)
-    part = jacobian[:count]
-    return len(part) - float(np.sum(part * np.linalg.solve(best.minimum.normal, part.T).T))
+    return count - float(np.sum(leverage_of(best, count)))
+
+
+def leverage_of(best: Weighed[Any], count: int) -> Array:
+    """Return the diagonal of the hat matrix of the points, the first `count` residuals."""
+    part = best.problem.measured(best.minimum.place)[1][:count]
+    return np.asarray(np.sum(part * np.linalg.solve(best.minimum.normal, part.T).T, axis=1))
 
 
 class Here(NamedTuple, Generic[AnyProblem]):

@@ -11,13 +11,12 @@ from viscofric.arrays import Array, Integers, Mask
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
-from viscofric.friction.curve_checks import error_freedom, scatter_about_parabolas
+from viscofric.friction.curve_checks import error_freedom, relative_errors, scatter_about_parabolas
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note, Remedy, note_of
-from viscofric.rheology.uncertainty.residuals import prior_freedom
 from viscofric.units import Quantity, positive, shown_celsius, shown_number, shown_speed
 
 #: Fewer points do not determine a spectrum's shape.
@@ -217,36 +216,3 @@ class SharedErrors(NamedTuple):
         if self.level > 0.0:
             found += [np.where(points.number == one, self.level, 0.0) for one in np.unique(points.number)]
         return np.array(found).reshape(-1, len(points)).T
-
-
-def relative_errors(curves: FrictionCurves) -> Array:
-    """Return standard errors of ln μ, moderated towards the common one."""
-    # The scatter of few replicates is a poor estimate, with an error of a quarter for eight; weights by it would make
-    # the fit worse than its errors. With ν0 the freedom of the common variance s0², that of a point is (ν0 s0² + ν
-    # s²)/(ν0 + ν); ν0 follows from the scatter of ln s² beyond chance. The error of a mean then has Student's
-    # distribution of ν0 + ν degrees of freedom, whose variance is larger by (ν0 + ν)/(ν0 + ν − 2) (G. K. Smyth, Stat.
-    # Appl. Genet. Mol. Biol. 3 (2004) 3).
-    errors = curves.viscoelastic_error / curves.viscoelastic
-    freedom, _ = error_freedom(curves)
-    known = np.isfinite(freedom) & (errors > 0.0)
-    if np.count_nonzero(known) < FEWEST_POINTS:
-        return np.asarray(errors)
-    errors[known] = np.sqrt(moderated_variances(errors[known] ** 2, freedom[known]))
-    return np.asarray(errors)
-
-
-def moderated_variances(variances: Array, freedom: Array) -> Array:
-    """Return sample variances (n,) with their degrees of freedom (n,), shrunk towards the common one."""
-    # They are those of Student's distribution.
-    from scipy.special import digamma
-
-    half = 0.5 * freedom
-    logarithms = np.log(variances) - digamma(half) + np.log(half)
-    prior = prior_freedom(logarithms, freedom)
-    common = float(np.exp(np.mean(logarithms)))
-    if np.isinf(prior):  # all have one variance
-        total = float(np.sum(freedom))
-        return np.full(len(variances), float(freedom @ variances) / max(total - 2.0, 0.5 * total))
-    common *= float(np.exp(digamma(0.5 * prior)) / (0.5 * prior))
-    together = prior + freedom
-    return np.asarray((prior * common + freedom * variances) / np.maximum(together - 2.0, 0.5 * together))

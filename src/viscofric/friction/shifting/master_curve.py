@@ -5,19 +5,27 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import Array, Mask
+from viscofric.arrays import Array, Indices, Mask
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
+from viscofric.friction.curve_checks import (
+    LEAST_FREEDOM,
+    MOST_OUTLYING,
+    outliers,
+    outlying_points,
+    relative_errors,
+)
 from viscofric.friction.curve_words import LABELS
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.collapse import Collapse
-from viscofric.friction.shifting.isotherms import nominal_temperatures
+from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, nominal_temperatures
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
+from viscofric.notes import Note
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
@@ -34,13 +42,19 @@ _ROUNDING = 1e-9
 _NEIGHBOURS = 5
 # Abscissae closer than this part of the bandwidth count as one.
 _COINCIDENT = 1e-6
-# Least part of a point's own variance in its distance from the curve, for a distance that is more than rounding.
-_LEAST_FREEDOM = 1e-6
 # Squared distances from the curve count up to this many times what four in five do not exceed, so that outliers do not
 # stand for all, but a third of the points that scatter more than the others do.  Of normal scatter that leaves the part
 # E[min(z², 2.49 q)] = 0.924, q = 1.642.  Few points, whose distances depend on each other, are cut less: their errors
 # are up to 4 % too large.
 _MOST, _CLIPPED, _UNCLIPPED = 0.8, 2.49, 0.924
+# Largest relative distance of the parabola of a point from a smooth curve, also at its ends.
+_BIAS = 0.03
+
+
+def reduced_decades(points: FrictionCurves, shift: ShiftLaw, *, found: bool) -> Array:
+    """Return log10 of the reduced speed of points (n,) at one load, whose shift factors were found or given."""
+    kelvin = nominal_temperatures(points.temperature) if found else points.temperature
+    return np.asarray(np.log10(points.speed) + shift.log10(kelvin))
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,25 +80,29 @@ class SmoothedPoints:
     def read(self, decades: Array) -> Array:
         """Return values (m,) at places (m,) that lie in a stretch."""
         value = np.empty(decades.shape)
-        for place, window, weights in self._smoothers(decades):
+        for place, window, weights in self._smoothers(decades, self._judged.weight):
             value[place] = weights @ self.friction[window]
         return value
 
     def standard_error(self, decades: Array) -> Array:
         """Return standard errors (m,) at places (m,) that lie in a stretch."""
         square = np.empty(decades.shape)
-        for place, window, weights in self._smoothers(decades):
-            variance = np.where(weights == 0.0, 0.0, self._variance[window])
+        for place, window, weights in self._smoothers(decades, self._judged.weight):
+            variance = np.where(weights == 0.0, 0.0, self._judged.variance[window])
             square[place] = weights**2 @ variance + self._shared(window, weights)
         return np.sqrt(square)
+
+    @property
+    def outlying(self) -> Array:
+        """By how many standard errors points (n,) lie off the curve that count less for it; zero for the others."""
+        return np.sqrt(self._judged.outlying)
 
     def _shared(self, window: slice, weights: Array) -> float:
         """Return the variance that errors which points share give to a weighted sum of their friction."""
         return float(np.sum((self.sharing[:, window] @ (weights * self.friction[window])) ** 2))
 
-    def _smoothers(self, decades: Array) -> Iterator[tuple[int, slice, Array]]:
+    def _smoothers(self, decades: Array, statistical: Array) -> Iterator[tuple[int, slice, Array]]:
         """Yield of each place that lies in a stretch its number, the points around it and the weights of these."""
-        statistical = _weights(self.error)
         for low, high in self.stretches:
             inside = np.flatnonzero((decades >= low - _ROUNDING) & (decades <= high + _ROUNDING))
             if not inside.size:
@@ -96,32 +114,70 @@ class SmoothedPoints:
                 yield place, slice(rows.start + window.start, rows.start + window.stop), weights
 
     @cached_property
-    def _variance(self) -> Array:
-        """Variances of the points (n,), larger by one factor where they scatter about the curve by more than these."""
-        # The scatter that errors which points share explain is not counted.
+    def _judged(self) -> _Judged:
+        """Weights and variances of the points, with outliers that count less."""
+        # Variances are larger by one factor where points scatter about the curve by more than these.  The scatter that
+        # errors which points share explain is not counted.
         finite = np.isfinite(self.error)
         known = bool(np.any(self.error[finite] > 0.0))
         # Without stated errors, the scatter is taken to be a part of friction.
         stated = self.error if known else np.where(finite, np.abs(self.friction), np.inf)
-        variance = np.where(finite, np.square(stated), 0.0)
-        squares, own, shared, freedom = np.zeros((4, len(self.decades)))
-        for row, window, weights in self._smoothers(self.decades):
-            away = -weights
-            away[row - window.start] += 1.0
-            squares[row] = (away @ self.friction[window]) ** 2
-            own[row] = away**2 @ variance[window]
-            shared[row] = self._shared(window, away)
-            freedom[row] = away @ away
+        plain, variance = _weights(self.error), np.where(finite, np.square(stated), 0.0)
+        outlying = np.zeros(len(self.decades))
+        while True:
+            larger = np.maximum(outlying, 1.0)
+            factor, away = self._distances(plain / larger, variance * larger, _weights(stated) / larger, known=known)
+            # The first one within reach makes outliers of its neighbours.
+            order = np.argsort(-away)
+            found = [
+                one
+                for rank, one in enumerate(order[: np.count_nonzero(away)].tolist())
+                if np.all(np.abs(self.decades[order[:rank]] - self.decades[one]) > 2.0 * BANDWIDTH)
+            ]
+            some = np.count_nonzero(outlying) + len(found)
+            if not found or some > MOST_OUTLYING * len(away):
+                return _Judged(plain / larger, np.where(finite, variance * larger * factor, np.inf), outlying)
+            outlying[found] = larger[found] * away[found]
+
+    def _distances(self, weight: Array, variance: Array, trusted: Array, *, known: bool) -> tuple[float, Array]:
+        """Return a factor of the variances (n,), and squared distances (n,) of outliers, in variances; else zero."""
+        curve, squares, own, shared, freedom = np.zeros((5, len(self.decades)))
+        judged = np.zeros(len(squares), dtype=bool)  # not where points are too sparse for a parabola to be near them
+        for row, window, weights in self._smoothers(self.decades, weight):
+            left = -weights
+            left[row - window.start] += 1.0
+            curve[row] = weights @ self.friction[window]
+            squares[row] = (self.friction[row] - curve[row]) ** 2
+            own[row] = left**2 @ variance[window]
+            shared[row] = self._shared(window, left)
+            freedom[row] = left @ left
+            judged[row] = np.ptp(self.decades[window]) <= 2.0 * BANDWIDTH + _ROUNDING
         # Where the curve goes through the points, what is left is rounding.
-        counted = finite & (freedom > _LEAST_FREEDOM) & (own > 0.0)
-        factor = 1.0 if known else 0.0
+        counted = np.isfinite(self.error) & (freedom > LEAST_FREEDOM) & (own > 0.0)
+        factor, away = 1.0 if known else 0.0, np.zeros(len(squares))
         if np.any(counted):
             squares, own, shared = squares[counted], own[counted], shared[counted]
-            weight, expected = _weights(stated)[counted], own + shared
+            weight, expected = trusted[counted], own + shared
+            most = float(np.quantile(squares / expected, _MOST))
+            # A single error may be too small: half of them are larger, or a larger part of friction.
+            square = np.maximum(np.square(self.friction[counted]), np.finfo(float).tiny)
+            part = np.median(variance[counted] / square) * np.square(curve[counted])
+            usual = freedom[counted] * np.minimum(part, np.median(variance[counted]))
+            far = squares > np.square(_BIAS * curve[counted])
+            away[counted], some = outliers(squares / np.maximum(expected, usual), float(np.sum(freedom)), factor)
+            away[counted] *= some & far & judged[counted]
             # So that outliers, and their neighbours, do not stand for all.
-            squares = np.minimum(squares, _CLIPPED * np.quantile(squares / expected, _MOST) * expected) / _UNCLIPPED
+            squares = np.minimum(squares, _CLIPPED * most * expected) / _UNCLIPPED
             factor = max(factor, float(weight @ (squares - shared) / (weight @ own)))
-        return np.where(finite, variance * factor, np.inf)
+        return factor, away
+
+
+class _Judged(NamedTuple):
+    """Points (n,) of a curve: statistical weights, variances, and squared distances of outliers in variances."""
+
+    weight: Array
+    variance: Array
+    outlying: Array
 
 
 def _weights(error: Array) -> Array:
@@ -160,7 +216,9 @@ class FrictionMasterCurve(Plotted):
 
     Called with a speed and a temperature it gives μ(v, T).  The value is that of a local quadratic regression
     in log10(αv): tricube kernel of half-width 0.25 decades, wider where points are sparse so that it reaches
-    the five nearest; every point weighs 1/(s² + m²), s its own standard error, m the median of all.  From 10
+    the five nearest; every point weighs 1/(s² + m²), s its own standard error, that of few replicates averaged with
+    its neighbours', m the median of all.  Points off the curve by more than chance explains, a tenth at most, weigh
+    less by the square of their distance, with a note.  From 10
     points without noise per decade it is accurate to 0.5 % around a maximum where the slope of log μ over log v
     changes by 1 per decade, and to 1 % at the sharpest there is, that of one retardation time.  Stretches
     wider than half a decade without points are not bridged, and nothing is extrapolated; use `predict_friction`
@@ -289,7 +347,18 @@ class FrictionMasterCurve(Plotted):
     def _smoothed(self) -> SmoothedPoints:
         kelvin = nominal_temperatures(self.temperature)
         sharing = self.level_error * (np.unique(kelvin)[:, None] == kelvin)
-        return SmoothedPoints(np.log10(self.reduced_speed), self.friction_coefficient, self.friction_error, sharing)
+        points, error = self.curves_at_load, self.friction_error
+        if np.all(self.friction_coefficient > CLEAR_OF_ZERO * np.where(np.isfinite(error), error, 0.0)):
+            error = self.friction_coefficient * relative_errors(points)[self._order]
+        return SmoothedPoints(np.log10(self.reduced_speed), self.friction_coefficient, error, sharing)
+
+    @cached_property
+    def _order(self) -> Indices:
+        return np.argsort(reduced_decades(self.curves_at_load, self.shift, found=self.found), kind="stable")
+
+    def outlying(self) -> tuple[Note, ...]:
+        """Return a note on points that lie off the curve by more than their errors and the others' scatter, if any."""
+        return outlying_points(self.curves.speed[self._order], self.temperature, self._smoothed.outlying)
 
     @property
     def overlap_rms(self) -> float | None:

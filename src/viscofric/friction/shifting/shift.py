@@ -16,9 +16,9 @@ from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.friction.shifting.collapse import collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
-from viscofric.friction.shifting.isotherms import friction_isotherms, nominal_temperatures
+from viscofric.friction.shifting.isotherms import friction_isotherms
 from viscofric.friction.shifting.load_rule import LoadRule
-from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+from viscofric.friction.shifting.master_curve import FrictionMasterCurve, reduced_decades
 from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
@@ -73,7 +73,7 @@ def shift_friction(
     -------
     FrictionMasterCurve
         With `shift_factors`, a `ShiftFactors` with covariance, to which laws are fitted as to those of a DMA.  Its
-        notes name temperatures that were left out.
+        notes name temperatures that were left out, and points that lie off the curve and count less.
 
     Raises
     ------
@@ -134,10 +134,9 @@ def shift_friction(
         shift = shift.at_reference(kelvin)
     vertical = None if vertical_shift is None else vertical_shift.at_reference(shift.reference)
     points = _at_one_load(curves, rule, at_load, vertical)
-    temperature = nominal_temperatures(curves.temperature) if found else curves.temperature
-    decades = np.log10(points.speed) + shift.log10(temperature)
+    decades = reduced_decades(points, shift, found=found)
     order = np.argsort(decades, kind="stable")
-    return FrictionMasterCurve(
+    master = FrictionMasterCurve(
         reduced_speed=_frozen(10.0 ** decades[order]),
         temperature=_frozen(curves.temperature[order]),
         friction_coefficient=_frozen(points.viscoelastic[order]),
@@ -154,6 +153,9 @@ def shift_friction(
         notes=(*notes, *implausible(points), *_below_zero(curves)),
         level_error=shared,
     )
+    # Not by replace(): the distances of all points from the curve are known now.
+    object.__setattr__(master, "notes", (*master.notes, *master.outlying()))
+    return master
 
 
 def _below_zero(curves: FrictionCurves) -> Iterator[Note]:
