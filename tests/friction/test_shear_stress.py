@@ -10,6 +10,7 @@ import pytest
 import viscofric as vf
 from viscofric.contact.coupling import sheared_compliance
 from viscofric.friction.coulomb import with_interface
+from viscofric.notes import codes, note_of
 
 RUBBER = vf.synthetic_fluoroelastomer()
 TRUE = vf.friction.GaussianShearStress("0.4 MPa", "4 mm/s", 1.2, shift=vf.Arrhenius("70 kJ/mol", "60 degC"))
@@ -82,6 +83,45 @@ def test_shared_errors_widen_the_law_by_their_size(stress):
     assert areas.standard_errors[2] == pytest.approx(bare.standard_errors[2], rel=1e-3)
     levels = vf.friction.shear_stress(measured(), CONTACTS, reference="60 degC", level_error=0.1).law("gaussian")
     assert levels.standard_errors[-1] > 1.1 * stress.law("gaussian").standard_errors[-1]
+
+
+@pytest.mark.apart
+def test_levels_of_temperatures_that_nothing_states_are_in_the_errors():
+    """With levels of 5 %, 95 % intervals of the constants held 45, 65, 85 and 62 %."""
+    kelvin = np.linspace(313.15, 353.15, 5)
+    speed, temperature = np.tile(SPEED, 5), np.repeat(kelvin, 9)
+    empty = {f"viscoelastic{name}": np.full(45, 0.02) for name in ("", "_error", "_scatter")}
+
+    def made(**columns):
+        return vf.FrictionCurves(speed, temperature, np.full(45, 5.0), **empty, replicates=np.full(45, 9), **columns)
+
+    contacts, true = (
+        made(mean_pressure=np.full(45, 3e5), mean_pressure_error=np.ones(45)),
+        TRUE(0.1 * speed, temperature),
+    )
+    away, noted = [], 0
+    for seed in range(40):
+        random = np.random.default_rng(seed)
+        scatter = 1.0 + 0.02 * random.standard_normal(45)
+        levels = np.repeat(np.exp(0.05 * random.standard_normal(5)), 9)
+        rubbed = made(coulomb=true / 3e5 * scatter * levels, coulomb_error=0.02 * true / 3e5, slip=0.1 * speed)
+        stress = vf.friction.shear_stress(rubbed, contacts, reference="60 degC")
+        law = stress.law("gaussian")
+        away.append((np.array(law.parameters) - TRUE.parameters) / law.standard_errors)
+        noted += seed < 5 and "level-scatter" in codes(stress.compare_laws().notes)
+    assert noted >= 4
+    # Of 40 each: three standard deviations of 0.95.
+    assert np.all(np.mean(np.abs(away) < 1.96, axis=0) > 0.84)
+
+
+def test_a_level_of_one_temperature_is_noted_with_its_size():
+    stress = vf.friction.shear_stress(measured(0.01), CONTACTS, reference="60 degC")
+    assert "level-scatter" not in codes(stress.compare_laws().notes)
+    raised = replace(measured(0.01), coulomb=measured(0.01).coulomb * np.repeat([1.0, 1.15, 1.0], SPEED.size))
+    found = vf.friction.shear_stress(raised, CONTACTS, reference="60 degC").compare_laws()
+    [note] = [one for one in map(note_of, found.notes) if one.code == "level-scatter"]
+    # Levels of 0, 15 and 0 % scatter by 8 %, less what the law follows.
+    assert note.values["level"] == pytest.approx(np.log10(1.08), rel=0.5)
 
 
 def test_points_near_zero_and_missing_slip_are_noted():

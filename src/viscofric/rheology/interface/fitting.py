@@ -24,7 +24,9 @@ from viscofric.rheology.shifts.law_fitting import (
     Solution,
     Table,
     criterion_of,
+    least_squares,
     solved,
+    with_misfit,
 )
 from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
@@ -42,6 +44,10 @@ _FARTHEST = 15.0
 #: How far beyond the measured speeds laws that cannot be told apart are compared, decades.
 _BEYOND = 1.0
 _ALIKE = 0.05  # decades
+#: Errors of the levels of temperatures that are sought, decades, and the rise of ln L from which on there is one: of
+#: twenty tests without any, one has it.
+_LEVELS = (1e-3, 1.0)
+_SEEN = 1.35
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,12 +56,18 @@ class StressTable(Table):
 
     speed: Array  # (n,), log10 of m/s
     kelvin: Array  # (n,)
+    covariance: Array  # (n, n)
 
     @classmethod
     def of(cls, speed: Array, kelvin: Array, values: Array, covariance: Array) -> StressTable:
         """Prepare values (n,) with their covariance (n, n)."""
         variance, axes = np.linalg.eigh(covariance)
-        return cls(values, axes.T, np.maximum(variance, 0.0) + SMALLEST_ERROR**2, 0.0, speed, kelvin)
+        return cls(values, axes.T, np.maximum(variance, 0.0) + SMALLEST_ERROR**2, 0.0, speed, kelvin, covariance)
+
+    def levelled(self, level: float) -> StressTable:
+        """Return the table with a further error (decades) that all values of a temperature share."""
+        together = self.kelvin[:, None] == self.kelvin
+        return self.of(self.speed, self.kelvin, self.values, self.covariance + level**2 * together)
 
 
 class _Family:
@@ -186,6 +198,7 @@ class FittedStress(NamedTuple):
     law: InterfaceLaw
     chi2: float
     scatter: float
+    level: float  # of temperatures, decades, beyond the stated one
     aic: float
     constants: int
 
@@ -201,9 +214,41 @@ def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference:
             f"{len(table)} values of shear stress are too few to fit {kind!r}; give {family.size} or more.",
             code="too-few-points",
         )
-    found, chi2, scatter = solved(family, table, _not_described(kind))
+    otherwise = _not_described(kind)
+    found, chi2, scatter = solved(family, table, otherwise)
+    level, student = _level(family, table, found.parameters, chi2)
+    if level > 0.0:
+        found, _, scatter = solved(family, table.levelled(student * level), otherwise)
+    aic = criterion_of(family, table.levelled(level), found.parameters) + (2.0 if level > 0.0 else 0.0)
     law = family.law(found.parameters, _wider(found, scatter, freedom))
-    return FittedStress(law, chi2, scatter, criterion_of(family, table, found.parameters), family.size)
+    return FittedStress(law, chi2, scatter, level, aic, family.size)
+
+
+def _level(family: _Family, table: StressTable, first: Array, chi2: float) -> tuple[float, float]:
+    """Return the error (decades) that values of a temperature share beyond the stated ones, zero if none is seen.
+
+    And the factor with which normal 95 % intervals by it are those of Student's t.  `first` and `chi2` are of the fit
+    without such an error.
+    """
+    from scipy.optimize import minimize_scalar
+    from scipy.special import stdtrit
+
+    # Differences of temperatures that the law, with its activation energy, does not describe.
+    freedom = np.unique(table.kelvin).size - 1 - (family.y is not None)
+    if freedom < 1 or chi2 <= len(table) - family.size:
+        return 0.0, 1.0
+
+    def likelihood(level: float) -> float:
+        """Return ln of the restricted likelihood."""
+        levelled = table.levelled(level)
+        found, scatter = with_misfit(family, levelled, least_squares(family, levelled, first, 0.0))
+        spread = float(np.linalg.slogdet(found.covariance / np.outer(first, first))[1])
+        return 0.5 * (spread - found.chi2 - float(np.sum(np.log(levelled.variance + scatter**2))))
+
+    found = minimize_scalar(lambda log: -likelihood(np.exp(log)), bounds=np.log(_LEVELS), options={"xatol": 0.1})
+    if -found.fun < likelihood(0.0) + _SEEN:
+        return 0.0, 1.0
+    return float(np.exp(found.x)), float(stdtrit(freedom, 0.975)) / LEVEL_95
 
 
 def _wider(found: Solution, scatter: float, freedom: int) -> Array:
@@ -243,7 +288,8 @@ def _row(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float
     except InputError as error:
         return LawRow(kind, title, None, 0, refusal=str(error))
     freedom = len(table) - found.constants
-    return LawRow(kind, title, found.law, found.constants, found.chi2, freedom, found.scatter, found.aic)
+    rest = found.chi2, freedom, found.scatter, found.aic
+    return LawRow(kind, title, found.law, found.constants, *rest, level=found.level)
 
 
 def _notes(chosen: LawRow[InterfaceLaw], rows: list[LawRow[InterfaceLaw]], table: StressTable) -> Iterator[Note]:
@@ -258,6 +304,10 @@ def _notes(chosen: LawRow[InterfaceLaw], rows: list[LawRow[InterfaceLaw]], table
         first = "no other law can be fitted"
     yield Note("law-chosen", f"The law of shear stress is: {chosen.title}; {first}.")
     yield from (_rivalry(chosen, row, table) for row in others if row.aic <= chosen.aic + EXCLUDED)
+    if chosen.level > 0.0:
+        text = f"Temperatures differ in level from the law by {100.0 * (10.0**chosen.level - 1.0):.2g} % more than "
+        text += "stated (level_error); the errors of the law include it."
+        yield Note("level-scatter", text, values={"level": chosen.level})
     if chosen.scatter > 0.0:
         text = f"Shear stress scatters about the law by {100.0 * (10.0**chosen.scatter - 1.0):.2g} % more than its "
         yield Note("law-scatter", text + "stated errors explain.", values={"scatter": chosen.scatter})

@@ -59,6 +59,8 @@ class LawRow(Generic[Law]):
     weight: float = 0.0
     refusal: str = ""  # why the law was refused; empty where it was fitted
     same_as: str = ""  # kind of the law that is the same curve in other constants; empty for most
+    # Scatter of the levels of shear stress of the temperatures about the law, beyond the stated one; decades.
+    level: float = 0.0
 
     @property
     def exact(self) -> bool:
