@@ -245,7 +245,12 @@ def _level(family: _Family, table: StressTable, first: Array, chi2: float) -> tu
         spread = float(np.linalg.slogdet(found.covariance / np.outer(first, first))[1])
         return 0.5 * (spread - found.chi2 - float(np.sum(np.log(levelled.variance + scatter**2))))
 
-    found = minimize_scalar(lambda log: -likelihood(np.exp(log)), bounds=np.log(_LEVELS), options={"xatol": 0.1})
+    found = minimize_scalar(
+        lambda log: -likelihood(float(np.exp(log))),
+        bounds=(float(np.log(_LEVELS[0])), float(np.log(_LEVELS[1]))),
+        method="bounded",
+        options={"xatol": 0.1},
+    )
     if -found.fun < likelihood(0.0) + _SEEN:
         return 0.0, 1.0
     return float(np.exp(found.x)), float(stdtrit(freedom, 0.975)) / LEVEL_95
