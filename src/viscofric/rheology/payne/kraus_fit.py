@@ -31,6 +31,8 @@ PASSES = 4
 WIDEST = math.log(1e4)
 #: Scatter about the law above which it does not describe the sweep, decades.
 LARGEST_SCATTER = 0.03
+# Of the smooth curve of a linear range: with the five of isotherms, a dozen amplitudes gave a curve that cannot bend.
+_POINTS_PER_KNOT = 2
 
 
 @dataclass(frozen=True)
@@ -266,7 +268,7 @@ def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
         raise InputError(f"drop = {part:g}: must lie between 0 and 1, such as 0.05.", code="out-of-range")
     logarithm = np.log10(sweep.strain_amplitude)
     storage = np.log10(sweep.storage_modulus)[:, None]
-    smoother = Smoother.fitted(logarithm, storage)
+    smoother = Smoother.fitted(logarithm, storage, points=_POINTS_PER_KNOT)
     fine = np.linspace(logarithm[0], logarithm[-1], 2001)
     curves = smoother.curves(logarithm, storage)
     basis = smoother.basis(fine)

@@ -38,12 +38,14 @@ class Smoother:
     scatter: Array  # (m,), standard deviation of a point of weight 1 about its curve; decades for logarithms
 
     @classmethod
-    def fitted(cls, frequency: Array, moduli: Array, weights: Array | None = None) -> Smoother:
+    def fitted(
+        cls, frequency: Array, moduli: Array, weights: Array | None = None, points: int = POINTS_PER_KNOT
+    ) -> Smoother:
         """Place knots for points and choose the smoothing by restricted maximum likelihood."""
         # `frequency` (n,) is log10 of the reduced angular frequency; `moduli` (n, m) are log10 of E' and E'' without
         # vertical shifts, or other quantities; `weights` (n,) are the inverse variances of the points relative to each
-        # other, all equal if None.
-        knots, degree = knots_for(frequency)
+        # other, all equal if None; every interval of the splines holds so many `points`.
+        knots, degree = knots_for(frequency, points)
         penalty = roughness(knots, degree)
         basis = splines(knots, degree, frequency)[0]
         root = _roots(frequency, weights)
