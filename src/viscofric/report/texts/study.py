@@ -301,12 +301,14 @@ def _shift_numbers(tree: DataTree) -> list[KeyNumber]:
     factors, law, reference = group(tree, "shift_factors"), group(tree, "shift_law"), reference_temperature(tree)
     if factors is None or law is None or reference is None:
         return []
-    C1, C2, error1, error2 = (number(law.attrs, name) for name in ("wlf_C1", "wlf_C2", "wlf_C1_error", "wlf_C2_error"))
-    if not math.isfinite(C1):
-        return [KeyNumber("Shift law", str(law.attrs.get("description", "")), "")]
     used = "used"
     if str(factors.attrs.get("shift_used", "measured")) == "measured":
         used = "for information: the measured shift factors are used"
+    C1, C2, error1, error2 = (number(law.attrs, name) for name in ("wlf_C1", "wlf_C2", "wlf_C1_error", "wlf_C2_error"))
+    if not math.isfinite(C1):
+        title = str(law.attrs.get("law", ""))
+        constants = str(law.attrs.get("description", "")).removeprefix(f"{title}: ")
+        return [KeyNumber("Shift law", title, f"{constants}; {used}")]
     return [
         KeyNumber("WLF constant C₁", with_error(C1, error1), f"about {degrees(reference)}; {used}"),
         KeyNumber("WLF constant C₂", f"{with_error(C2, error2)} K", f"about {degrees(reference)}"),
