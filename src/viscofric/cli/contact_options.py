@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -136,29 +137,18 @@ def _spacing(parameters: dict[str, Any]) -> Any:
 
 def _simple(shape: str, text: str) -> NamedIndenter:
     from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid, FlatPunch
-    from viscofric.report.texts.numbers import length
+    from viscofric.study.cases.sweep import shown
 
-    if shape == "ellipsoid":
-        parts = text.split(",")
-        if len(parts) != 2:
-            raise click.UsageError(f"--ellipsoid {text!r}: give two radii, along x and y: '10 mm,40 mm'.")
-        ellipsoid = Ellipsoid(*(part.strip() for part in parts))
-        x, y = float(ellipsoid.radius_x), float(ellipsoid.radius_y)
-        words = f"Ellipsoid, radii {length(x)} along x and {length(y)} along y"
-        return NamedIndenter(ellipsoid, words, {"shape": shape, "radius_x": x, "radius_y": y})
-    if shape == "cone":
-        cone = Cone(text)
-        angle = float(cone.angle)
-        return NamedIndenter(cone, f"Cone with flanks of {math.degrees(angle):.4g}°", {"shape": shape, "angle": angle})
-    kinds: dict[str, tuple[Any, str]] = {
-        "ball": (Ball, "Ball"),
-        "cylinder": (Cylinder, "Cylinder"),
-        "punch": (FlatPunch, "Flat punch"),
-    }
-    kind, noun = kinds[shape]
-    round_one = kind(text)
-    radius = float(round_one.radius)
-    return NamedIndenter(round_one, f"{noun} of radius {length(radius)}", {"shape": shape, "radius": radius})
+    sizes = [part.strip() for part in text.split(",")] if shape == "ellipsoid" else [text]
+    if shape == "ellipsoid" and len(sizes) != 2:
+        raise click.UsageError(f"--ellipsoid {text!r}: give two radii, along x and y: '10 mm,40 mm'.")
+    kinds: dict[str, Any] = {
+        "ball": Ball, "cylinder": Cylinder, "ellipsoid": Ellipsoid, "cone": Cone, "punch": FlatPunch,
+    }  # fmt: skip
+    made = kinds[shape](*sizes)
+    lengths = {one.name: float(getattr(made, one.name)) for one in fields(made)}
+    words = " and ".join(f"{name.replace('_', ' ')} {shown(name, size)}" for name, size in lengths.items())
+    return NamedIndenter(made, f"{made.noun.capitalize()} of {words}", {"shape": shape, **lengths})
 
 
 def _read_heights(path: Path, parameters: dict[str, Any]) -> Topography:
