@@ -221,7 +221,7 @@ def command(
         _print(found)
     print_notes(curves.notes)
     write_files(
-        ("rubber", out, lambda path: write_card(found.material, path, format="json")),
+        ("material", out, lambda path: write_card(found.material, path, format="json")),
         ("picture", picture, drawing("identified.identified_figure", found, known, mark=synthetic)),
         quiet=as_json,
     )
