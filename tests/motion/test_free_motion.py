@@ -13,8 +13,8 @@ from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.motion.free import mover, past, solve
 from viscofric.motion.free.box import Box
-from viscofric.motion.free.energy import _relaxation
 from viscofric.motion.free.response import response_of
+from viscofric.motion.free.state import _relaxation
 from viscofric.motion.free.wake import Wake
 from viscofric.notes import codes
 

@@ -8,35 +8,14 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from motion.going_on import BALL, RUBBER, broad_rubber, same, stopped_after
 from refusals import refused
 from viscofric.errors import DataFileError
 
-RUBBER = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [3e-7, 3e-7, 3e-7], [1e-3, 1e-2, 1.0]))
-BALL = vf.Ball("10 mm")
 WHOLE = vf.motion.History([0.0, 0.02, 0.02, 0.04], load=[0.0, 1.0, 0.5, 0.2])
 X = 2.0 * np.pi * np.arange(24) / 24.0
 WAVE = vf.contact.PeriodicSurface(1e-6 * (np.cos(X) + 0.3 * np.cos(2.0 * X + 1.0)), 1e-3 / 24.0)
 SLIDING = vf.motion.History([0.0, 2e-3, 2e-3, 5e-3], pressure=1e3, speed=[0.0, 0.0, 0.05, 0.05])
-
-
-def stopped_after(count: int):
-    """Return a callback that interrupts the run after so many steps."""
-    calls = []
-
-    def stop(reached: float, end: float) -> None:
-        calls.append(reached)
-        if len(calls) == count:
-            raise KeyboardInterrupt
-
-    return stop
-
-
-def same(one: vf.motion.TransientSolution, two: vf.motion.TransientSolution, rel: float = 1e-12) -> None:
-    assert one.time.tolist() == two.time.tolist()
-    for name in ("load", "indentation", "friction_force", "contact_area", "work", "stored", "dissipated"):
-        wanted = getattr(two, name)
-        assert getattr(one, name) == pytest.approx(wanted, rel=rel, abs=rel * float(np.abs(wanted).max())), name
-    assert one.errors.energy == pytest.approx(two.errors.energy, rel=1e-6, abs=1e-12 * float(two.work.max()))
 
 
 @pytest.mark.parametrize(
@@ -49,8 +28,6 @@ def test_an_interrupted_run_of_springs_goes_on_from_a_file(tmp_path: Path, steps
     part.save_state(tmp_path / "part.npz")
     again = vf.motion.solve_transient(RUBBER, BALL, WHOLE, times=times, resume=tmp_path / "part.npz")
     same(again, whole)
-    assert not again.interrupted
-    assert again.steps == whole.steps
     assert again.pressure_at(0.04).values == pytest.approx(whole.pressure_at(0.04).values)
 
 
@@ -90,15 +67,15 @@ def test_an_interrupted_run_of_waves_goes_on_from_a_file(tmp_path: Path):
 
 def test_modes_merged_for_waves_serve_twice_the_time():
     """Beyond that they differ from the material by more than is allowed."""
-    tau = np.geomspace(1e-9, 1e7, 40)
-    broad = vf.Material(vf.RetardationSpectrum("1 MPa", "20 MPa", tau**0.1 / (tau**0.1).sum() * 9.5e-7, tau))
+    broad = broad_rubber()
     moved = [vf.motion.History([0.0, end], pressure=2e3, speed=0.1, before="sliding") for end in (0.05, 0.1, 5.0)]
     part = vf.motion.solve_transient(broad, WAVE, moved[0], accuracy=1e-2, progress=stopped_after(1))
-    further = vf.motion.solve_transient(broad, WAVE, moved[1], accuracy=1e-2, resume=part, progress=stopped_after(1))
+    further = vf.motion.solve_transient(
+        broad_rubber(), WAVE, moved[1], accuracy=1e-2, resume=part, progress=stopped_after(1)
+    )
     assert further.steps > part.steps
-    with pytest.raises(vf.InputError) as caught:
+    with refused("merged-modes"):
         vf.motion.solve_transient(broad, WAVE, moved[2], accuracy=1e-2, resume=part)
-    assert caught.value.code == "merged-modes"
 
 
 def test_a_run_goes_on_under_a_larger_load():

@@ -10,12 +10,12 @@ import pytest
 
 import viscofric as vf
 from marks import apart, slow
+from motion.going_on import BALL, RUBBER, broad_rubber, same, stopped_after
 from refusals import refused
 from viscofric.errors import DataFileError
 from viscofric.notes import codes
 
-RUBBER = vf.Material(vf.RetardationSpectrum("1 MPa", "10 MPa", [3e-7, 3e-7, 3e-7], [1e-3, 1e-2, 1.0]))
-BALL, CYLINDER = vf.Ball("10 mm"), vf.Cylinder("10 mm")
+CYLINDER = vf.Cylinder("10 mm")
 TIMES = [0.01, 0.02, 0.03, 0.04]
 THERE_AND_BACK = {"time": [0.0, 0.02, 0.04], "load": [1.0, 1.0, 1.0], "position": [0.0, 1e-3, 2e-4]}
 #: Indenter, history, layer.
@@ -63,28 +63,6 @@ def whole(name: str) -> tuple[vf.motion.TransientSolution, int]:
     """Return a run in one go, and the number of its steps on all grids."""
     steps: list[float] = []
     return solved(name, progress=lambda now, end: steps.append(now)), len(steps)
-
-
-def stopped_after(count: int):
-    """Return a callback that interrupts the run after so many steps."""
-    calls: list[float] = []
-
-    def stop(reached: float, end: float) -> None:
-        calls.append(reached)
-        if len(calls) == count:
-            raise KeyboardInterrupt
-
-    return stop
-
-
-def same(one: vf.motion.TransientSolution, two: vf.motion.TransientSolution) -> None:
-    """Both took the same steps: equal but for rounding."""
-    assert one.time.tolist() == two.time.tolist()
-    for name in ("load", "indentation", "friction_force", "contact_area", "work", "stored", "dissipated"):
-        wanted = getattr(two, name)
-        assert getattr(one, name) == pytest.approx(wanted, abs=1e-12 * float(np.abs(wanted).max())), name
-    assert one.errors.friction_force == pytest.approx(two.errors.friction_force, rel=1e-9)
-    assert (one.steps, one.interrupted) == (two.steps, False)
 
 
 PARTS = [*slow(("cylinder", 0.7))]
@@ -221,8 +199,7 @@ def test_what_cannot_go_on_is_refused(tmp_path: Path):
 
 @pytest.mark.slow
 def test_modes_that_were_merged_for_a_short_history_are_refused_in_a_long_one():
-    tau = np.geomspace(1e-9, 1e7, 40)
-    broad = vf.Material(vf.RetardationSpectrum("1 MPa", "20 MPa", tau**0.1 / (tau**0.1).sum() * 9.5e-7, tau))
+    broad = broad_rubber()
     moved = [vf.motion.History([0.0, end], load=1e3, speed=0.05) for end in (0.02, 0.04, 20.0)]
     begun = vf.motion.solve_transient(broad, CYLINDER, moved[0], accuracy=5e-2, times=[0.02])
     further = vf.motion.solve_transient(broad, CYLINDER, moved[1], accuracy=5e-2, times=[0.04], resume=begun)

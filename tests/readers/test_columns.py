@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import viscofric as vf
 from readers.refusal import noted, refused
 from readers.samples.workbook import write as write_workbook
+from readers.test_dma_csv import ROWS, assert_is_the_table
 from readers.written import write
 from viscofric import read_dma, read_mtm
 from viscofric.errors import DataFileError
@@ -21,16 +22,8 @@ from viscofric.notes import note_of
 from viscofric.readers.headings import heading
 from viscofric.readers.source import to_rad_per_second, unit_conversion
 
-ROWS = ["20,1,5,0.5", "20,10,6,0.7", "30,1,4,0.4", "30,10,5,0.6"]
 NAMES = {"temperature": "Chamber", "frequency": "v1", "storage_modulus": "Alpha", "loss_modulus": "Beta"}
 HALF = {"temperature": "Chamber (degC)", "frequency": "v1 (Hz)"}
-
-
-def assert_is_the_table(sweeps):
-    assert sweeps.temperatures == pytest.approx([293.15, 303.15], rel=1e-12)
-    assert sweeps.isotherms[0].angular_frequency == pytest.approx([2 * math.pi, 20 * math.pi], rel=1e-12)
-    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6], rel=1e-12)
-    assert sweeps.isotherms[1].loss_modulus == pytest.approx([4e5, 6e5], rel=1e-12)
 
 
 def read(path, **asked):

@@ -9,6 +9,7 @@ from readers.refusal import noted, refused
 from readers.samples import exports
 from readers.samples.reptate import sweep
 from readers.samples.rubber import FREQUENCIES, TEMPERATURES, moduli
+from readers.written import write
 from viscofric import read_dma
 from viscofric.readers.dma.master_curves import read_master_curve
 
@@ -57,12 +58,6 @@ def test_an_amplitude_sweep_beside_frequency_sweeps_is_skipped(tmp_path):
     assert one.temperatures - 273.15 == pytest.approx([TEMPERATURES[1]])
 
 
-def reptate(tmp_path, *lines, name="a.tts"):
-    path = tmp_path / name
-    path.write_text("\n".join(lines), encoding="latin-1")
-    return path
-
-
 @pytest.mark.parametrize(
     ("head", "stated"),
     [
@@ -75,12 +70,12 @@ def reptate(tmp_path, *lines, name="a.tts"):
 )
 def test_every_head_of_a_master_curve_of_reptate(tmp_path, head, stated):
     rows = ["0.1 3\t0.2 30.0 0", " 1.0E+0001\t4\t0.5\t29.9\t0"]
-    curve = read_master_curve(reptate(tmp_path, *head, *rows), "30 degC")
+    curve = read_master_curve(write(tmp_path, *head, *rows, encoding="latin-1"), "30 degC")
     assert curve.angular_frequency == pytest.approx([0.1, 10.0])
     assert curve.storage_modulus == pytest.approx([9.0, 12.0])  # E = 3G
     if stated:
         with refused("other-reference"):
-            read_master_curve(reptate(tmp_path, *head, *rows), "40 degC")
+            read_master_curve(write(tmp_path, *head, *rows, encoding="latin-1"), "40 degC")
 
 
 def test_columns_of_reptate_in_any_order(tmp_path):
@@ -89,7 +84,7 @@ def test_columns_of_reptate_in_any_order(tmp_path):
     names, units = (text[line].split("\t") for line in (1, 2))
     rows = [[row.split()[place] for place in order] for row in text[3:]]
     lines = ["\t".join(cells[place] for place in order) for cells in (names, units)]
-    path = reptate(tmp_path, text[0], *lines, *("\t".join(row) for row in rows), name="b.osc")
+    path = write(tmp_path, text[0], *lines, *("\t".join(row) for row in rows), name="b.osc", encoding="latin-1")
     known, found = read_dma(tmp_path / "sweep.osc"), read_dma(path)
     for name in ("angular_frequency", "storage_modulus", "loss_modulus", "strain_amplitude"):
         assert np.array_equal(getattr(known.isotherms[0], name), getattr(found.isotherms[0], name))

@@ -7,12 +7,11 @@ from pathlib import Path
 
 import pytest
 
+import viscofric as vf
 from readers.samples import pcs
 from viscofric import read_dma, read_mtm
 from viscofric.errors import DataFileError
 from viscofric.readers.dma.master_curves import read_master_curve
-from viscofric.readers.topography.read import read_scan
-from viscofric.readers.topography.scan import ScanOptions
 
 DMA = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"
 SWEEP = [f"{T},{f},{5 + f},0.5" for T in (20, 40) for f in (1, 2, 5)]
@@ -89,12 +88,12 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     ),
     (read_mtm, [MTM, "20,1,0.5,0,30"], "0 in column 'load (N)' must be above zero."),
     (
-        lambda path: read_scan(path, ScanOptions()),
+        vf.read_topography,
         ["1,2,3,4", "5,6,7,8"],
         "does not state the spacing of its points; give spacing = '5 um', for instance.",
     ),
     (
-        lambda path: read_scan(path, ScanOptions(unit="um")),
+        lambda path: vf.read_topography(path, unit="um"),
         ["x (um),z (um)", "1,2", "2,3"],
         "its headings state their units; leave unit = 'um' out.",
     ),

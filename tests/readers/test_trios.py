@@ -14,7 +14,6 @@ from readers.refusal import noted, refused
 from readers.samples import trios
 from readers.samples.rubber import points
 from viscofric import read_dma
-from viscofric.errors import DataFileError
 from viscofric.readers.dma.instruments import trios_json, trios_text, universal_analysis
 from viscofric.readers.source import Source
 
@@ -405,31 +404,3 @@ def test_other_tables_and_json_are_not_taken_for_trios():
     ):
         found = Source("other", data)
         assert not any(one.recognises(found) for one in (universal_analysis, trios_json, trios_text))
-
-
-def points_or_error(one, found):
-    try:
-        return one.read(found)
-    except DataFileError as error:
-        return str(error)
-
-
-@pytest.mark.slow
-@settings(deadline=None, max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(data=st.data(), layout=st.sampled_from(list(WRITERS)))
-def test_cut_or_altered_files_give_points_or_a_clear_error(tmp_path, data, layout):
-    whole = bytearray(WRITERS[layout](tmp_path).read_bytes())
-    end = data.draw(st.one_of(st.just(len(whole)), st.integers(0, len(whole))))
-    for place in data.draw(st.lists(st.integers(0, len(whole) - 1), max_size=3)):
-        whole[place] = data.draw(st.integers(0, 255))
-    found = Source("altered", bytes(whole[:end]))
-    for one in (universal_analysis, trios_json, trios_text):
-        if not one.recognises(found):
-            continue
-        readings = points_or_error(one, found)
-        if isinstance(readings, str):
-            assert readings.startswith("altered")
-        else:
-            assert np.all(np.isfinite(readings.storage_modulus) & np.isfinite(readings.loss_modulus))
-            assert np.all(readings.angular_frequency > 0)
-            assert len(readings.places) == len(readings.step) == len(readings)

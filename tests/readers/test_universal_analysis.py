@@ -237,30 +237,3 @@ def test_broken_files_are_refused_in_one_sentence(tmp_path, change, message):
         read(path)
     assert message in str(caught.value)
     assert str(path) in str(caught.value)
-
-
-def points_or_error(found):
-    try:
-        return universal_analysis.read(found)
-    except DataFileError as error:
-        return str(error)
-
-
-@settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(data=st.data(), binary=st.booleans())
-def test_cut_or_altered_files_give_points_or_a_clear_error(tmp_path, data, binary):
-    path = (q800.write_binary if binary else q800.write_text)(tmp_path)
-    whole = bytearray(path.read_bytes())
-    end = data.draw(st.integers(0, len(whole)))
-    for place in data.draw(st.lists(st.integers(0, len(whole) - 1), max_size=3)):
-        whole[place] = data.draw(st.integers(0, 255))
-    found = Source("altered", bytes(whole[:end]))
-    if not universal_analysis.recognises(found):
-        return
-    readings = points_or_error(found)
-    if isinstance(readings, str):
-        assert readings.startswith("altered")
-    else:
-        assert np.all(np.isfinite(readings.storage_modulus) & np.isfinite(readings.loss_modulus))
-        assert np.all(readings.angular_frequency > 0)
-        assert len(readings.places) == len(readings)

@@ -145,7 +145,7 @@ def read_friction_curves(
         raise DataFileError(str(path), problem, code="traction-runs", remedy=AS_RUNS)
     table, notes = _with_temperatures(table)
     places = _places(table)
-    unit = _load_unit(table, places["load"])
+    unit = table.load_unit(places["load"])
     _insist_on_absolute_errors(table, places)
     found = {name: _read_column(table, name, place, unit) for name, place in places.items()}
     remarks = _remarks(str(path))
@@ -246,15 +246,6 @@ def _insist_on_absolute_errors(table: Table, places: dict[str, int]) -> None:
                 f"column {own.heading!r} is in per cent, perhaps relative, and {of.heading!r} is not; give both alike."
             )
             raise table.refused("wrong-unit", problem)
-
-
-def _load_unit(table: Table, place: int) -> str:
-    """Return the unit of the load, N or N/m."""
-    try:
-        table.conversion(table.columns[place], "N/m")
-    except DataFileError:
-        return "N"
-    return "N/m"
 
 
 def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:

@@ -96,22 +96,11 @@ def history_columns(
     table = table_of(path, HISTORY, columns, sheet)
     insist_on_columns(table, HISTORY)
     places = {name: place for name in _QUANTITIES if (place := table.place(name)) is not None}
-    load_unit = _load_unit(table, places.get("load"))
+    load_unit = table.load_unit(places["load"]) if "load" in places else "N"
     units = {name: load_unit if name == "load" else unit for name, (unit, _) in _QUANTITIES.items()}
     values = {name: table.values(place, units[name]) for name, place in places.items()}
     unused = tuple(column.heading for column in table.unused(places.values()))
     return HistoryColumns(values, load_unit, table.lines.tolist(), unused)
-
-
-def _load_unit(table: Table, place: int | None) -> str:
-    """Return the unit of the load: N, or N/m of a line contact."""
-    if place is not None:
-        try:
-            table.conversion(table.columns[place], "N/m")
-        except DataFileError:
-            return "N"
-        return "N/m"
-    return "N"
 
 
 def insist_on_columns(table: Table, vocabulary: Vocabulary) -> None:

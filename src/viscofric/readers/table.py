@@ -90,22 +90,21 @@ class Table:
         """Return the headings as one readable list, for error messages."""
         return ", ".join(repr(column.heading) for column in self.columns)
 
-    def numbers(self, column: int) -> Array:
-        """Return a column as printed, finite numbers only, or raise `DataFileError`."""
+    def numbers(self, column: int, *, or_missing: bool = False) -> Array:
+        """Return a column as printed, NaN for a missing number where that is allowed, or raise `DataFileError`."""
         one = self._plain(column)
         return np.array(
-            [self._number(row[column], one, int(line)) for row, line in zip(self.rows, self.lines, strict=True)]
+            [
+                math.nan
+                if or_missing and row[column].strip().lower() in MISSING
+                else self._number(row[column], one, line)
+                for row, line in zip(self.rows, self.lines.tolist(), strict=True)
+            ]
         )
 
     def numbers_or_missing(self, column: int) -> Array:
         """Return a column as printed, NaN for a missing number."""
-        one = self._plain(column)
-        return np.array(
-            [
-                math.nan if row[column].strip().lower() in MISSING else self._number(row[column], one, int(line))
-                for row, line in zip(self.rows, self.lines, strict=True)
-            ]
-        )
+        return self.numbers(column, or_missing=True)
 
     def _plain(self, place: int) -> Column:
         """Return a column; one of logarithms, which only the user can have named here, is refused in most tables."""
@@ -160,6 +159,14 @@ class Table:
         except InputError:
             problem = f"column {column.heading!r} has the unit {column.unit!r}; it must be one like {example!r}."
             raise self.refused("wrong-unit", problem) from None
+
+    def load_unit(self, column: int) -> str:
+        """Return the unit of a load: N, or N/m of a line contact."""
+        try:
+            self.conversion(self.columns[column], "N/m")
+        except DataFileError:
+            return "N"
+        return "N/m"
 
     def refused(
         self, code: str, problem: str, remedy: Remedy | None = None, missing: Iterable[str] = ()

@@ -9,14 +9,15 @@ from typing import Any, Literal
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.errors import DataFileError, InputError
-from viscofric.files import file_path
+from viscofric.errors import DataFileError, InputError, check_choice, wrong_argument
+from viscofric.files import LARGEST_FILE, file_path, insist_on_short_text, read_bytes
 from viscofric.notes import Note, Remedy
-from viscofric.readers.topography.read import read_scan
-from viscofric.readers.topography.scan import ScanOptions
-from viscofric.readers.topography.tables import checked_heights
+from viscofric.readers.source import Source
+from viscofric.readers.topography.package import read_with_package
+from viscofric.readers.topography.scan import Scan, ScanOptions
+from viscofric.readers.topography.tables import NUMPY, checked_heights, is_table, read_array, read_text_table
 from viscofric.roughness.topography import Topography
-from viscofric.units import Quantity, to_si, two_lengths
+from viscofric.units import Quantity, conversion, to_si, two_lengths
 
 #: Heights of a scan that lie further apart, m, were probably read in another unit.
 _LARGE_EXTENT = 0.1
@@ -87,7 +88,7 @@ def read_topography(
     """
     steps = None if spacing is None else two_lengths(spacing)
     gap = None if missing is None else to_si(missing, "dimensionless", "missing")
-    scan = read_scan(path, ScanOptions(unit, steps, channel, gap, lines))
+    scan = _read_scan(path, ScanOptions(unit, steps, channel, gap, lines))
     heights = checked_heights(scan.heights, path)
     notes = list(scan.notes)
     if (extent := float(np.nanmax(heights, initial=-np.inf) - np.nanmin(heights, initial=np.inf))) > _LARGE_EXTENT:
@@ -101,6 +102,38 @@ def read_topography(
     if found.missing == found.heights.size:
         raise DataFileError(path, "contains no heights: no point has a reading.", code="no-points")
     return found
+
+
+def _read_scan(path: str | PathLike[str], options: ScanOptions) -> Scan:
+    """Read a file of heights, whose format is recognised by its content."""
+    check_choice(options.lines, "lines", "x", "y")
+    if not isinstance(options.unit, str):
+        raise wrong_argument("unit", options.unit, "must be text, such as 'um'.", "not-text")
+    if options.unit:
+        conversion(options.unit, "m", "unit")
+    if not (options.channel is None or isinstance(options.channel, (str, int))):
+        raise wrong_argument("channel", options.channel, "must be the name of a channel or its number.", "no-channel")
+    file = str(file_path(path))
+    source = Source(file, read_bytes(file, LARGEST_FILE))
+    if not source.data:
+        raise DataFileError(file, "is empty.", code="empty")
+    try:
+        plain = source.data.startswith(NUMPY) or is_table(source)
+        if plain and options.channel not in (None, 0):
+            raise DataFileError(
+                file,
+                f"contains one field of heights, without a name; leave channel = {options.channel!r} out.",
+                code="no-channel",
+            )
+        if source.data.startswith(NUMPY):
+            return read_array(source, options)
+        if plain:
+            insist_on_short_text(source.data, file)
+        return read_text_table(source, options) if plain else read_with_package(source, options)
+    except DataFileError:
+        raise
+    except InputError as error:  # the file's unit is not one of length
+        raise DataFileError(file, error.note) from None
 
 
 def _far_off(heights: Array, extreme: Callable[[Array], Any]) -> Note | None:

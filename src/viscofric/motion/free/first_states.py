@@ -12,8 +12,7 @@ from viscofric.contact.operators.convolution import SteadyMaterial, collocation_
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.cells import Cells
-from viscofric.motion.free.energy import Products
-from viscofric.motion.free.state import FreeState
+from viscofric.motion.free.state import FreeState, Products
 from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import step_coefficients
 from viscofric.motion.schedule import Instant

@@ -20,10 +20,9 @@ from viscofric.contact.free.stage import Footprint
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box, Lattice
 from viscofric.motion.free.cells import Cells
-from viscofric.motion.free.energy import Products
 from viscofric.motion.free.first_states import rested, slid, untouched
 from viscofric.motion.free.past import NO_PAST, Far, Past, parted
-from viscofric.motion.free.state import FreeState, Place
+from viscofric.motion.free.state import FreeState, Place, Products
 from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import Modes, StepCoefficients, recovery_at_depth
 from viscofric.motion.mover import SHARE, Field, Observation, Scales

@@ -1,15 +1,63 @@
-"""State of a free contact at one time, in the units of `viscofric.contact.free.scale`."""
+"""State of a free contact at one time, in the units of `viscofric.contact.free.scale`, and the energies in it.
+
+With ⟨a, b⟩ = ∫ a G b dA, a mode stores C⟨q, q⟩/2 and dissipates at the rate C⟨p − q, p − q⟩/τ.  While p changes
+linearly, p − q relaxes exponentially, and both are known exactly from ⟨p, p⟩, ⟨p, q⟩ and ⟨q, q⟩ at the beginning, and
+from the displacement under the pressure at the end: one product for all modes.
+"""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from viscofric.arrays import Array
 from viscofric.motion.free.box import Box
-from viscofric.motion.free.energy import Products
 from viscofric.motion.free.past import NO_PAST, Past
 from viscofric.motion.free.wake import Wake
+from viscofric.motion.memory import StepCoefficients
+
+# κ below which the integrals over a step are summed as series, and the number of terms.
+_SERIES_BELOW, _TERMS = 0.5, 20
+# Coefficients of (−κ)ⁿ in the three integrals.
+_SERIES = np.array(
+    [
+        [2.0**n / math.factorial(n + 1) for n in range(_TERMS)],
+        [(2.0 ** (n + 1) - 1.0) / (math.factorial(n + 1) * (n + 2.0)) for n in range(_TERMS)],
+        [(2.0 ** (n + 2) - 2.0) / (math.factorial(n + 2) * (n + 3.0)) for n in range(_TERMS)],
+    ]
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Products:
+    """Inner products of the pressure and the fields of the modes, ⟨p, p⟩, ⟨p, q_k⟩ and ⟨q_k, q_k⟩."""
+
+    pressure: float
+    mixed: Array  # (m,)
+    modes: Array  # (m,)
+
+    def after(self, coefficients: StepCoefficients, with_end: float, modes_with_end: Array, end: float) -> Products:
+        """Return the products after a step, from ⟨p₀, p₁⟩, ⟨q_k, p₁⟩ with q_k at its beginning, and ⟨p₁, p₁⟩."""
+        decay, first, last = coefficients
+        mixed = decay * modes_with_end + first * with_end + last * end
+        modes = (
+            decay**2 * self.modes
+            + first**2 * self.pressure
+            + last**2 * end
+            + 2.0 * (decay * first * self.mixed + decay * last * modes_with_end + first * last * with_end)
+        )
+        return Products(end, mixed, modes)
+
+    def dissipated(self, steps: Array, with_end: float, modes_with_end: Array, end: float) -> Array:
+        """Return what each mode dissipates over a step of so many of its times, per unit of compliance; (m,)."""
+        lag = self.pressure - 2.0 * self.mixed + self.modes
+        crossed = with_end - modes_with_end - self.pressure + self.mixed
+        change = end - 2.0 * with_end + self.pressure
+        relaxing, both, driven = _relaxation(steps)
+        return np.asarray(steps * (relaxing * lag + 2.0 * both * crossed + driven * change))
 
 
 class Place(NamedTuple):
@@ -40,3 +88,15 @@ class FreeState:
     past: Past = NO_PAST  # memory on other cells, and on some of the same, where the contact returned
     wake: Wake | None = None  # memory far behind a contact that has slid for ever
     lagging: float = 0.0  # after a jump: energy of the modes without a field minus that after they have followed
+
+
+def _relaxation(steps: Array) -> tuple[Array, Array, Array]:
+    """Return ∫ E², ∫ E(1 − E)/κ and ∫ (1 − E)²/κ² over 0 ≤ s ≤ 1, with E = e^(−κs)."""
+    small = steps < _SERIES_BELOW
+    k = np.where(small, 1.0, steps)
+    one, two = -np.expm1(-k) / k, -np.expm1(-2.0 * k) / (2.0 * k)
+    exact = two, (one - two) / k, (1.0 - 2.0 * one + two) / k**2
+    near = np.where(small, steps, 0.0)
+    series = _SERIES @ np.power.outer(-near, np.arange(_TERMS)).T
+    first, second, third = (np.where(small, s, e) for s, e in zip(series, exact, strict=True))
+    return first, second, third

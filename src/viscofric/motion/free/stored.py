@@ -14,11 +14,10 @@ from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.motion.chains import Track
 from viscofric.motion.free.box import Box
-from viscofric.motion.free.energy import Products
 from viscofric.motion.free.mover import FreeMover
 from viscofric.motion.free.past import Past, Piece
 from viscofric.motion.free.setting import Setting
-from viscofric.motion.free.state import FreeState, Place
+from viscofric.motion.free.state import FreeState, Place, Products
 from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import Modes
 from viscofric.motion.mover import Scales
