@@ -1,4 +1,4 @@
-"""Friction curves: predicted by solving contacts, picked by temperature and load, labelled."""
+"""Friction curves: predicted by solving contacts, at one load or several, picked by temperature and load, labelled."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ from viscofric.friction.prediction import predict_friction
 from viscofric.notes import codes
 
 ACCURACY = 1e-2
-BALL = vf.Ball(radius="10 mm")
+BALL, CYLINDER = vf.Ball(radius="10 mm"), vf.Cylinder("10 mm")
+FLUOROELASTOMER = vf.synthetic_fluoroelastomer()
+CASE: dict[str, Any] = {"speeds": ["0.1 m/s", "1 m/s"], "accuracy": ACCURACY}
 
 
 @pytest.fixture(scope="module")
@@ -256,3 +258,39 @@ def test_columns_are_checked_and_frozen() -> None:
     ):
         with refused(code):
             replace(curves, **{name: np.array(value)})
+
+
+def test_several_loads_are_those_of_single_predictions() -> None:
+    steps: list[tuple[int, int]] = []
+    law = vf.friction.ConstantShearStress("10 kPa")
+    two = {"temperatures": ["30 degC", "60 degC"], "interface": law, "layer": "5 mm"}
+    found = vf.predict_friction(
+        FLUOROELASTOMER, CYLINDER, **CASE, **two, loads=["500 N/m", "1 N/mm"], progress=lambda *now: steps.append(now)
+    )
+    alone = [vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, **two, load=load) for load in (500.0, 1000.0)]
+    for name in ("viscoelastic", "coulomb", "load", "temperature", "speed", "mean_pressure"):
+        assert np.array_equal(getattr(found, name), np.concatenate([getattr(one, name) for one in alone])), name
+    assert set(found.notes) == {note for one in alone for note in one.notes}
+    assert found.to_dataset()["viscoelastic"].dims == ("load", "temperature", "speed")
+    assert steps[0] == (0, 8)
+    assert steps[-1] == (8, 8)
+    assert [done for done, _ in steps] == sorted(done for done, _ in steps)
+
+
+def test_one_load_or_several_must_be_given() -> None:
+    for loads in ({}, {"load": 1.0, "loads": [1.0]}):
+        with refused("give-one"):
+            vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, temperatures=300.0, **loads)
+    with refused("empty-list"):
+        vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, temperatures=300.0, loads=[])
+    with refused("wrong-unit"):
+        vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, temperatures=300.0, loads=["5 N"])
+
+
+def test_temperature_left_out_is_the_reference_of_the_material() -> None:
+    found = vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, load=500.0)
+    assert found.temperature == pytest.approx(FLUOROELASTOMER.reference)
+    one = vf.solve_steady(FLUOROELASTOMER, CYLINDER, speed="1 m/s", load=500.0, accuracy=1e-2)
+    assert found.friction_coefficient[1] == pytest.approx(one.friction_coefficient, rel=1e-2)
+    with refused("no-shift"):
+        vf.predict_friction(vf.Material(FLUOROELASTOMER.spectrum), CYLINDER, **CASE, load=500.0)

@@ -213,16 +213,3 @@ def test_a_creep_export_of_trios_rings(real_data):
     assert 0.5 < first.time[0] < 2.0  # s; it rings with 30 Hz at first
     assert first.response[0] == pytest.approx(1.48e-4, rel=0.02)  # 1/Pa
     assert np.all(np.diff(np.log(first.response)) > -0.01)
-
-
-@pytest.mark.slow
-def test_polystyrene_has_four_temperatures(real_data):
-    celsius = (145, 160, 175, 190)
-    creep = vf.read_step_tests(
-        *[real_data / "creep" / f"creep_ps{one}.csv" for one in celsius],
-        deformation="shear",
-        temperature=[f"{one} degC" for one in celsius],
-        response_unit="1/Pa",
-    )
-    assert [len(one) for one in creep.tests] == [6981, 3599, 3599, 3598]
-    assert codes(creep) == ["time-without-unit", "repeats-averaged"]

@@ -78,7 +78,7 @@ def test_storage_modulus_rises_with_frequency_for_any_fit(method, pairs, seed):
 
 
 @settings(max_examples=8, deadline=None)
-@given(st.sampled_from(("regularised", "sparse")), st.integers(-3, 3), st.floats(-9, 9))
+@given(st.sampled_from(METHODS), st.integers(-3, 3), st.floats(-9, 9))
 def test_units_of_time_and_modulus_do_not_matter(method, steps, log_modulus):
     master = master_of(rubber(), points=60)
     time_unit, unit = math.e**steps, 10.0**log_modulus
@@ -89,7 +89,7 @@ def test_units_of_time_and_modulus_do_not_matter(method, steps, log_modulus):
         master.temperature,
         master.reference,
     )
-    chosen = {"modes": 8} if method == "sparse" else {"regularisation": 0.01}
+    chosen = {"sparse": {"modes": 8}, "regularised": {"regularisation": 0.01}}.get(method, {})
     plain = fit_retardation_spectrum(master, method=method, **chosen)
     scaled = fit_retardation_spectrum(other, method=method, **chosen)
     # Only rounding differs; the iteration stops at relative falls of 1e-4 (sparse) of the sum of squares, where

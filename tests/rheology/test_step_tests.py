@@ -10,6 +10,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from rheology.planted import planted_steps, synthetic_polymer
+from viscofric.notes import codes
 from viscofric.rheology.spectra.step_misfit import CreepMisfit, RelaxationMisfit
 from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.gauge import Gauge
@@ -290,6 +291,8 @@ def test_polystyrene_superposes_and_flows(real_data):
         temperature=[f"{one} degC" for one in celsius],
         response_unit="1/Pa",
     )
+    assert [len(one) for one in creep.tests] == [6981, 3599, 3599, 3598]
+    assert codes(creep.notes) == {"time-without-unit", "repeats-averaged"}
     fit = vf.superpose(creep, "160 degC")
     assert fit.check.holds
     assert fit.quality.joint < 0.02  # decades

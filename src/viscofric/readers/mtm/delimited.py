@@ -92,7 +92,7 @@ def read(source: Source) -> TractionReadings:
         if "ball speed" in lacking:
             problem += "; a pin or ball at rest has the speed 0"
         raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, lacking), lacking)
-    load, temperature = (_positive(table, *what) for what in (("load", "N", "zero"), ("temperature", "K", _COLDEST)))
+    load, temperature = (_values(table, *what) for what in (("load", "N", "zero"), ("temperature", "K", _COLDEST)))
     notes: list[Note] = []
     disc, ball, of_speeds = speeds(table, notes)
     traction, of_force = force(table, load, disc - ball, notes)
@@ -175,12 +175,13 @@ def _optional(table: Table, name: str) -> Array | None:
     return values
 
 
-def _positive(table: Table, what: str, unit: str, limit: str) -> Array:
-    """Return a column of which all values must be above a limit."""
+def _values(table: Table, what: str, unit: str, above: str = "") -> Array:
+    """Return a column, of which all values must be above zero where the limit has a name."""
     place = table.place(what)
     assert place is not None  # see `missing`
     values = table.values(place, unit)
-    _insist_on_positive(table, place, values, limit)
+    if above:
+        _insist_on_positive(table, place, values, above)
     return values
 
 
@@ -288,9 +289,3 @@ def force(table: Table, load: Array, slip: Array, notes: list[Note]) -> tuple[Ar
     averaged = " A coefficient averaged over both directions of slip, as an MTM's, holds no rolling resistance."
     notes.append(Note("traction-unsigned", said + averaged))
     return np.where(alone, np.nan, coefficient * load * np.sign(slip)), "traction coefficient"
-
-
-def _values(table: Table, what: str, unit: str) -> Array:
-    place = table.place(what)
-    assert place is not None  # see `missing`
-    return table.values(place, unit)

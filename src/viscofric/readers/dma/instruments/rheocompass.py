@@ -85,11 +85,6 @@ class Interval:
         return max(self.announced - len(self.rows) - len(self.invalid), 0)
 
 
-def has_intervals(text: str) -> bool:
-    """Return whether the text has an interval of numbered points: two labels that end in a colon, one with counts."""
-    return _INTERVAL.search(text) is not None
-
-
 def head(source: Source) -> list[list[str]]:
     """Return the cells of the lines above the first interval, where the export names the measuring system."""
     text = source.text or ""
@@ -218,8 +213,8 @@ _SAME_FREQUENCY = 0.05
 
 
 def recognises(source: Source) -> bool:
-    """Return whether the text has an interval of numbered points."""
-    return source.text is not None and has_intervals(source.text)
+    """Return whether the text has an interval of numbered points: two labels that end in a colon, one with counts."""
+    return source.text is not None and _INTERVAL.search(source.text) is not None
 
 
 def read(source: Source) -> Readings:
@@ -259,15 +254,11 @@ def read(source: Source) -> Readings:
     return replace(whole, step=step, notes=tuple(dict.fromkeys((*notes, *whole.notes))))
 
 
-def _needed(interval: Interval) -> list[int]:
-    whats = ("storage modulus", "loss modulus", "temperature")
-    places = (interval.frequency, *(interval.places.get(what) for what in whats))
-    return [place for place in places if place is not None]
-
-
 def _complete(interval: Interval) -> Rows:
     """Return the complete points; without torque, for instance, the instrument leaves the moduli empty."""
-    return [(line, row) for line, row in interval.rows if all(row[place] for place in _needed(interval))]
+    places = (interval.frequency, *(interval.places.get(what) for what in (*_SWEEP, "temperature")))
+    needed = [place for place in places if place is not None]
+    return [(line, row) for line, row in interval.rows if all(row[place] for place in needed)]
 
 
 def _table(path: str, interval: Interval, rows: Rows, decimals: Decimals) -> Table:
@@ -297,12 +288,6 @@ def _doubts(interval: Interval) -> list[Note]:
             said = f"{what} left out, {why} (line{'s' if len(lines) > 1 else ''} {shown})."
             notes.append(Note("points-left-out", said))
     if interval.missing:
-        notes.append(
-            Note(
-                "points-missing",
-                f"The interval in line {interval.line} announces {interval.announced} points, {interval.missing} of "
-                "which "
-                "are not in the file.",
-            )
-        )
+        said = f"The interval in line {interval.line} announces {interval.announced} points"
+        notes.append(Note("points-missing", f"{said}, {interval.missing} of which are not in the file."))
     return notes
