@@ -306,8 +306,9 @@ def _after_starts(
     if not errors:
         return ()
     worst, time = max(errors)
+    steps = "one step" if len(errors) == 1 else f"{len(errors)} steps"
     said = (
-        f"In {len(errors)} steps soon after a start or a turn, within a few cells or a fortieth of the contact, the "
+        f"In {steps} soon after a start or a turn, within a few cells or a fortieth of the contact, the "
         f"stated error is larger than the accuracy: up to {worst:.2g} of the largest value, at {time:.3g} s."
     )
     return (Note("coarse-start", said, values={"steps": len(errors), "error": worst, "time": time}),)

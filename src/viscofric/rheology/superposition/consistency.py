@@ -271,7 +271,7 @@ def _words(
     apart = f"neighbouring isotherms lie {_decades(between)} apart (rms) in tan δ against |E*|"
     merit = f"figure of merit {figure:.2g}, good if ≤ {LARGEST_FIGURE:g}"
     free = isinstance(vertical_shift, VerticalShiftFactors)
-    drifts = () if drifting is None else (f"{_drift(drifting)}.",)
+    drifts = () if drifting is None else (f"F{_drift(drifting)[1:]}.",)
     if verdict in ("roughly", "fails"):
         worst = [neighbours[place] for place in np.argsort(-ratio)[:_NAMED] if ratio[place] > LARGEST_FIGURE]
         where = ", ".join(_pair(pair.colder, pair.warmer) for pair in worst)
@@ -337,4 +337,5 @@ def _gaps(isotherms: tuple[Isotherm, ...], quality: OverlapQuality) -> tuple[str
 
 
 def _decades(value: float) -> str:
-    return f"{value:.2g} decades ({100.0 * (10.0**value - 1.0):.2g} %)"
+    factor = 10.0**value
+    return f"{value:.2g} decades ({f'{100.0 * (factor - 1.0):.2g} %' if factor < 2.0 else f'a factor of {factor:.2g}'})"
