@@ -637,6 +637,8 @@ def test_a_file_of_two_components_is_not_as_cold_as_two_kelvin(tmp_path):
     [
         ["f (Hz);E' 20 °C (MPa);E'' 20 °C (MPa);E' 30 °C (MPa);E'' 30 °C (MPa)", "1;5;0.5;4;0.4", "10;6;0.7;5;0.6"],
         ["T = 20 °C", "f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "T = 30 °C", "f (Hz);E' (MPa);E'' (MPa)", "1;4;0.4"],
+        # One of two tables states none, and was read at 25 °C with the other.
+        ["T = 20 °C", "f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "later", "f (Hz);E' (MPa);E'' (MPa)", "1;4;0.4"],
     ],
 )
 def test_a_given_temperature_does_not_replace_those_of_the_file(tmp_path, lines):

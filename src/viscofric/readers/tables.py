@@ -11,7 +11,13 @@ import numpy as np
 
 from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, Remedy
-from viscofric.readers.dma.names import deformation_of, frequency_of_title, temperature_of_title
+from viscofric.readers.dma.names import (
+    TITLES_STATE,
+    deformation_of,
+    frequency_of_title,
+    states_another,
+    temperature_of_title,
+)
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
 from viscofric.readers.headings import FREQUENCIES_OF_HEADINGS, Column, Vocabulary, heading, option_of, place_of
 from viscofric.readers.source import Source, decimal_comma, same_unit
@@ -174,11 +180,13 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
     if block is None and words.several == "titled":
         table = _below_each_other(table)
-    given = words.constants.get("temperature")
-    if given and any(temperature_of_title(title) is not None for title in table.titles):
-        problem = f"the headings, or the lines above its tables, state the temperatures; leave out {given!r}."
-        raise table.refused("value-not-needed", problem)
-    return table.with_constants()
+    table, given = table.with_constants(), words.constants.get("temperature")
+    place = table.place("temperature") if given and table.rows else None
+    if place is not None:
+        factor, offset = table.conversion(table.columns[place], "K")
+        if states_another(table, float(factor * table.numbers(place)[0] + offset)):
+            raise table.refused("value-not-needed", f"{TITLES_STATE}; leave out {given!r}.")
+    return table
 
 
 def _below_each_other(table: Table) -> Table:

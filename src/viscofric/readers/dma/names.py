@@ -209,15 +209,23 @@ FROM_TITLES = Note(
 )
 
 
+def states_another(table: Table, given: float | None) -> bool:
+    """Return whether a heading, or a line above a table, states another temperature (K) than a given one."""
+    found = [temperature_of_title(title) for title in table.titles]
+    return given is not None and any(kelvin and abs(kelvin - given) > _SAME_TEMPERATURE for kelvin in found)
+
+
+#: What a table says whose temperature is not to be given.
+TITLES_STATE = "the headings, or the lines above its tables, state the temperatures"
+
+
 def temperatures_of_titles(table: Table, source: Source | None = None) -> Array | None:
     """Return the temperature of each row, K, by the headings or lines above tables; None if one of them gives none."""
+    if states_another(table, None if source is None else source.temperature):
+        raise not_needed(table.path, "temperature", "temperature-not-needed", TITLES_STATE, " for this file")
     found = [temperature_of_title(title) for title in table.titles]
     if table.block is None or None in found:
         return None
-    given = None if source is None else source.temperature
-    if given is not None and any(abs(kelvin - given) > _SAME_TEMPERATURE for kelvin in filter(None, found)):
-        problem = "the headings, or the lines above its tables, state the temperatures"
-        raise not_needed(table.path, "temperature", "temperature-not-needed", problem, " for this file")
     return np.array(found)[table.block - 1]
 
 
