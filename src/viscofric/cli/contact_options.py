@@ -214,7 +214,8 @@ contact_options = together(
         type=float,
         default=0.0,
         metavar="μ",
-        help="Coulomb friction whose shear changes the pressure; negative for slip against the motion [default: none].",
+        help="Coulomb friction coefficient, whose shear changes the pressure; negative for slip against the motion "
+        "[default: none].",
     ),
     click.option(
         "--accuracy", type=float, default=1e-3, show_default=True, help="Target relative error of the friction."

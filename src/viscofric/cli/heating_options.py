@@ -19,9 +19,9 @@ _BODIES = (
     click.option(
         "--heating",
         metavar="COUNTERFACE",
-        help="Heat the contact by its own friction; both faces are equally warm. Thermal properties of the "
-        "counterface: 'steel' or 'PTFE' (typical handbook values), '46 W/m/K, 7810 kg/m^3, 475 J/kg/K', or with its "
-        "diffusivity '46 W/m/K, 12 mm^2/s'.",
+        help="Solve at the temperature to which friction heats the contact. Thermal properties of the counterface: "
+        "'steel' or 'PTFE' (typical handbook values), '46 W/m/K, 7810 kg/m^3, 475 J/kg/K', or with its diffusivity "
+        "'46 W/m/K, 12 mm^2/s'.",
     ),
     click.option(
         "--heating-rubber",

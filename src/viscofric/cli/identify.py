@@ -108,7 +108,7 @@ def _typed(name: str) -> str:
 _SETTINGS = ("load", "reference", "poisson_ratio", "modes", "samples", "seed", "accuracy", "name", "workers")
 #: Errors of friction that points have in common.
 _SHARED = {
-    "level_error": "of friction that the points of a temperature share, another one at each temperature",
+    "level_error": "of friction that the points of a temperature share, independent between temperatures",
     "common_error": "of friction that all points share, e.g. of the calibration of force and load",
     "drift_error": "of friction per decade of speed, shared by all points",
     "coulomb_level_error": "of the Coulomb friction that was subtracted, shared by all points",

@@ -67,7 +67,7 @@ Examples:
     type=float,
     default=0.0,
     metavar="μ",
-    help="With --cycle: Coulomb friction, whose shear is left out; a note has its effect [default: none].",
+    help="With --cycle: Coulomb friction coefficient; its shear is left out, a note has the effect [default: none].",
 )
 @click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
 @click.option("--save-state", "state", type=FILE, help="Write the last state (.npz) for --resume.")

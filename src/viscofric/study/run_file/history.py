@@ -59,7 +59,7 @@ class HistoryTable(Table):
     load_time: Duration = Field(0.0, description="Time in which the load or pressure rises from zero; 0 s: at once.")
     dwell: Durations = Field((0.0,), description="Time at rest under the load before the sliding; several are an axis.")
     slide: Length | None = Field(None, description="Length of the path at the speed of the case; default: no sliding.")
-    strokes: Count = Field(1, ge=1, le=10_000, description="Times the path is followed, forth and back.")
+    strokes: Count = Field(1, ge=1, le=10_000, description="Number of strokes along the path, back and forth.")
     before: Literal["untouched", "at rest", "sliding"] = Field(
         "untouched",
         description="State before the start: untouched, under the first load for ever, or sliding steadily.",
