@@ -193,3 +193,11 @@ def test_elastic_indenter_on_a_layer_is_no_layer_itself(bonded: bool) -> None:
     assert found.diagnostics.full_contact
     # Linear: round-off of pressures of order one.
     np.testing.assert_allclose(found.pressure[:, 0] - 1.0, z * q / (2.0 * compliance), atol=1e-12)
+
+
+def test_a_material_without_modes_is_elastic_at_any_speed() -> None:
+    elastic = vf.Material(vf.RetardationSpectrum(3e6, 3e6 * (1.0 + 1e-9), [], []))
+    found = vf.solve_steady(elastic, vf.Ball("10 mm"), speed=0.1, load=1.0, accuracy=1e-2)
+    still = vf.solve_steady(elastic, vf.Ball("10 mm"), speed=0.0, load=1.0, accuracy=1e-2)
+    assert found.friction_coefficient == 0.0
+    assert found.indentation == pytest.approx(still.indentation, rel=1e-8)  # of E∞, which is 1e-9 stiffer

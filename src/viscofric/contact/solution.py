@@ -215,7 +215,7 @@ class ContactSolution(Plotted):
     energy_friction_coefficient : float
         From the energy that the material dissipates, with what the cells at the edge leave out (see
         `viscofric.contact.free.balance`), on the finest grid; with `coulomb` from the work of the pressure on the
-        material's displacement, part of which shear gives back.
+        material's displacement, part of which shear gives back, and with what is left out estimated as without shear.
     indentation : float
         δ, m: depth of the indenter's lowest point below the undeformed surface.  In a line contact, where the surface
         far away is infinitely high above it (but for that of a layer under a rigid indenter), below the surface at the

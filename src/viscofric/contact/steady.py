@@ -418,7 +418,7 @@ def _steady_material(
     if speed == 0.0:
         return SteadyMaterial(plane_strain / spectrum.E0, none, none, counterface)
     glassy = plane_strain / spectrum.E_inf
-    if math.isinf(speed):
+    if math.isinf(speed) or not len(spectrum.tau):
         return SteadyMaterial(glassy, none, none, counterface)
     if speed > LONGEST_MEMORY / max(spectrum.tau):
         raise InputError(

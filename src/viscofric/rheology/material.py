@@ -91,7 +91,9 @@ class Material(Plotted):
         insist_on(self.spectrum, "spectrum", RetardationSpectrum, ModulusTable, right=right)
         insist_on(self.shift, "shift", ShiftLaw, type(None), right="a law, ShiftFactors or None")
         if self.vertical_shift is not None:
-            insist_on(self.vertical_shift, "vertical_shift", VerticalShift)
+            insist_on(
+                self.vertical_shift, "vertical_shift", VerticalShift, right="a DensityShift or VerticalShiftFactors"
+            )
             if self.shift is None:
                 raise InputError(
                     "vertical_shift of a material needs a shift too, which gives its reference.", code="no-shift"

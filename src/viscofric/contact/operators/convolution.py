@@ -188,7 +188,7 @@ class ConvolutionOperator(ABC):
         folded[:, 1:] += folded[::-1, 1:]
         return folded
 
-    def dissipated_force(self, pressure: Array, overlaps: Array | None = None) -> float:
+    def dissipated_force(self, pressure: Array) -> float:
         """Friction force from the energy that the material dissipates, per unit of distance slid.
 
         F_t = −∫ p ∂u/∂x dA, in which only the memory does work; in Fourier space the integral over q of

@@ -195,7 +195,13 @@ def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: An
     if not len(curves):
         raise InputError("friction curves contain no points; there is nothing to shift.", code="no-points")
     insist_on(shift, "shift", ShiftLaw, type(None), right="a law (WLF, …), ShiftFactors or None, to find it")
-    insist_on(vertical_shift, "vertical_shift", VerticalShift, type(None), right="a VerticalShift or None")
+    insist_on(
+        vertical_shift,
+        "vertical_shift",
+        VerticalShift,
+        type(None),
+        right="a DensityShift, VerticalShiftFactors or None",
+    )
     if indenter is not None:
         return
     if vertical_shift is not None or load is not None:

@@ -180,7 +180,7 @@ def compare_shift_factors(
     law: Any = getattr(other, "shift", None)
     if law is None:
         law = getattr(other, "shift_factors", other)
-    insist_on(law, "other", ShiftLaw, right="ShiftFactors, a law, or have shift factors")
+    insist_on(law, "other", ShiftLaw, right="ShiftFactors, a law, or a result that has shift factors")
     law = law.at_reference(reference)
     keep &= law.valid_at(table.temperatures)
     if not np.any(keep):

@@ -216,7 +216,10 @@ def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference:
         )
     otherwise = _not_described(kind)
     found, chi2, scatter = solved(family, table, otherwise)
-    level, student = _level(family, table, found.parameters, chi2)
+    try:
+        level, student = _level(family, table, found.parameters, chi2)
+    except np.linalg.LinAlgError:
+        raise otherwise from None
     if level > 0.0:
         found, _, scatter = solved(family, table.levelled(student * level), otherwise)
     aic = criterion_of(family, table.levelled(level), found.parameters) + (2.0 if level > 0.0 else 0.0)
@@ -242,7 +245,7 @@ def _level(family: _Family, table: StressTable, first: Array, chi2: float) -> tu
         """Return ln of the restricted likelihood."""
         levelled = table.levelled(level)
         found, scatter = with_misfit(family, levelled, least_squares(family, levelled, first, 0.0))
-        spread = float(np.linalg.slogdet(found.covariance / np.outer(first, first))[1])
+        spread = float(np.linalg.slogdet(found.covariance)[1])
         return 0.5 * (spread - found.chi2 - float(np.sum(np.log(levelled.variance + scatter**2))))
 
     found = minimize_scalar(
