@@ -24,7 +24,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.collapse import Collapse
 from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, nominal_temperatures
 from viscofric.friction.shifting.load_rule import LoadRule
-from viscofric.nominal import SAME_LOAD
+from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Note
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -170,6 +170,24 @@ class SmoothedPoints:
             squares = np.minimum(squares, _CLIPPED * most * expected) / _UNCLIPPED
             factor = max(factor, float(weight @ (squares - shared) / (weight @ own)))
         return factor, away
+
+
+def outliers_of_own(points: FrictionCurves) -> Mask:
+    """Return which points (n,) lie off the curve through those of their own temperature: they would move its shift."""
+    found, error = np.zeros(len(points), dtype=bool), points.viscoelastic_error
+    rows = nominal_rows(points.temperature)
+    # Temperatures are so far apart that no curve reaches another, but have one scatter.
+    apart = np.ptp(np.log10(points.speed)) + 2.0 * WIDEST_GAP
+    decades = np.log10(points.speed)
+    for number, row in enumerate(rows):
+        decades[row] += number * apart
+    order = np.argsort(decades, kind="stable")
+    own = SmoothedPoints(decades[order], points.viscoelastic[order], error[order], np.zeros((1, len(points))))
+    found[order] = own.outlying > 0.0
+    for row in rows:
+        if np.all(found[row]):
+            found[row] = False
+    return found
 
 
 class _Judged(NamedTuple):

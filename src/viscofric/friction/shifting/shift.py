@@ -18,7 +18,7 @@ from viscofric.friction.shifting.collapse import collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
 from viscofric.friction.shifting.isotherms import friction_isotherms
 from viscofric.friction.shifting.load_rule import LoadRule
-from viscofric.friction.shifting.master_curve import FrictionMasterCurve, reduced_decades
+from viscofric.friction.shifting.master_curve import FrictionMasterCurve, outliers_of_own, reduced_decades
 from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
@@ -126,7 +126,7 @@ def shift_friction(
     if shift is None:
         # Whatever the reference of the vertical shift is, it moves all curves together.
         points = _at_one_load(curves, rule, at_load, vertical_shift)
-        shift, members = found_shifts(friction_isotherms(points), kelvin, shared)
+        shift, members = found_shifts(friction_isotherms(points.select(~outliers_of_own(points))), kelvin, shared)
         notes = (*error_freedom(points)[1], *shift.notes)
         rows = nominal_rows(curves.temperature)
         curves = curves.select(np.sort(np.concatenate([rows[place] for place in members])))
