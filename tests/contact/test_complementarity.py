@@ -15,7 +15,8 @@ from contact.dense_reference import (
 )
 from gallery import BALL_RADIUS, BALL_REFERENCES, HERTZ_RADIUS, POISSON_RATIO, BallReference, standard_linear_solid
 from marks import apart, slow
-from viscofric.contact.complementarity import solve_complementarity, solve_on_contact
+from viscofric.contact.complementarity import solve_complementarity, solve_many_spots, solve_on_contact
+from viscofric.contact.extension import Extension
 from viscofric.contact.free.grids import Window
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator
@@ -111,17 +112,35 @@ def test_too_little_indentation_leaves_no_contact() -> None:
     assert not solution.pressure.any()
 
 
-def test_way_of_tightening_and_stored_directions_leave_the_answer() -> None:
+def test_way_of_tightening_leaves_the_answer() -> None:
     window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
     height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
     operator = HalfSpaceOperator(window, MATERIALS["six modes"])
     one = solve_complementarity(operator, height, 100.0, np.ones(window.shape), tolerance=1e-10)
     other = solve_complementarity(
-        operator, height, 100.0, np.ones(window.shape), tolerance=1e-10, tighten="near the end", directions=4
+        operator, height, 100.0, np.ones(window.shape), tolerance=1e-10, tighten="near the end"
     )
     assert one.converged
     assert other.converged
     assert 0.0 < other.linear < 1.0
+    np.testing.assert_allclose(one.pressure, other.pressure, rtol=0.0, atol=1e-6 * one.pressure.max())
+
+
+@pytest.mark.parametrize("given", ["load", "indentation"])
+def test_set_chosen_at_every_step_leaves_the_answer(given: str) -> None:
+    window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+    height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
+    operator = HalfSpaceOperator(window, MATERIALS["six modes"])
+    one = solve_complementarity(operator, height, 100.0, np.ones(window.shape), tolerance=1e-12)
+    other = solve_many_spots(
+        operator, height, 100.0 if given == "load" else None, np.ones(window.shape),
+        indentation=None if given == "load" else one.indentation, tolerance=1e-10, most_products=200, inner=operator,
+        patience=10, directions=6, extension=Extension(operator.backend, window.shape, np.float64), doubt=0.0,
+    )  # fmt: skip
+    assert other.converged
+    gap = operator(other.pressure) + height - other.indentation
+    assert max(np.abs(gap[other.pressure > 0.0]).max(), -gap.min()) <= 1e-10
+    np.testing.assert_allclose(other.displacement, operator(other.pressure), rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(one.pressure, other.pressure, rtol=0.0, atol=1e-6 * one.pressure.max())
 
 

@@ -22,6 +22,7 @@ solutions on a wrong set make all spots overshoot.
 from __future__ import annotations
 
 import math
+import operator as operator_module
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
@@ -38,6 +39,10 @@ _LEAST_REDUCTION = 1e-7
 # Part of an image that remains after orthogonalisation, below which it is orthogonalised again: rounding errors are as
 # large.  They are on fine grids, where the compliance of long waves is a million times that of short ones.
 _LITTLE = 0.1
+# Part of the displacement of a change that is not a combination of others, below which it is only rounding errors.
+_NOTHING_NEW = 1e-4
+# Part of a gap from which on rounding errors in single precision matter to it.
+_MUCH_LESS = 1e-3
 _DIRECTIONS = 40  # search directions that GCR keeps
 _LINEAR_ITERATIONS = 100  # between two updates of the contact set
 
@@ -93,7 +98,6 @@ def solve_complementarity(
     inner: ContactOperator | None = None,
     patience: int | None = None,
     tighten: Literal["without headway", "near the end"] = "without headway",
-    directions: int = _DIRECTIONS,
     extension: Extension | None = None,
     doubt: float = 0.0,
 ) -> ComplementaritySolution:
@@ -124,8 +128,6 @@ def solve_complementarity(
         Looks at the contact set without a smaller residual after which the solver gives up.
     tighten : {"without headway", "near the end"}
         When linear problems are solved more tightly; see above.
-    directions : int
-        Search directions that are kept while a linear problem is solved: two numbers each for every cell in contact.
     extension : Extension, optional
         Of residuals beyond the contact before they are preconditioned; zeros by default.
     doubt : float
@@ -177,7 +179,7 @@ def solve_complementarity(
         unit = abs(state_now.indentation) if depth is None else depth
         gap = contact.gathered(gap)  # the rest of it is not needed, and large
         correction, steps, linear = solve_on_contact(
-            inner, gap, contact, reduction=reduction, floor=0.5 * tolerance * unit, directions=directions,
+            inner, gap, contact, reduction=reduction, floor=0.5 * tolerance * unit, directions=_DIRECTIONS,
             fixed_load=load is not None, extension=extension,
         )  # fmt: skip
         linear_iterations += steps
@@ -195,6 +197,190 @@ def solve_complementarity(
         elif wrong_before is not None and wrong > 0.5 * wrong_before:
             reduction = max(0.1 * reduction, _LEAST_REDUCTION)
         wrong_before = wrong
+
+
+def solve_many_spots(
+    operator: ContactOperator,
+    height: AnyArray,
+    load: float | None,
+    guess: AnyArray,
+    *,
+    indentation: float | None,
+    tolerance: float,
+    most_products: int,
+    inner: ContactOperator,
+    patience: int,
+    directions: int,
+    extension: Extension,
+    doubt: float,
+) -> ComplementaritySolution:
+    """Solve the contact of many spots, whose contact set is chosen anew at every step.
+
+    A step removes from the gap under pressure what known changes of the pressure can remove, preconditions the rest,
+    and cuts off pressures below zero.  One product gives the displacement of the whole change: with it the gap is
+    known, the set is looked at, and the next steps know one change more.  This is GCR one step late, whose directions
+    outlive changes of the set.  Changes are in the precision of `inner`; what is returned as converged is confirmed
+    with `operator`.
+
+    Arguments as of `solve_complementarity`, with a depth of 1; of the latest changes as many as `directions` are kept.
+    `doubt`: overlap below so many root mean square gaps under pressure does not make contact yet, since pressures are
+    not known better.
+    """
+    start = operator.products + inner.products
+    backend = operator.backend
+    xp, height = backend.xp, backend.asarray(height)
+    pressure = _loaded_to(backend, backend.positive_part(xp.asarray(backend.asarray(guess), copy=True)), load)
+    contact = backend.cells(pressure > 0.0)
+    loaded, values = contact.indices, contact.gathered(pressure)
+    gap, confirmed = _gap(backend, operator(pressure), height), True
+    known = KnownChanges(backend, directions)
+    change = image = extended = None
+    best, best_contact, best_values = math.inf, contact, values
+    steps = since_best = 0
+    before, reference = math.inf, 0.0
+    while True:
+        now, level, chosen = _look_at_gap(backend, gap, loaded, indentation, doubt)
+        if now <= tolerance and not confirmed:
+            gap, confirmed = _gap(backend, operator(pressure), height), True
+            continue
+        reference = reference or now
+        since_best += 1
+        if now < best:
+            best, best_contact, best_values, since_best = now, contact, values, 0
+        products = operator.products + inner.products - start
+        if now <= tolerance or products >= most_products or since_best >= patience or not math.isfinite(now):
+            break
+        former, cells = contact, backend.cells(chosen)
+        if extended is None or len(cells) != len(former) or not bool(xp.all(cells.indices == former.indices)):
+            contact = cells
+            extended, collected = extension.on(contact), extension.collecting(contact)
+            change = None if image is None else known.move(former, contact, change)
+        if image is not None:
+            known.add(change, _levelled(backend, contact.gathered(image), load))
+        residual = xp.astype(level - contact.gathered(gap), inner.dtype)
+        combined, residual = known.remove(_levelled(backend, residual, load))
+        correction = collected(inner.precondition(extended(residual)))
+        old = contact.gathered(pressure)
+        values = backend.positive_part(old + (_levelled(backend, correction, load) + combined))
+        loaded = contact.indices[values > 0.0]
+        if loaded.shape[0] == 0:
+            break
+        values = _loaded_to(backend, values, load)
+        pressure = contact.inserted(pressure, values)  # all that was loaded is among these cells
+        change = xp.astype(values - old, inner.dtype)
+        # The last product is made with the operator, and one before it once the gap is much less than its changes were.
+        confirmed = now * now <= tolerance * before or now <= _MUCH_LESS * reference
+        before, image = now, None
+        del chosen, cells, old, residual, correction, combined
+        if confirmed:
+            reference, former_gap = now, gap
+            gap = _gap(backend, operator(pressure), height)
+            backend.in_parts(operator_module.isub, former_gap, gap)
+            image = xp.astype(former_gap, inner.dtype)
+            image *= -1.0
+            del former_gap
+        else:
+            image = inner(contact.scattered(change))
+            backend.in_parts(operator_module.iadd, gap, image)
+        steps += 1
+    if now > best or not confirmed or loaded.shape[0] == 0:
+        pressure = best_contact.inserted(backend.zeros(pressure.shape, pressure.dtype), best_values)
+        gap = _gap(backend, operator(pressure), height)
+        best, level, _ = _look_at_gap(backend, gap, best_contact.indices[best_values > 0.0], indentation, doubt)
+    return ComplementaritySolution(
+        pressure=pressure,
+        displacement=gap - height,
+        indentation=level,
+        converged=best <= tolerance,
+        complementarity=best,
+        load=0.0 if load is None else abs(float(backend.total(pressure)) / load - 1.0),
+        set_changes=steps + 1,
+        linear_iterations=steps,
+        products=operator.products + inner.products - start,
+    )
+
+
+def _gap(backend: Backend, displacement: AnyArray, height: AnyArray) -> AnyArray:
+    """Return the gap at an indentation of zero, in place of the displacement."""
+    backend.in_parts(operator_module.iadd, displacement, height)
+    return displacement
+
+
+def _look_at_gap(
+    backend: Backend, gap: AnyArray, loaded: AnyArray, indentation: float | None, doubt: float
+) -> tuple[float, float, AnyArray]:
+    """Return the largest violation of a gap at no indentation, the indentation, and the cells in contact.
+
+    `loaded` are the indices of those under pressure.
+    """
+    xp = backend.xp
+    under = xp.take(xp.reshape(gap, (-1,)), loaded)
+    level = float(backend.total(under)) / loaded.shape[0] if indentation is None else indentation
+    under = under - level
+    enough = level - doubt * math.sqrt(float(under @ under) / max(loaded.shape[0], 1))
+    chosen = xp.empty_like(gap, dtype=xp.bool)
+
+    def overlapping(chosen: AnyArray, gap: AnyArray) -> AnyArray:
+        chosen[...] = gap < enough
+        return xp.min(gap)
+
+    worst = level - min(backend.floats(*backend.in_parts(overlapping, chosen, gap)))
+    if loaded.shape[0]:
+        worst = max(worst, float(backend.largest(xp.abs(under))))
+    return worst, level, backend.with_true(chosen, loaded)
+
+
+class KnownChanges:
+    """Changes of the pressure at the cells in contact, and the displacements that they cause there."""
+
+    def __init__(self, backend: Backend, most: int) -> None:
+        self.backend, self.most = backend, most
+        self.changes: list[AnyArray] = []
+        self.images: list[AnyArray] = []  # orthonormal, but for changes of the set
+
+    def move(self, old: Cells, new: Cells, change: AnyArray) -> AnyArray:
+        """Go over to other cells, and return a change on these: what was not in contact before has not changed."""
+        xp = self.backend.xp
+        places = xp.clip(xp.searchsorted(old.indices, new.indices), max=len(old) - 1)
+        same = xp.astype(xp.take(old.indices, places) == new.indices, change.dtype)
+        self.changes, self.images = (
+            [same * xp.take(one, places) for one in kind] for kind in (self.changes, self.images)
+        )
+        return same * xp.take(change, places)
+
+    def add(self, change: AnyArray, image: AnyArray) -> None:
+        """Add a change and its image, less what others have of them; both are overwritten."""
+        first = length = math.sqrt(float(image @ image))
+        for _ in range(2):
+            whole = length
+            for known, its_image in zip(self.changes, self.images, strict=True):
+                overlap = its_image @ image
+                image -= overlap * its_image
+                change -= overlap * known
+            length = math.sqrt(float(image @ image))
+            if length > _LITTLE * whole:
+                break
+        if length <= _NOTHING_NEW * first:
+            return
+        image /= length
+        change /= length
+        self.changes = [*self.changes[1 - self.most :], change]
+        self.images = [*self.images[1 - self.most :], image]
+
+    def remove(self, residual: AnyArray) -> tuple[AnyArray | float, AnyArray]:
+        """Return the sum of changes that leaves least of a gap, and what it leaves; the gap is overwritten."""
+        total: AnyArray | float = 0.0
+        for change, image in zip(self.changes, self.images, strict=True):
+            step = image @ residual
+            residual -= step * image
+            total = total + step * change
+        return total, residual
+
+
+def _levelled(backend: Backend, values: AnyArray, load: float | None) -> AnyArray:
+    if load is not None:
+        values -= backend.total(values) / values.shape[0]
+    return values
 
 
 def _loaded_to(backend: Backend, pressure: AnyArray, load: float | None) -> AnyArray:

@@ -32,11 +32,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.contact.arrays.backend import Cells, MaskedCells
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from viscofric.arrays import Array
-    from viscofric.contact.arrays.backend import AnyArray, Backend, Cells
+    from viscofric.contact.arrays.backend import AnyArray, Backend
 
 
 _BLOCK = 8  # cells along an edge of a block at most
@@ -122,7 +124,13 @@ class Extension:
         column = indices % ny
         moved = []
         for (x, y), weight in self._moved:
-            neighbour = (indices + x * ny) % (nx * ny) if x else indices + ((column + y) % ny - column)
+            # Several times quicker than remainders.
+            neighbour = indices + (x * ny + y)
+            if x:
+                beyond, period = (neighbour >= nx * ny if x > 0 else neighbour < 0), x * nx * ny
+            else:
+                beyond, period = column == (ny - 1 if y > 0 else 0), y * ny
+            neighbour = neighbour - period * xp.astype(beyond, indices.dtype)
             at = self.backend.cells(~xp.take(inside, neighbour))
             moved.append((at, at.gathered(neighbour), weight))
 
@@ -143,6 +151,10 @@ class Extension:
         xp, found, taken = self.backend.xp, [], contact.chosen
         nx, ny = contact.chosen.shape
         inside = xp.reshape(contact.chosen, (-1,))
+        if not self._ahead:
+            return []
+        if all(len(corners) == 1 for corners in self._ahead) and not isinstance(contact, MaskedCells):
+            return self._trail_along_axis(contact)
         for distance, corners in enumerate(self._ahead):
             reached = functools.reduce(
                 operator.or_, (xp.roll(contact.chosen, (-x, -y), axis=(0, 1)) for (x, y), _ in corners)
@@ -169,6 +181,22 @@ class Extension:
                     for place, weight in zip(places, weights, strict=True)
                 ]
             found.append((cells, 1.0 - fading, sources))
+        return found
+
+    def _trail_along_axis(self, contact: Cells) -> list[tuple[Cells, float, list[tuple[AnyArray, AnyArray]]]]:
+        """Return the same for a motion along an axis: from edge to edge, which is quicker."""
+        xp, found = self.backend.xp, []
+        nx, ny = contact.chosen.shape
+        inside = xp.reshape(contact.chosen, (-1,))
+        sources, row, column = xp.arange(len(contact)), contact.indices // ny, contact.indices % ny
+        for distance, (((x, y), _),) in enumerate(self._ahead):
+            cells = (row - x) % nx * ny + (column - y) % ny
+            (free,) = xp.nonzero(~xp.take(inside, cells))
+            if free.shape[0] == 0:
+                break
+            sources, row, column = (xp.take(one, free) for one in (sources, row, column))
+            fading = self._lag * (1.0 - distance / _TRAIL)
+            found.append((Cells(self.backend, contact.chosen, xp.take(cells, free)), 1.0 - fading, [(sources, fading)]))
         return found
 
     def _smoothed(self, field: AnyArray) -> list[AnyArray]:

@@ -9,6 +9,7 @@ overwrite, and gathering and scattering on the cells in contact.  All that comes
 from __future__ import annotations
 
 import importlib
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
@@ -210,6 +211,18 @@ class Backend(Shown):
     def in_parts(self, function: Callable[..., Result], *arrays: AnyArray) -> list[Result]:
         """Call a function with parts of arrays, see `viscofric.threads.in_parts`; with all of them unless NumPy's."""
         return in_parts(function, *arrays, threads=self.threads) if self.is_numpy else [function(*arrays)]
+
+    def with_true(self, chosen: AnyArray, indices: AnyArray) -> AnyArray:
+        """Truth values of a grid, true at some of its cells as well, by their indices; may be overwritten."""
+        if self._is_strict:
+            xp = self.xp
+            order, places = xp.arange(math.prod(chosen.shape)), xp.sort(indices)
+            if indices.shape[0]:
+                there = xp.clip(xp.searchsorted(places, order), max=indices.shape[0] - 1)
+                chosen = chosen | xp.reshape(xp.take(places, there) == order, chosen.shape)
+            return chosen
+        self.xp.reshape(chosen, (-1,))[indices] = True
+        return chosen
 
     def cells(self, chosen: AnyArray) -> Cells:
         """Cells at which an array of truth values is true."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +17,8 @@ from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from numpy.typing import NDArray
 
     from viscofric.arrays import Array
     from viscofric.contact.arrays.backend import Backend
@@ -71,6 +73,7 @@ def solve_on_levels(
     results are NumPy's on any backend.
     """
     pressure: Array | None = None
+    displacement: NDArray[Any] | None = None
     coarser: Array | None = None
     grids: list[tuple[int, int, int]] = []
     stage = next(stages)
@@ -81,13 +84,16 @@ def solve_on_levels(
         else:
             wanted, most = tolerance, most_products
         level = OneGrid(stage, mean_pressure, offset, wanted, most, backend)
-        result = level.solve(None if pressure is None else backend.asarray(pressure)).on_numpy(backend)
+        start = [None if one is None else backend.asarray(one) for one in (pressure, displacement)]
+        pressure = displacement = None  # large, and overwritten
+        result = level.solve(start.pop(0), start.pop()).on_numpy(backend)
         ffts = level.exact.ffts + level.single.ffts
         grids.append((*level.shape, ffts))
         logger.debug("%s points: %s FFTs, residual %.1e", level.shape, ffts, result.complementarity)
         if finer is not None:
             coarser = result.pressure
             pressure = interpolated(coarser, finer.height.shape)
+            displacement = interpolated(result.displacement.astype(level.single.precision), finer.height.shape)
             stage = finer
             continue
         if not result.converged:

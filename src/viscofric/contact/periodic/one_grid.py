@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
+from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity, solve_many_spots
 from viscofric.contact.extension import Extension, lag
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
@@ -25,17 +25,16 @@ if TYPE_CHECKING:
     from viscofric.contact.arrays.backend import AnyArray, Backend
 
 
-_PATIENCE = 3  # updates of the contact set without a smaller residual before splitting takes over
-_FEW_DIRECTIONS = (6, 12)  # kept by the linear solver for elastic and viscoelastic solids; enough for most contacts
+_PATIENCE = 3  # looks at the contact set without a smaller residual before another method takes over
+_FEW_DIRECTIONS = (6, 12)  # changes that are kept, for elastic and viscoelastic solids; enough for most contacts
 _MANY_DIRECTIONS = 40
-_FEW_PRODUCTS = 300  # enough for most contacts, without the following methods
+_FEW_PRODUCTS = 120  # of the active set: what it cannot solve with these is left to the splitting
 # Residual, in rms heights, from which on the active set continues for as long as it halves it: its set is nearly right.
 _NEARLY = 1e-5
-_FIRST_STEPS = (3, 4)  # of the splitting on each grid, likewise
-_DOUBT = (1.0, 2.0)  # see `solve_complementarity`, likewise
-_MORE_STEPS = 40  # of the splitting where the contact set does not converge; then twice as many, and so on
-# In turn, with more directions: oblique motions in particular may not converge with the whole of it.
-_SHARES_OF_LAG = (1.0, 0.5)
+_FIRST_STEPS = 3  # of the splitting on each grid
+_DOUBT = (1.0, 2.0)  # see `solve_many_spots`, for elastic and viscoelastic solids
+_MORE_STEPS = 120  # of the accelerated splitting where the contact set does not converge; then twice as many, and so on
+_TURNS = 4  # of it, after which the continuation is tried
 # ρ of the splitting over the smallest compliance of a wave, where coarser grids have settled the long waves.
 _SHORT_WAVES = (2.7, 6.5)
 _ALL_WAVES = (0.2, 1.0)  # otherwise, in turn, over the geometric mean of the smallest and the largest
@@ -80,7 +79,7 @@ class OneGrid:
         self.exact = PeriodicOperator(stage.transfer, self.shape, backend=backend)
         self.single = self.exact.for_corrections()
         self.stage = stage
-        self.extension = self._extension(1.0)
+        self.extension = self._extension()
         self.elastic = not np.iscomplexobj(stage.transfer)
         self.load = None if mean_pressure is None else mean_pressure * self.cells
         self.indentation = None if gap is None else self.mean_height - gap
@@ -88,45 +87,43 @@ class OneGrid:
         self.most_products = most_products
         self.splitting_steps = self.set_changes = self.linear_iterations = 0
 
-    def solve(self, pressure: AnyArray | None) -> ComplementaritySolution:
-        """Solve from the coarser grid's pressure, or from nothing."""
+    def solve(self, pressure: AnyArray | None, displacement: AnyArray | None = None) -> ComplementaritySolution:
+        """Solve from the coarser grid's pressure, or from nothing.
+
+        `displacement` is about that of the pressure, in the precision of corrections; it is overwritten.
+        """
         full = self._full_contact() if pressure is None or self._nearly_full(pressure) else None
         if full is not None:
             return full
         if pressure is None or not self._loaded(pressure):
-            pressure = self._first_guess()
-        # These find most of the contact set, and cost half of a linear step each.
+            pressure, displacement = self._first_guess(), None
+        # These find most of the contact set, and cost half of a step of the next method each.
         kind = 0 if self.elastic else 1
-        pressure = self._split(self.single, pressure, _FIRST_STEPS[kind], self.quick_rho)
-        result = self._active_set(pressure, 2 * _PATIENCE, _FEW_DIRECTIONS[kind], _FEW_PRODUCTS)
-        start = pressure
-        for share in (1.0,) if self.elastic else _SHARES_OF_LAG:
-            if result.converged or self.products >= self.most_products:
-                break
-            # A few more of these cheap steps are sufficient for most of the remaining contacts.
-            pressure = self._split(self.single, start, _MORE_STEPS, self.rho(_ALL_WAVES[0]))
-            self.extension = self._extension(share)
-            result = self._active_set(pressure, 2 * _PATIENCE, _MANY_DIRECTIONS, _FEW_PRODUCTS)
-            start = result.pressure
-        if not (result.converged or self.elastic) and self.products < self.most_products:
-            allowed = (self.most_products - self.products) // 2
-            found, pressure = continued(self.exact, self.stage.relaxed(), pressure, self._tight_active_set, allowed)
-            result = result if found is None else found
-        steps, turn = 2 * _MORE_STEPS, 0
+        pressure = self._split(self.single, pressure, _FIRST_STEPS, self.quick_rho, displacement)
+        del displacement
+        start, result = pressure, self._many_spots(pressure, _FEW_DIRECTIONS[kind])
+        if not result.converged and self.products < self.most_products:
+            result = self._active_set(result.pressure, 2 * _PATIENCE, _FEW_PRODUCTS)
+        steps, turn = _MORE_STEPS, 0
         while not result.converged and self.products < self.most_products:
+            if turn == _TURNS and not self.elastic:
+                allowed = (self.most_products - self.products) // 2
+                found, start = continued(self.exact, self.stage.relaxed(), start, self._tight_active_set, allowed)
+                if found is not None:
+                    return found
             # Not from the active set's result: the splitting converges only along its own steps.
             turn += 1
             allowed = min(steps, self.most_products - self.products)
-            pressure = self._split(self.exact, pressure, allowed, self.rho(_ALL_WAVES[turn % 2]), accelerated=True)
-            # The active set has the same limit as the splitting, which may be the one to converge.
-            result = self._active_set(pressure, _PATIENCE, _MANY_DIRECTIONS, allowed)
+            start = self._split(self.exact, start, allowed, self.rho(_ALL_WAVES[turn % 2]), accelerated=True)
+            result = self._many_spots(start, _MANY_DIRECTIONS)
+            if not result.converged and self.products < self.most_products:
+                result = self._active_set(start, _PATIENCE, allowed // 4)
             steps = int(_GROWTH * steps)
         return result
 
-    def _extension(self, share: float) -> Extension:
-        """Return the extension of residuals, with a part of the lag behind moving edges."""
+    def _extension(self) -> Extension:
         stage = self.stage
-        late = share * lag(stage.transfer, self.shape[1], stage.toward)
+        late = lag(stage.transfer, self.shape[1], stage.toward)
         return Extension(self.backend, self.shape, self.single.dtype, stage.toward, late, inverse=self.single.inverse)
 
     @property
@@ -143,17 +140,17 @@ class OneGrid:
         """Products with the transfer function so far."""
         return self.exact.products + self.single.products
 
-    def _active_set(self, pressure: AnyArray, patience: int, directions: int, most: int) -> ComplementaritySolution:
-        result = self._few_sets(pressure, patience, directions, most)
+    def _active_set(self, pressure: AnyArray, patience: int, most: int) -> ComplementaritySolution:
+        result = self._few_sets(pressure, patience, most)
         residual = math.inf
         while not result.converged and result.complementarity < min(_NEARLY, 0.5 * residual):
             if self.products >= self.most_products:
                 break
             residual = result.complementarity
-            result = self._few_sets(result.pressure, patience, directions, most)
+            result = self._few_sets(result.pressure, patience, most)
         return result
 
-    def _few_sets(self, pressure: AnyArray, patience: int, directions: int, most: int) -> ComplementaritySolution:
+    def _few_sets(self, pressure: AnyArray, patience: int, most: int) -> ComplementaritySolution:
         result = solve_complementarity(
             self.exact,
             self.height,
@@ -166,6 +163,22 @@ class OneGrid:
             inner=self.single,
             patience=patience,
             tighten="near the end",
+            extension=self.extension,
+            doubt=_DOUBT[0 if self.elastic else 1],
+        )
+        return self._counted(result)
+
+    def _many_spots(self, pressure: AnyArray, directions: int) -> ComplementaritySolution:
+        result = solve_many_spots(
+            self.exact,
+            self.height,
+            self.load,
+            pressure,
+            indentation=self.indentation,
+            tolerance=self.tolerance,
+            most_products=self.most_products,
+            inner=self.single,
+            patience=_PATIENCE,
             directions=directions,
             extension=self.extension,
             doubt=_DOUBT[0 if self.elastic else 1],
@@ -185,7 +198,6 @@ class OneGrid:
             most_products=most,
             depth=1.0,
             patience=2 * _PATIENCE,
-            directions=_MANY_DIRECTIONS,
         )
         return self._counted(result)
 
@@ -195,12 +207,13 @@ class OneGrid:
         return result
 
     def _split(
-        self, operator: PeriodicOperator, pressure: AnyArray, steps: int, rho: float, accelerated: bool = False
-    ) -> AnyArray:
+        self, operator: PeriodicOperator, pressure: AnyArray, steps: int, rho: float,
+        displacement: AnyArray | None = None, *, accelerated: bool = False,
+    ) -> AnyArray:  # fmt: skip
         self.splitting_steps += steps
         found = split_steps(
             operator, self.height, pressure, load=self.load, indentation=self.indentation, steps=steps,
-            rho=rho, accelerated=accelerated,
+            rho=rho, accelerated=accelerated, displacement=displacement,
         )  # fmt: skip
         return found if self._loaded(found) else pressure
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from viscofric.contact.periodic.operator import PeriodicOperator
 
 
-_MEMORY = 8  # earlier steps that the acceleration uses
+_MEMORY = 12  # earlier steps that the acceleration uses
 _GROWTH = 2.0  # of the best residual, at which the acceleration restarts from it
 
 
@@ -42,13 +42,15 @@ def split_steps(
     steps: int,
     rho: float,
     accelerated: bool = False,
+    displacement: AnyArray | None = None,
 ) -> AnyArray:
     """Take steps of the splitting from a guess, and return pressures that are not negative, in double precision.
 
     Steps are in the operator's precision.  `height` (nx, ny) is above the indenter's lowest point; `guess` (nx, ny) are
     pressures, not negative, some above zero; the load, the sum of the pressures, or the indentation δ is given.  `rho`
     is ρ, a compliance: much more compliant waves converge at once, those of about ρ in a few steps.  `accelerated`
-    extrapolates from earlier steps (Anderson), which pays where many are needed.
+    extrapolates from earlier steps (Anderson), which pays where many are needed.  `displacement` (nx, ny) is that under
+    the guess, about, in the operator's precision; it is overwritten.
     """
     backend, xp = operator.backend, operator.backend.xp
     height, guess = backend.asarray(height), backend.asarray(guess)
@@ -83,7 +85,7 @@ def split_steps(
 
     backend.in_parts(resolve, resolvent, operator.transfer)
     backend.in_parts(prepare, surface, pressure, height, guess)
-    state, level = operator(pressure), 0.0
+    state, level = operator(pressure) if displacement is None else displacement, 0.0
     if indentation is None:
         loaded = pressure > 0.0
         level = float(xp.mean(state[loaded] + surface[loaded]))

@@ -177,7 +177,7 @@ def interpolated(values: Array, shape: tuple[int, int]) -> Array:
 def _doubled(values: Array, axis: int) -> Array:
     """Insert the mean of each two neighbours between them, along one axis."""
     nx, ny = values.shape
-    found = np.empty((nx, 2, ny) if axis == 0 else (nx, ny, 2))
+    found = np.empty((nx, 2, ny) if axis == 0 else (nx, ny, 2), values.dtype)
 
     def insert(found: Array, values: Array, after: Array) -> None:
         if axis == 0:
