@@ -49,6 +49,11 @@ _COINCIDENT = 1e-6
 _MOST, _CLIPPED, _UNCLIPPED = 0.8, 2.49, 0.924
 # Largest relative distance of the parabola of a point from a smooth curve, also at its ends.
 _BIAS = 0.03
+# Outliers are found together if those that lie farther off pull the curve towards them by less than this part of their
+# own distance.
+_PULL = 0.1
+# Places smoothed at a time, near each other: few numbers at once stay in the cache.
+_TOGETHER = 32
 
 
 def reduced_decades(points: FrictionCurves, shift: ShiftLaw, *, found: bool) -> Array:
@@ -80,16 +85,18 @@ class SmoothedPoints:
     def read(self, decades: Array) -> Array:
         """Return values (m,) at places (m,) that lie in a stretch."""
         value = np.empty(decades.shape)
-        for place, window, weights in self._smoothers(decades, self._judged.weight):
-            value[place] = weights @ self.friction[window]
+        for places, window, weights in self._smoothers(decades, self._judged.weight):
+            value[places] = weights @ self.friction[window]
         return value
 
     def standard_error(self, decades: Array) -> Array:
         """Return standard errors (m,) at places (m,) that lie in a stretch."""
         square = np.empty(decades.shape)
-        for place, window, weights in self._smoothers(decades, self._judged.weight):
-            variance = np.where(weights == 0.0, 0.0, self._judged.variance[window])
-            square[place] = weights**2 @ variance + self._shared(window, weights)
+        unknown = np.isinf(self._judged.variance)
+        variance = np.where(unknown, 0.0, self._judged.variance)
+        for places, window, weights in self._smoothers(decades, self._judged.weight):
+            square[places] = weights**2 @ variance[window] + self._shared(window, weights)
+            square[places[np.any(weights[:, unknown[window]] != 0.0, axis=1)]] = np.inf
         return np.sqrt(square)
 
     @property
@@ -97,21 +104,23 @@ class SmoothedPoints:
         """By how many standard errors points (n,) lie off the curve that count less for it; zero for the others."""
         return np.sqrt(self._judged.outlying)
 
-    def _shared(self, window: slice, weights: Array) -> float:
-        """Return the variance that errors which points share give to a weighted sum of their friction."""
-        return float(np.sum((self.sharing[:, window] @ (weights * self.friction[window])) ** 2))
+    def _shared(self, window: slice, weights: Array) -> Array:
+        """Return the variances (m,) that errors which points share give to weighted sums (m, w) of their friction."""
+        if not np.any(self.sharing):
+            return np.zeros(len(weights))
+        return np.asarray(np.sum((weights @ (self.sharing[:, window] * self.friction[window]).T) ** 2, axis=1))
 
-    def _smoothers(self, decades: Array, statistical: Array) -> Iterator[tuple[int, slice, Array]]:
-        """Yield of each place that lies in a stretch its number, the points around it and the weights of these."""
+    def _smoothers(self, decades: Array, statistical: Array) -> Iterator[tuple[Indices, slice, Array]]:
+        """Yield of places (m,) that lie in a stretch their numbers, the points around them and the weights of these."""
         for low, high in self.stretches:
             inside = np.flatnonzero((decades >= low - _ROUNDING) & (decades <= high + _ROUNDING))
             if not inside.size:
                 continue
+            inside = inside[np.argsort(decades[inside], kind="stable")]
             first, last = np.searchsorted(self.decades, low), np.searchsorted(self.decades, high, "right")
             rows, at = slice(int(first), int(last)), np.clip(decades[inside], low, high)
-            found = smoothing_weights(self.decades[rows], statistical[rows], at, BANDWIDTH)
-            for place, (window, weights) in zip(inside.tolist(), found, strict=True):
-                yield place, slice(rows.start + window.start, rows.start + window.stop), weights
+            for places, window, weights in smoothing_weights(self.decades[rows], statistical[rows], at, BANDWIDTH):
+                yield inside[places], slice(rows.start + window.start, rows.start + window.stop), weights
 
     @cached_property
     def _judged(self) -> _Judged:
@@ -123,53 +132,97 @@ class SmoothedPoints:
         # Without stated errors, the scatter is taken to be a part of friction.
         stated = self.error if known else np.where(finite, np.abs(self.friction), np.inf)
         plain, variance = _weights(self.error), np.where(finite, np.square(stated), 0.0)
-        outlying = np.zeros(len(self.decades))
+        trusted, outlying = _weights(stated), np.zeros(len(self.decades))
+        about = _About.none(len(self.decades))
+        changed = np.arange(len(self.decades))
         while True:
             larger = np.maximum(outlying, 1.0)
-            factor, away = self._distances(plain / larger, variance * larger, _weights(stated) / larger, known=known)
-            # The first one within reach makes outliers of its neighbours.
-            order = np.argsort(-away)
-            found = [
-                one
-                for rank, one in enumerate(order[: np.count_nonzero(away)].tolist())
-                if np.all(np.abs(self.decades[order[:rank]] - self.decades[one]) > 2.0 * BANDWIDTH)
-            ]
-            some = np.count_nonzero(outlying) + len(found)
-            if not found or some > MOST_OUTLYING * len(away):
+            self._find_distances(about, about.reached(changed), plain / larger, variance * larger)
+            factor, away = self._compared(about, variance * larger, trusted / larger, known=known)
+            changed = self._apart(about, away)
+            some = np.count_nonzero(outlying) + len(changed)
+            if not changed.size or some > MOST_OUTLYING * len(away):
                 return _Judged(plain / larger, np.where(finite, variance * larger * factor, np.inf), outlying)
-            outlying[found] = larger[found] * away[found]
+            outlying[changed] = larger[changed] * away[changed]
 
-    def _distances(self, weight: Array, variance: Array, trusted: Array, *, known: bool) -> tuple[float, Array]:
+    def _find_distances(self, about: _About, rows: Indices, weight: Array, variance: Array) -> None:
+        """Fill in how points in `rows` lie about the curve of points with weights and variances (n,)."""
+        for places, window, weights in self._smoothers(self.decades[rows], weight):
+            mine, at = rows[places], np.arange(len(places))
+            about.largest[mine] = weights.max(axis=1)
+            there = weights != 0.0
+            about.first[mine] = window.start + there.argmax(axis=1)
+            about.last[mine] = window.stop - 1 - there[:, ::-1].argmax(axis=1)
+            about.curve[mine] = weights @ self.friction[window]
+            left = np.negative(weights, out=weights)
+            left[at, mine - window.start] += 1.0
+            about.shared[mine] = self._shared(window, left)
+            squares = np.square(left, out=left)
+            about.own[mine] = squares @ variance[window]
+            about.freedom[mine] = squares.sum(axis=1)
+
+    def _compared(self, about: _About, variance: Array, trusted: Array, *, known: bool) -> tuple[float, Array]:
         """Return a factor of the variances (n,), and squared distances (n,) of outliers, in variances; else zero."""
-        curve, squares, own, shared, freedom = np.zeros((5, len(self.decades)))
-        judged = np.zeros(len(squares), dtype=bool)  # not where points are too sparse for a parabola to be near them
-        for row, window, weights in self._smoothers(self.decades, weight):
-            left = -weights
-            left[row - window.start] += 1.0
-            curve[row] = weights @ self.friction[window]
-            squares[row] = (self.friction[row] - curve[row]) ** 2
-            own[row] = left**2 @ variance[window]
-            shared[row] = self._shared(window, left)
-            freedom[row] = left @ left
-            judged[row] = np.ptp(self.decades[window]) <= 2.0 * BANDWIDTH + _ROUNDING
+        # Not where points are too sparse for a parabola to be near them.
+        judged = self.decades[about.last] - self.decades[about.first] <= 2.0 * BANDWIDTH + _ROUNDING
         # Where the curve goes through the points, what is left is rounding.
-        counted = np.isfinite(self.error) & (freedom > LEAST_FREEDOM) & (own > 0.0)
-        factor, away = 1.0 if known else 0.0, np.zeros(len(squares))
+        counted = np.isfinite(self.error) & (about.freedom > LEAST_FREEDOM) & (about.own > 0.0)
+        factor, away = 1.0 if known else 0.0, np.zeros(len(counted))
         if np.any(counted):
-            squares, own, shared = squares[counted], own[counted], shared[counted]
-            weight, expected = trusted[counted], own + shared
+            curve, own, shared, freedom = (
+                each[counted] for each in (about.curve, about.own, about.shared, about.freedom)
+            )
+            squares, weight, expected = (self.friction[counted] - curve) ** 2, trusted[counted], own + shared
             most = float(np.quantile(squares / expected, _MOST))
             # A single error may be too small: half of them are larger, or a larger part of friction.
             square = np.maximum(np.square(self.friction[counted]), np.finfo(float).tiny)
-            part = np.median(variance[counted] / square) * np.square(curve[counted])
-            usual = freedom[counted] * np.minimum(part, np.median(variance[counted]))
-            far = squares > np.square(_BIAS * curve[counted])
-            away[counted], some = outliers(squares / np.maximum(expected, usual), float(np.sum(freedom)), factor)
-            away[counted] *= some & far & judged[counted]
+            part = np.median(variance[counted] / square) * np.square(curve)
+            usual = freedom * np.minimum(part, np.median(variance[counted]))
+            far = squares > np.square(_BIAS * curve)
+            found, some = outliers(squares / np.maximum(expected, usual), float(np.sum(about.freedom)), factor)
+            away[counted] = found * (some & far & judged[counted])
             # So that outliers, and their neighbours, do not stand for all.
             squares = np.minimum(squares, _CLIPPED * most * expected) / _UNCLIPPED
             factor = max(factor, float(weight @ (squares - shared) / (weight @ own)))
         return factor, away
+
+    def _apart(self, about: _About, away: Array) -> Indices:
+        """Return which outliers are such whatever the others are: the farthest ones within reach may pull the curve."""
+        order = np.argsort(-away)[: np.count_nonzero(away)]
+        off, places = np.abs(self.friction - about.curve)[order], self.decades[order]
+        # How much a point pulls the curve at another is the weight that it has there.
+        allowed = _PULL * off / about.largest[order]
+        pulls = (
+            float(off[:rank] @ (np.abs(places[:rank] - places[rank]) <= 2.0 * BANDWIDTH)) for rank in range(len(order))
+        )
+        return order[[pull <= most for pull, most in zip(pulls, allowed, strict=True)]]
+
+
+class _About(NamedTuple):
+    """How points (n,) lie about the curve: its value, and of their distances the variances and the part of their own.
+
+    Also the largest weight of a point there, and the first and the last point on which the curve there depends.
+    """
+
+    curve: Array
+    own: Array
+    shared: Array
+    freedom: Array
+    largest: Array
+    first: Indices
+    last: Indices
+
+    @classmethod
+    def none(cls, count: int) -> _About:
+        """Return that of points of which nothing is known yet, so that all depend on all."""
+        curve, own, shared, freedom, largest = np.zeros((5, count))
+        ends = np.zeros(count, dtype=np.intp), np.full(count, count - 1, dtype=np.intp)
+        return cls(curve, own, shared, freedom, largest, *ends)
+
+    def reached(self, changed: Indices) -> Indices:
+        """Return the points where the curve depends on one of those that changed."""
+        among = np.sort(changed)
+        return np.flatnonzero(np.searchsorted(among, self.first) < np.searchsorted(among, self.last, "right"))
 
 
 def outliers_of_own(points: FrictionCurves) -> Mask:
@@ -209,8 +262,13 @@ def _weights(error: Array) -> Array:
     return np.asarray(squared.min() / squared)
 
 
-def smoothing_weights(points: Array, weights: Array, at: Array, bandwidth: float) -> Iterator[tuple[slice, Array]]:
-    """Yield of each place in `at` (m,) the `points` (n,), ascending, it depends on, and their weights of sum one."""
+def smoothing_weights(
+    points: Array, weights: Array, at: Array, bandwidth: float
+) -> Iterator[tuple[slice, slice, Array]]:
+    """Yield of some places in `at` (m,), ascending, the `points` (n,), ascending, they depend on, and their weights.
+
+    The weights (of places, of points) are of sum one at each place, and zero where it does not depend on a point.
+    """
     # At each place, within the range of the points, a parabola is fitted by weighted least squares; its weights are
     # those given (above zero) times the tricube kernel (1 − |d/h|³)³ (W. S. Cleveland, J. Am. Stat. Assoc. 74 (1979)
     # 829), h the bandwidth or, where points are sparse, just beyond the fifth nearest one. With fewer than four
@@ -218,14 +276,50 @@ def smoothing_weights(points: Array, weights: Array, at: Array, bandwidth: float
     different = points[np.concatenate([[True], np.diff(points) > _COINCIDENT * bandwidth])]
     degree = min(2, max(0, different.size - 2)) if different.size != 2 else 1
     reach = min(_NEIGHBOURS, different.size)
-    for place, beside in zip(at, np.searchsorted(different, at), strict=True):
-        away = np.sort(np.abs(different[max(beside - reach, 0) : beside + reach] - place))
-        h = max(bandwidth, 1.1 * away[reach - 1])
-        window = slice(int(np.searchsorted(points, place - h)), int(np.searchsorted(points, place + h, "right")))
-        relative = (points[window] - place) / h
-        root = np.sqrt(weights[window] * np.maximum(0.0, 1.0 - np.abs(relative) ** 3) ** 3)
-        powers = np.vander(relative, degree + 1, increasing=True)
-        yield window, np.linalg.pinv(powers * root[:, None])[0] * root
+    beside = np.searchsorted(different, at)[:, None] + np.arange(-reach, reach)
+    beyond = (beside < 0) | (beside >= different.size)
+    away = np.abs(different[np.clip(beside, 0, different.size - 1)] - at[:, None])
+    h = np.maximum(bandwidth, 1.1 * np.sort(np.where(beyond, np.inf, away), axis=1)[:, reach - 1])
+    first, last = np.searchsorted(points, at - h), np.searchsorted(points, at + h, "right")
+    for start in range(0, len(at), _TOGETHER):
+        places = slice(start, min(start + _TOGETHER, len(at)))
+        window = slice(int(first[places].min()), int(last[places].max()))
+        relative = (points[window] - at[places, None]) / h[places, None]
+        yield places, window, _parabolas(relative, weights[window], degree)
+
+
+def _parabolas(relative: Array, weights: Array, degree: int) -> Array:
+    """Return weights (m, n) of points (n,) with which parabolas through them have their values at m places.
+
+    `relative` (m, n) are the positions of the points from the places, in half-widths of the kernel.
+    """
+    # By polynomials that are orthogonal with these weights, as stable as least squares by orthogonal matrices.
+    cube = np.abs(relative)
+    cube *= cube * cube
+    kernel = np.maximum(0.0, 1.0 - cube)
+    kernel *= kernel * kernel * weights
+    total = kernel.sum(axis=1)[:, None]
+    if degree == 0:
+        return np.asarray(kernel / total)
+    middle = np.einsum("ij,ij->i", kernel, relative)[:, None] / total
+    line = relative - middle
+    along = kernel * line
+    squares = np.einsum("ij,ij->i", along, line)[:, None]
+    found = 1.0 / total + line * _over(-middle, squares, total)
+    if degree == 2:
+        bent = line * line
+        skew = _over(np.einsum("ij,ij->i", along, bent)[:, None], squares, total)
+        bent -= skew * line
+        bent -= squares / total
+        there = (middle + skew) * middle - squares / total
+        found += bent * _over(there, np.einsum("ij,ij,ij->i", kernel, bent, bent)[:, None], total)
+    return np.asarray(kernel * found)
+
+
+def _over(value: Array, squares: Array, total: Array) -> Array:
+    """Return `value` over sums of squares, and zero where these are the rounding of `total`."""
+    sound = squares > np.finfo(float).eps ** 2 * total
+    return np.divide(value, squares, out=np.zeros(squares.shape), where=sound)
 
 
 @dataclass(frozen=True, eq=False)
