@@ -167,6 +167,29 @@ def test_an_outlier_does_not_lose_temperatures() -> None:
         assert "outlying-points" in codes(master.notes)
 
 
+@pytest.mark.parametrize("shift", [LAW, None])
+@pytest.mark.parametrize("said", ["replicates", "freedom", "nothing"])
+def test_replicates_that_are_inferred_are_noted(said: str, shift: WLF | None) -> None:
+    """As by `identify_material`, once, whether the shift factors are given or found."""
+    curves, random = shifted_curves(np.arange(305.15, 342.0, 6.0), noise=0.03), np.random.default_rng(3)
+    seen = np.sqrt(random.chisquare(3, len(curves)) / 3.0)
+    few = replace(curves, viscoelastic_error=seen * curves.viscoelastic_error)
+    if said == "replicates":
+        few = replace(few, replicates=np.full(len(curves), 4))
+    if said == "freedom":
+        few = replace(few, viscoelastic_freedom=np.full(len(curves), 3.0))
+    noted = [note.code for note in map(note_of, shift_friction(few, shift=shift).notes)]
+    assert noted.count("inferred-freedom") == (1 if said == "nothing" else 0)
+    assert "inferred-freedom" not in codes(shift_friction(curves, shift=shift).notes)
+    # Near zero, where errors of ln μ have no meaning, none are averaged.
+    near = replace(
+        few,
+        viscoelastic=few.viscoelastic - 0.9 * few.viscoelastic.min(),
+        viscoelastic_error=3.0 * few.viscoelastic_error,
+    )
+    assert "inferred-freedom" not in codes(shift_friction(near, shift=LAW).notes)
+
+
 def test_points_off_a_curve_of_one_retardation_time_are_no_outliers() -> None:
     """The parabola is off by 1 % there, whatever the errors."""
     for noise in (0.0, 1e-4, 3e-3):

@@ -15,6 +15,7 @@ from viscofric.errors import InputError
 from viscofric.friction.curve_checks import (
     LEAST_FREEDOM,
     MOST_OUTLYING,
+    error_freedom,
     outliers,
     outlying_points,
     relative_errors,
@@ -460,7 +461,7 @@ class FrictionMasterCurve(Plotted):
         kelvin = nominal_temperatures(self.temperature)
         sharing = self.level_error * (np.unique(kelvin)[:, None] == kelvin)
         points, error = self.curves_at_load, self.friction_error
-        if np.all(self.friction_coefficient > CLEAR_OF_ZERO * np.where(np.isfinite(error), error, 0.0)):
+        if self._averaged:
             error = self.friction_coefficient * relative_errors(points)[self._order]
         return SmoothedPoints(np.log10(self.reduced_speed), self.friction_coefficient, error, sharing)
 
@@ -468,9 +469,16 @@ class FrictionMasterCurve(Plotted):
     def _order(self) -> Indices:
         return np.argsort(reduced_decades(self.curves_at_load, self.shift, found=self.found), kind="stable")
 
-    def outlying(self) -> tuple[Note, ...]:
-        """Return a note on points that lie off the curve by more than their errors and the others' scatter, if any."""
-        return outlying_points(self.curves.speed[self._order], self.temperature, self._smoothed.outlying)
+    @cached_property
+    def _averaged(self) -> bool:
+        """Whether the error of each point is averaged with its neighbours': all friction is clear of zero."""
+        error = np.where(np.isfinite(self.friction_error), self.friction_error, 0.0)
+        return bool(np.all(self.friction_coefficient > CLEAR_OF_ZERO * error))
+
+    def own_notes(self) -> tuple[Note, ...]:
+        """Return notes on replicates that were inferred for averaged errors, and on points off the curve, if any."""
+        inferred = error_freedom(self.curves_at_load)[1] if self._averaged else ()
+        return *inferred, *outlying_points(self.curves.speed[self._order], self.temperature, self._smoothed.outlying)
 
     @property
     def overlap_rms(self) -> float | None:

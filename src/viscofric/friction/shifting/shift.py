@@ -20,7 +20,7 @@ from viscofric.friction.shifting.isotherms import friction_isotherms
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve, outliers_of_own, reduced_decades
 from viscofric.nominal import SAME_LOAD, nominal_rows
-from viscofric.notes import Note, Remedy
+from viscofric.notes import Note, Remedy, codes
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.units import Quantity, positive
@@ -73,7 +73,8 @@ def shift_friction(
     -------
     FrictionMasterCurve
         With `shift_factors`, a `ShiftFactors` with covariance, to which laws are fitted as to those of a DMA.  Its
-        notes name temperatures that were left out, and points that lie off the curve and count less.
+        notes name temperatures that were left out, points that lie off the curve and count less, and a number of
+        replicates that was inferred from how their errors scatter.
 
     Raises
     ------
@@ -154,7 +155,8 @@ def shift_friction(
         level_error=shared,
     )
     # Not by replace(): the distances of all points from the curve are known now.
-    object.__setattr__(master, "notes", (*master.notes, *master.outlying()))
+    own = (note for note in master.own_notes() if note.code not in codes(notes))
+    object.__setattr__(master, "notes", (*master.notes, *own))
     return master
 
 
