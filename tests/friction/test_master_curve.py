@@ -199,6 +199,28 @@ def test_points_off_a_curve_of_one_retardation_time_are_no_outliers() -> None:
         assert codes(shift_friction(replace(curves, viscoelastic=sharp), shift=LAW).notes) == set()
 
 
+@pytest.mark.parametrize(("stated", "noise"), [(0.0, 0.0), (0.0, 0.03), (np.inf, 0.0), (1.0, 0.03)])
+def test_outliers_are_noted_by_their_part_of_friction_where_no_error_is_stated(stated: float, noise: float) -> None:
+    """Of exact friction they lie off by 10¹⁴ times its rounding, which is no error of a measurement."""
+    curves = shifted_curves(np.arange(305.15, 342.0, 6.0), noise=noise)
+    error = np.full(len(curves), np.inf) if np.isinf(stated) else stated * curves.viscoelastic_error
+    off = np.where(np.arange(len(curves)) == 35, 1.5, 1.0)
+    master = shift_friction(
+        replace(curves, viscoelastic=off * curves.viscoelastic, viscoelastic_error=error), shift=LAW
+    )
+    noted = [note for note in map(note_of, master.notes) if note.code == "outlying-points"]
+    if np.isinf(stated):  # of unknown errors no distance is judged
+        assert noted == []
+    elif stated:
+        # Three errors of the point, and two of the scatter of all, known to 9 %.
+        assert noted[0].values["standard_errors"] == pytest.approx([0.5 / 0.03], abs=6.0)
+        assert "relative" not in noted[0].values
+    else:
+        # Three standard errors of the point, whose weight is nearly zero.
+        assert noted[0].values["relative"] == pytest.approx([0.5], abs=4.5 * noise + 0.005)
+        assert "standard_errors" not in noted[0].values
+
+
 @pytest.mark.parametrize("stated", [0.0, 1.0])
 def test_one_outlier_does_not_widen_all_errors(stated: float) -> None:
     """A point twice too high in the middle of 70, with 3 % of noise elsewhere, widened all six- to ninefold."""

@@ -16,6 +16,7 @@ from friction.synthetic_curves import synthetic_curves
 from friction.test_curve_files import FOREIGN
 from friction.test_tribometry import rows_of, runs_from
 from viscofric.errors import InputError
+from viscofric.friction.curve_checks import outlying_points
 from viscofric.friction.identification.conclusions import _anchor_notes
 from viscofric.friction.identification.points import usable_points
 from viscofric.friction.identification.result import with_origin
@@ -296,6 +297,16 @@ def test_points_of_friction_say() -> None:
         "viscoelastic friction is −0.001 at 38.61 mm/s and 26.9 °C: must be above zero; leave out its whole speed or "
         "temperature (points below zero alone would be a biased choice), or check the signs of the measurement."
     )
+
+
+def test_outlying_points_say() -> None:
+    speed, kelvin, off = np.array([0.01, 0.02, 0.03]), np.full(3, 300.0), np.array([0.0, 1.5, 0.7])
+    for relative, by in ((False, "1.5 standard errors"), (True, "150 % of friction")):
+        [said] = outlying_points(speed, kelvin, off, relative=relative)
+        assert said == (
+            f"2 of 3 points, farthest that at 20 mm/s and 26.9 °C by {by}, lie off the others by more than chance "
+            "explains and count less; check them."
+        )
 
 
 def test_the_collapse_of_curves_says() -> None:

@@ -14,7 +14,7 @@ from viscofric.friction.intervals import threshold
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
 from viscofric.rheology.uncertainty.residuals import prior_freedom
-from viscofric.units import Quantity, number, shown_celsius, shown_speed
+from viscofric.units import Quantity, number, plain, shown_celsius, shown_speed
 
 #: Fewer second differences do not give a scatter.
 FEWEST_DIFFERENCES = 6
@@ -113,22 +113,26 @@ def outliers(squares: Array, freedom: float, least: float) -> tuple[Array, Mask]
     return over, over > stdtrit(known, 1.0 - 0.5 * CHANCE / len(squares)) ** 2
 
 
-def outlying_points(speed: Array, temperature: Array, away: Array) -> tuple[Note, ...]:
-    """Return a note on points (n,) that count less, if there are any: `away` (n,) in standard errors, else zero."""
+def outlying_points(speed: Array, temperature: Array, away: Array, *, relative: bool = False) -> tuple[Note, ...]:
+    """Return a note on points (n,) that count less, if there are any; `away` is zero for others.
+
+    It is in standard errors, or relative to friction where none are stated.
+    """
     worst, rows = int(np.argmax(away)), np.flatnonzero(away)
     if not rows.size:
         return ()
+    by = f"{plain(100.0 * away[worst], 2)} % of friction" if relative else f"{plain(away[worst], 2)} standard errors"
     note = Note(
         "outlying-points",
         f"{rows.size} of {away.size} points, farthest that at {shown_speed(float(speed[worst]))} and "
-        f"{shown_celsius(float(temperature[worst]))} °C by {away[worst]:.2g} standard errors, lie off the others by "
-        "more than chance explains and count less; check them.",
+        f"{shown_celsius(float(temperature[worst]))} °C by {by}, lie off the others by more than "
+        "chance explains and count less; check them.",
         values={
             "points": int(rows.size),
             "of": int(away.size),
             "speed": speed[rows].tolist(),
             "temperature": temperature[rows].tolist(),
-            "standard_errors": away[rows].tolist(),
+            "relative" if relative else "standard_errors": away[rows].tolist(),
         },
     )
     return (note,)

@@ -101,9 +101,20 @@ class SmoothedPoints:
         return np.sqrt(square)
 
     @property
+    def stated(self) -> bool:
+        """Whether any error is known."""
+        return bool(np.any(self.error[np.isfinite(self.error)] > 0.0))
+
+    @property
     def outlying(self) -> Array:
-        """By how many standard errors points (n,) lie off the curve that count less for it; zero for the others."""
-        return np.sqrt(self._judged.outlying)
+        """By how much points (n,) lie off the curve that count less for it; zero for the others.
+
+        In standard errors, or relative to the curve if none is stated.
+        """
+        if self.stated:
+            return np.sqrt(self._judged.outlying)
+        off = np.where(self._judged.outlying > 0.0, np.abs(self.friction - self._judged.curve), 0.0)
+        return np.asarray(off / np.maximum(np.abs(self._judged.curve), np.finfo(float).tiny))
 
     def _shared(self, window: slice, weights: Array) -> Array:
         """Return the variances (m,) that errors which points share give to weighted sums (m, w) of their friction."""
@@ -129,9 +140,8 @@ class SmoothedPoints:
         # Variances are larger by one factor where points scatter about the curve by more than these.  The scatter that
         # errors which points share explain is not counted.
         finite = np.isfinite(self.error)
-        known = bool(np.any(self.error[finite] > 0.0))
         # Without stated errors, the scatter is taken to be a part of friction.
-        stated = self.error if known else np.where(finite, np.abs(self.friction), np.inf)
+        stated = self.error if self.stated else np.where(finite, np.abs(self.friction), np.inf)
         plain, variance = _weights(self.error), np.where(finite, np.square(stated), 0.0)
         trusted, outlying = _weights(stated), np.zeros(len(self.decades))
         about = _About.none(len(self.decades))
@@ -139,11 +149,12 @@ class SmoothedPoints:
         while True:
             larger = np.maximum(outlying, 1.0)
             self._find_distances(about, about.reached(changed), plain / larger, variance * larger)
-            factor, away = self._compared(about, variance * larger, trusted / larger, known=known)
+            factor, away = self._compared(about, variance * larger, trusted / larger)
             changed = self._apart(about, away)
             some = np.count_nonzero(outlying) + len(changed)
             if not changed.size or some > MOST_OUTLYING * len(away):
-                return _Judged(plain / larger, np.where(finite, variance * larger * factor, np.inf), outlying)
+                variance = np.where(finite, variance * larger * factor, np.inf)
+                return _Judged(plain / larger, variance, outlying, about.curve)
             outlying[changed] = larger[changed] * away[changed]
 
     def _find_distances(self, about: _About, rows: Indices, weight: Array, variance: Array) -> None:
@@ -162,13 +173,13 @@ class SmoothedPoints:
             about.own[mine] = squares @ variance[window]
             about.freedom[mine] = squares.sum(axis=1)
 
-    def _compared(self, about: _About, variance: Array, trusted: Array, *, known: bool) -> tuple[float, Array]:
+    def _compared(self, about: _About, variance: Array, trusted: Array) -> tuple[float, Array]:
         """Return a factor of the variances (n,), and squared distances (n,) of outliers, in variances; else zero."""
         # Not where points are too sparse for a parabola to be near them.
         judged = self.decades[about.last] - self.decades[about.first] <= 2.0 * BANDWIDTH + _ROUNDING
         # Where the curve goes through the points, what is left is rounding.
         counted = np.isfinite(self.error) & (about.freedom > LEAST_FREEDOM) & (about.own > 0.0)
-        factor, away = 1.0 if known else 0.0, np.zeros(len(counted))
+        factor, away = 1.0 if self.stated else 0.0, np.zeros(len(counted))
         if np.any(counted):
             curve, own, shared, freedom = (
                 each[counted] for each in (about.curve, about.own, about.shared, about.freedom)
@@ -245,11 +256,12 @@ def outliers_of_own(points: FrictionCurves) -> Mask:
 
 
 class _Judged(NamedTuple):
-    """Points (n,) of a curve: statistical weights, variances, and squared distances of outliers in variances."""
+    """Points (n,) of a curve: statistical weights, variances, squared distances of outliers in variances, the curve."""
 
     weight: Array
     variance: Array
     outlying: Array
+    curve: Array
 
 
 def _weights(error: Array) -> Array:
@@ -478,7 +490,9 @@ class FrictionMasterCurve(Plotted):
     def own_notes(self) -> tuple[Note, ...]:
         """Return notes on replicates that were inferred for averaged errors, and on points off the curve, if any."""
         inferred = error_freedom(self.curves_at_load)[1] if self._averaged else ()
-        return *inferred, *outlying_points(self.curves.speed[self._order], self.temperature, self._smoothed.outlying)
+        speed, smoothed = self.curves.speed[self._order], self._smoothed
+        off = outlying_points(speed, self.temperature, smoothed.outlying, relative=not smoothed.stated)
+        return *inferred, *off
 
     @property
     def overlap_rms(self) -> float | None:
