@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from collections.abc import Iterator
 from importlib.resources import files
@@ -87,6 +88,16 @@ def strict(text: str) -> Any:
         raise AssertionError(name)
 
     return json.loads(text, parse_constant=refuse)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_help_has_required_options_first_and_those_without_a_heading_last(name: str) -> None:
+    text = CliRunner().invoke(main, [*name.split(), "--help"]).output
+    blocks = [block.splitlines() for block in text.split("\n\n")[1:] if not block.startswith(" ")]
+    rows = [[line for line in lines if re.match(r"  \S", line)] for _, *lines in blocks]
+    assert all(row.startswith("  -") for section in rows for row in section), rows
+    order = [("[required]" not in "\n".join(block), block[0] == "Options:") for block in blocks]
+    assert order == sorted(order)
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -16,6 +16,9 @@ Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 #: Options that stand under a heading of their own in the help.
 _HEADINGS: dict[click.Parameter, str] = {}
+_OTHERS = "Options"  # heading of all others
+#: Headings that several commands have.
+CONDITIONS, CONTACT = "Conditions", "Contact"
 
 
 class Command(click.Command):
@@ -35,14 +38,19 @@ class Command(click.Command):
             raise click.ClickException(words_of(error, self.reader)) from error
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the options under their headings."""
-        sections: dict[str, list[tuple[str, str]]] = {}
+        """Write the options under their headings: first those with required ones, last those of no heading."""
+        sections: dict[str, list[click.Option]] = {}
         for one in self.get_params(ctx):
-            if (record := one.get_help_record(ctx)) is not None:
-                sections.setdefault(_HEADINGS.get(one, "Options"), []).append(record)
-        for heading, records in sections.items():
+            if isinstance(one, click.Option):
+                sections.setdefault(_HEADINGS.get(one, _OTHERS), []).append(one)
+
+        def place(heading: str) -> tuple[bool, bool]:
+            return not any(one.required for one in sections[heading]), heading == _OTHERS
+
+        for heading in sorted(sections, key=place):
+            ordered = sorted(sections[heading], key=lambda one: not one.required)
             with formatter.section(heading):
-                formatter.write_dl(records)
+                formatter.write_dl([row for one in ordered if (row := one.get_help_record(ctx)) is not None])
 
 
 def as_command(

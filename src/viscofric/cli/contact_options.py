@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
-from viscofric.cli.commands import together
+from viscofric.cli.commands import CONTACT, together
 from viscofric.cli.errors import placed_at, print_notes, typed_as
 from viscofric.cli.files import FILE
 
@@ -223,7 +223,7 @@ contact_options = together(
     click.option(
         "--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda."
     ),
-    heading="Contact",
+    heading=CONTACT,
 )
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import CONDITIONS, as_command, together
 from viscofric.cli.contact_options import (
     chosen_indenter,
     contact_options,
@@ -42,12 +42,15 @@ Example:
 @as_command("curve", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
-@speed_options("Speed")
-@click.option(
-    "--load",
-    required=True,
-    metavar="F",
-    help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m').",
+@together(
+    speed_options("Speed"),
+    click.option(
+        "--load",
+        required=True,
+        metavar="F",
+        help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m').",
+    ),
+    heading=CONDITIONS,
 )
 @contact_options
 @heating_options(steady=True)

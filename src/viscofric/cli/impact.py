@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import CONDITIONS, as_command, together
 from viscofric.cli.contact_options import (
     chosen_indenter,
     elastic_options,
@@ -40,15 +40,20 @@ Examples:
 @as_command("impact", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
-@click.option("--mass", required=True, metavar="M", help="Mass of the indenter, e.g. '4 g'.")
-@speed_options("Speed at the first touch")
-@click.option("--gravity", metavar="G", help="Acceleration towards the material, e.g. '9.81 m/s^2' [default: none].")
-@click.option(
-    "--rebounds",
-    type=click.IntRange(1, 1000),
-    default=1,
-    show_default=True,
-    help="Largest number of contacts; several need --gravity.",
+@together(
+    click.option("--mass", required=True, metavar="M", help="Mass of the indenter, e.g. '4 g'."),
+    speed_options("Speed at the first touch"),
+    click.option(
+        "--gravity", metavar="G", help="Acceleration towards the material, e.g. '9.81 m/s^2' [default: none]."
+    ),
+    click.option(
+        "--rebounds",
+        type=click.IntRange(1, 1000),
+        default=1,
+        show_default=True,
+        help="Largest number of contacts; several need --gravity.",
+    ),
+    heading=CONDITIONS,
 )
 @elastic_options
 @click.option(

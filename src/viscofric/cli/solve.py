@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import CONDITIONS, CONTACT, as_command, together
 from viscofric.cli.contact_options import (
     NamedIndenter,
     chosen_indenter,
@@ -44,35 +44,47 @@ Example:
 @as_command("solve", epilog=_EXAMPLE)
 @rubber_options
 @indenter_options
-@click.option(
-    "--speed", required=True, metavar="V", help="Speed, e.g. '100 mm/s'; '0 m/s' and 'infinite' are the elastic limits."
+@together(
+    click.option(
+        "--speed",
+        required=True,
+        metavar="V",
+        help="Speed, e.g. '100 mm/s'; '0 m/s' and 'infinite' are the elastic limits.",
+    ),
+    click.option(
+        "--load",
+        metavar="F",
+        help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m'); or --indentation.",
+    ),
+    click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load."),
+    click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference]."),
+    heading=CONDITIONS,
 )
-@click.option(
-    "--load",
-    metavar="F",
-    help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m'); or --indentation.",
-)
-@click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load.")
-@click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference].")
 @contact_options
+@together(
+    click.option(
+        "--tolerance",
+        type=float,
+        help="Largest residual gap or overlap over the indentation [default: 1e-8, or less if the accuracy needs it].",
+    ),
+    click.option("--finest", type=int, help="Largest number of cells along the window's longer edge."),
+    click.option(
+        "--grid",
+        type=int,
+        metavar="CELLS",
+        help="Number of cells along the window's longer edge, instead of --accuracy.",
+    ),
+    click.option(
+        "--window",
+        metavar="REAR,FRONT,SIDE",
+        help="Window of the cells, from the axis: '3 mm,3 mm,3 mm' [default: automatic].",
+    ),
+    click.option(
+        "--derivatives", is_flag=True, help="Also compute the derivatives of friction by speed, load and each mode."
+    ),
+    heading=CONTACT,
+)
 @heating_options(steady=True)
-@click.option(
-    "--tolerance",
-    type=float,
-    help="Largest residual gap or overlap over the indentation [default: 1e-8, or less if the accuracy needs it].",
-)
-@click.option("--finest", type=int, help="Largest number of cells along the window's longer edge.")
-@click.option(
-    "--grid", type=int, metavar="CELLS", help="Number of cells along the window's longer edge, instead of --accuracy."
-)
-@click.option(
-    "--window",
-    metavar="REAR,FRONT,SIDE",
-    help="Window of the cells, from the axis: '3 mm,3 mm,3 mm' [default: automatic].",
-)
-@click.option(
-    "--derivatives", is_flag=True, help="Also compute the derivatives of friction by speed, load and each mode."
-)
 @json_option("Print inputs, results and diagnostics as JSON, in SI units.")
 @picture_option("Draw pressure and profile")
 @out_option("Write pressure and displacement (.nc or .csv); `-` prints the table.", endings=DATA)
