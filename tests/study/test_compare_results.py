@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,7 @@ from refusals import refused
 from study.sweeps import made_results, made_sweep
 from viscofric.errors import DataFileError
 from viscofric.notes import codes
+from viscofric.study.results.case_table import CaseTable, common_cases
 from viscofric.study.results.results import StudyResults
 
 #: Comparisons need no files.
@@ -125,6 +127,31 @@ def test_coordinates_that_differ_by_rounding_are_the_same(tmp_path: Path) -> Non
     other = made_sweep(speeds=[speed * (1.0 + 1e-14) for speed in speeds])
     pair = [made(tmp_path / name, sweep) for name, sweep in (("a", made_sweep(speeds=speeds)), ("b", other))]
     assert vf.compare_results(*pair).cases == 12
+
+
+@pytest.mark.parametrize(
+    ("name", "one", "other", "line"),
+    [
+        ("speed", 0.02, 0.0200001, False),
+        ("speed", 2.0, 2.0000001, False),
+        ("temperature", 303.15, 303.150001, False),
+        ("load", 10.0, 10.0000001, False),
+        ("load", 1000.0, 1000.00001, True),
+        ("radius", 0.01, 0.01000001, False),
+        ("seed", 1234567.0, 1234568.0, False),
+    ],
+)
+def test_values_that_count_as_different_are_shown_as_different(name: str, one: float, other: float, line: bool) -> None:
+    tables = [
+        CaseTable(
+            name, (name,), {name: np.array([1.5 * one, value])}, {name: "N/m" if line else "1"}, np.ones(2, dtype=bool)
+        )
+        for value in (one, other)
+    ]
+    (remark,) = common_cases(*tables).remarks
+    first, second = re.findall(r"such as ([^)]*)", remark)
+    assert first != second
+    assert all(("N/mm" in words) == line for words in (first, second))
 
 
 def test_cases_that_one_only_solved_are_counted(tmp_path: Path) -> None:

@@ -139,21 +139,21 @@ _RATE = ("temperature", "speed")
 _COUNTED = ("sample", "seed")
 
 
-def shown(name: str, value: float | str, line: bool = False) -> str:
+def shown(name: str, value: float | str, line: bool = False, digits: int = 4) -> str:
     """Return one value (SI) of a coordinate in its usual unit; `line`: load per length."""
     if isinstance(value, str):
         return value
     if name == "temperature":
-        return f"{shown_celsius(value, 'z.5g')} °C"
+        return f"{shown_celsius(value, f'z.{digits + 1}g')} °C"
     if name in ("angle", "direction"):
-        return f"{plain(math.degrees(value))}°"
+        return f"{plain(math.degrees(value), digits)}°"
     if name == "pressure":
-        return f"{plain(value / 1e3)} kPa"
+        return f"{plain(value / 1e3, digits)} kPa"
     if name == "load":
-        return f"{plain(value / 1e3)} N/mm" if line else f"{plain(value)} N"
+        return f"{plain(value / 1e3, digits)} N/mm" if line else f"{plain(value, digits)} N"
     if name == "speed":
-        return shown_speed(value)
-    return f"{value:g}" if name in _COUNTED else f"{plain(1e3 * value)} mm"
+        return shown_speed(value, digits)
+    return f"{value:.{max(digits, 6)}g}" if name in _COUNTED else f"{plain(1e3 * value, digits)} mm"
 
 
 def place(case: Case) -> str:

@@ -99,6 +99,11 @@ class CaseTable:
         accuracy = self.attributes.get("accuracy")
         return None if accuracy is None else float(accuracy)
 
+    @property
+    def per_length(self) -> bool:
+        """Whether loads are per length."""
+        return self.units.get("load") == "N/m"
+
     def varies(self, coordinate: str) -> bool:
         """Whether the cases differ in a coordinate."""
         return len(set(_keys(self.columns[coordinate]))) > 1
@@ -137,7 +142,8 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
                     f"{table.name} varies the {name}, which {other_table.name} does not state: no case can be paired.",
                     code="no-common-cases",
                 )
-            remarks.append(f"{table.name} has a {name} ({shown(name, table.columns[name][0])}), the other states none.")
+            value = shown(name, table.columns[name][0], table.per_length)
+            remarks.append(f"{table.name} has a {name} ({value}), the other states none.")
     rows = []
     for table in (one, other):
         keys = list(zip(*(_keys(table.columns[name]) for name in shared), strict=True))
@@ -152,8 +158,12 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
         here, there = ({key[number] for key in found} for found in rows)
         if here != there:
             more, less = sorted(here - there, key=str), sorted(there - here, key=str)
-            parts = [f"{len(more)} only in {one.name} (such as {shown(name, more[0])})"] if more else []
-            parts += [f"{len(less)} only in {other.name} (such as {shown(name, less[0])})"] if less else []
+            examples = iter(_told_apart(name, [side[0] for side in (more, less) if side], one.per_length))
+            parts = [
+                f"{len(side)} only in {table.name} (such as {next(examples)})"
+                for side, table in ((more, one), (less, other))
+                if side
+            ]
             remarks.append(f"The {name} has other values: {', '.join(parts)}; {len(here & there)} in common.")
     if not keys_of_both:
         raise InputError(
@@ -161,6 +171,16 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
         )
     first, second = (np.array([found[key] for key in keys_of_both], dtype=np.int64) for found in rows)
     return Common(first, second, tuple(remarks))
+
+
+def _told_apart(name: str, values: list[Any], line: bool) -> list[str]:
+    """Return different values of a coordinate in words, with as many digits as tell them apart."""
+    digits = 4
+    while True:
+        words = [shown(name, value, line, digits) for value in values]
+        if len(set(words)) == len(words) or digits == _DIGITS:
+            return words
+        digits += 1
 
 
 def _keys(column: NDArray[Any]) -> list[Any]:
