@@ -10,6 +10,7 @@ import click
 from click.core import ParameterSource
 
 from viscofric.cli.commands import together
+from viscofric.cli.errors import words_of
 from viscofric.cli.files import plainly
 from viscofric.cli.rubber_options import column_options, find_rubber
 from viscofric.notes import Note, Remedy, dumped, note_of
@@ -107,10 +108,16 @@ def separation_record(parameters: dict[str, Any]) -> dict[str, Any]:
 
 def _measurement(parameters: dict[str, Any], **source: Any) -> MeasurementTable:
     """Return the options of a separation as a run file's [measurement] of some files."""
+    from viscofric.errors import StudyError
     from viscofric.study.run_file.measurement import MeasurementTable
     from viscofric.study.run_file.study import validated
 
-    return validated(MeasurementTable, source | _given(parameters))
+    try:
+        return validated(MeasurementTable, source | _given(parameters))
+    except StudyError as error:
+        if {note_of(one).code for one in error.mistakes or (error.note,)} != {"contradiction"}:
+            raise
+        raise click.UsageError(words_of(error.at(source.get("curves", "")))) from error
 
 
 _TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")

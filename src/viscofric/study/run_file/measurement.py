@@ -78,10 +78,11 @@ class MeasurementTable(Table):
         useless = sorted(self.model_fields_set - {"mtm", "curves", "columns", "sheet"})
         if self.curves is not None and useless:
             yield f"{' and '.join(useless)} cannot be chosen for friction curves, which are already separated"
+            return
         if self.zero_error is not None and self.zero is None:
-            yield "zero_error is the standard error of zero, which is not given"
+            yield "zero_error is the standard error of `zero`, which is not given"
         if self.coulomb_error is not None and not isinstance(self.coulomb, float):
-            yield "coulomb_error is the standard error of a coulomb number, which is not given"
+            yield "coulomb_error is the standard error of `coulomb`, for which no number is given"
 
     @property
     def settings(self) -> dict[str, Any]:

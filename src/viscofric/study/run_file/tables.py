@@ -43,18 +43,24 @@ def worded(run_file: str, page: str) -> Note:
 
 
 def with_options(words: str, keys: Iterable[str]) -> Note:
-    """Return a problem of a table in the words of a run file, and with options instead of its keys."""
+    """Return a problem of a table in the words of a run file, and with options instead of its keys.
+
+    A key is told from a word by an underscore, by its value, by backticks, which are left out, or by its place at the
+    beginning, in a list of keys.
+    """
     longest = "|".join(sorted(keys, key=len, reverse=True))
-    # a key is told from a word by an underscore, by its value, or by its place at the beginning
-    pattern = re.compile(rf"(?<![\w.-])({longest})(?: = \"([^\"]*)\")?(?![\w.-])")
+    pattern = re.compile(rf"(?<![\w.-])(`?)({longest})\1(?: = \"([^\"]*)\")?(?![\w.-])")
+    first = re.match(rf"(?:(?:{longest})(?: and |(?![\w.-])))*", words)
+    listed = first.end() if first else 0
 
     def option(found: re.Match[str]) -> str:
-        key, value = found.groups()
-        if "_" not in key and value is None and found.start():
+        tick, key, value = found.groups()
+        if "_" not in key and value is None and not tick and found.start() >= listed:
             return found[0]
         return f"--{key.replace('_', '-')}" + ("" if value is None else f" {value}")
 
-    return Note("contradiction", "", remedy=Remedy(f"{words}.", f"{pattern.sub(option, words)}.", f"{words}."))
+    said = words.replace("`", "")
+    return Note("contradiction", "", remedy=Remedy(f"{said}.", f"{pattern.sub(option, words)}.", f"{said}."))
 
 
 class Table(BaseModel):
