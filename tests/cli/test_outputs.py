@@ -16,12 +16,14 @@ from click.testing import CliRunner
 
 from cli.friction_files import curves, runs
 from cli.refusals import refusal
+from readers.samples import workbook
 from study.sweeps import made_results
 from viscofric.cli import main, run
 
 SOLID = ["--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms"]
 CATALOGUE = ["--material", "synthetic fluoroelastomer"]
 BALL = ["--ball", "9.525 mm", "--speed", "1 m/s", "--load", "5 N", "--accuracy", "0.05"]
+INDENTATION = ["material", "indentation", "--ball", "10 mm", "--temperature", "23 degC"]
 #: Commands that write neither a file nor a table or figure, and those that print no results.
 NO_OUT = {"check", "material list", "web", "completion"}
 NO_JSON = {"web", "completion"}
@@ -169,6 +171,45 @@ def test_an_error_names_the_option_that_was_given(
 ) -> None:
     monkeypatch.chdir(folder)
     assert refusal(*words).sentence.startswith((f"{option} = ", f"{option}: "))
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["solve", "--dma", "odd.csv", "--reference", "20 degC", *BALL],
+        ["transient", *SOLID, "--ball", "10 mm", "--history", "odd.csv"],
+        ["measure", "odd.csv"],
+        ["master", "odd.csv"],
+        ["master", "curves.csv", "--shift", "odd.csv"],
+        ["identify", "odd.csv", "--ball", "9.525 mm"],
+        ["compare", "odd.csv", "curves.csv"],
+        ["compare", "twice.csv", "curves.csv"],
+        ["material", "fit", "odd.csv", "--reference", "20 degC", "--out", "made"],
+        ["material", "ramp", "odd.csv", "--reference", "20 degC"],
+        [*INDENTATION, "odd.csv", "--control", "load"],
+        [*INDENTATION, "sheets.xlsx", "--control", "load"],
+        [*INDENTATION, "odd.csv", "--mass", "1 g", "--error", "0.01"],
+        [*INDENTATION, "odd.csv", "--depth", "1 mm", "--amplitude", "1 um", "--error", "0.01"],
+        [*INDENTATION, "creep.csv", "--control", "load", "--shift", "odd.csv"],
+    ],
+    ids=" ".join,
+)
+def test_a_remedy_for_columns_names_no_option_that_the_command_lacks(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    curves(tmp_path / "curves.csv")
+    rows = [(second, 1, second) for second in range(1, 7)]
+    heads = {"odd": "a,b,c", "creep": "time (s),load (N),indentation (um)", "twice": "speed (m/s),velocity (m/s),T (K)"}
+    for name, head in heads.items():
+        table = [head, *(",".join(map(str, row)) for row in rows)]
+        (tmp_path / f"{name}.csv").write_text("\n".join(table), encoding="utf-8")
+    sheet = [heads["creep"].split(","), *map(list, rows)]
+    workbook.write(tmp_path / "sheets.xlsx", {"one": sheet, "two": sheet})
+    found = refusal(*words)
+    assert found.code in {"missing-columns", "ambiguous-columns", "several-tables"}, found
+    named = set(re.findall(r"--[a-z][a-z-]*", found.sentence))
+    assert named <= options(ALL[" ".join(words[: 2 if words[0] == "material" else 1])])
 
 
 def test_a_table_that_cannot_be_written_is_one_sentence(tmp_path: Path) -> None:

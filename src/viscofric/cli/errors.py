@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from viscofric.errors import ViscofricError
-    from viscofric.notes import Note, Reader
+    from viscofric.notes import Note, Reader, Remedy
 
 
 def words_of(error: ViscofricError, reader: Reader = "shell") -> str:
@@ -92,7 +93,7 @@ def _of_option(note: Note, name: str) -> Note:
 
     option = typed_option(name, note.values.get("parameter"))
     renamed = _renamed() if option is None else _renamed() | {_option(name): option}
-    remedy = note.remedy
+    remedy = _possible(note)
     for named, typed in renamed.items():
         if remedy is not None:
             remedy = remedy.reworded(partial(_replaced, named, typed))
@@ -102,6 +103,18 @@ def _of_option(note: Note, name: str) -> Note:
         if text.startswith((f"{name} = ", f"{name}: ")):
             text = option + text.removeprefix(name)
     return Note(note.code, text, where, remedy, note.values)
+
+
+def _possible(note: Note) -> Remedy | None:
+    """Return the remedy of a note; where this command has no option that names columns, another one."""
+    from viscofric.readers.headings import option_of
+
+    ctx, remedy = click.get_current_context(silent=True), note.remedy
+    if ctx is None or remedy is None or not (remedy.field or "").endswith("columns"):
+        return remedy
+    if option_of(remedy.field or "") in {typed for one in ctx.command.params for typed in one.opts}:
+        return remedy
+    return replace(remedy, shell="." if note.code == "ambiguous-columns" else "; rename them in the file.")
 
 
 def _option(name: str) -> str:

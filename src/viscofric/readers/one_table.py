@@ -90,11 +90,14 @@ class HistoryColumns(NamedTuple):
 
 
 def history_columns(
-    path: str | PathLike[str], columns: Mapping[str, str] | None = None, sheet: str | None = None
+    path: str | PathLike[str],
+    columns: Mapping[str, str] | None = None,
+    sheet: str | None = None,
+    vocabulary: Vocabulary = HISTORY,
 ) -> HistoryColumns:
     """Return the columns of a history in a text table or a workbook."""
-    table = table_of(path, HISTORY, columns, sheet)
-    insist_on_columns(table, HISTORY)
+    table = table_of(path, vocabulary, columns, sheet)
+    insist_on_columns(table, vocabulary)
     places = {name: place for name in _QUANTITIES if (place := table.place(name)) is not None}
     load_unit = table.load_unit(places["load"]) if "load" in places else "N"
     units = {name: load_unit if name == "load" else unit for name, (unit, _) in _QUANTITIES.items()}

@@ -19,7 +19,7 @@ from viscofric.cli.output import (
     synthetic_option,
     write_files,
 )
-from viscofric.cli.rubber_options import column_options, find_rubber
+from viscofric.cli.rubber_options import column_options, find_rubber, shift_factor_options
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -73,6 +73,7 @@ Example:
     "--zero-error", metavar="DEPTH", default="0 m", help="Standard error of the zero of the depth [default: 0]."
 )
 @click.option("--shift", metavar="FILE|NAME", help="Shift factors: a table, a material file or a catalogue name.")
+@shift_factor_options
 @click.option("--reference", metavar="T", help="Reference temperature of the material, e.g. '30 degC'.")
 @click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
 @click.option("--modes", type=int, default=30, show_default=True, help="Least number of retardation times.")
@@ -161,5 +162,7 @@ def _settings(parameters: dict[str, Any]) -> dict[str, Any]:
     if parameters["shift"] is not None:
         from viscofric.cli.friction_sources import shifts
 
-        settings["shift"], _ = shifts(parameters["shift"])
+        settings["shift"], _ = shifts(
+            parameters["shift"], parameters["shift_factor_columns"], parameters["shift_factor_sheet"]
+        )
     return settings

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from os import PathLike
 from typing import Any
 
@@ -51,6 +52,12 @@ def _vocabulary(kind: str, columns: Mapping[str, tuple[str, frozenset[str]]], *n
     )
 
 
+_TESTS = replace(
+    HISTORY,
+    kind="a table of an indentation test",
+    example="an indentation test has 'time (s)', 'load (N)' and 'indentation (mm)'",
+    key="indentation.columns",
+)
 _REBOUNDS = _vocabulary(
     "a table of rebounds", _REBOUND, ("speed",), ("restitution", "contact time", "peak force", "indentation")
 )
@@ -121,11 +128,11 @@ def read_indentation(
     kelvin = None if temperature is None else positive(temperature, "K", "temperature")
     spread = None if error is None else positive(error, CONTROLS[RESPONSE[control]], "error")
     begin = None if start is None else to_si(start, "s", "start")
-    found = history_columns(path, columns, sheet)
+    found = history_columns(path, columns, sheet, _TESTS)
     missing = [name for name in ("load", "indentation") if name not in found.values]
     if missing:
         problem = f"there is no column of the {' and the '.join(missing)}; an indentation test has both"
-        raise DataFileError(path, problem, code="missing-columns", remedy=name_columns(HISTORY.key, missing))
+        raise DataFileError(path, problem, code="missing-columns", remedy=name_columns(_TESTS.key, missing))
     if found.load_unit != "N":
         raise DataFileError(path, f"load: is in {found.load_unit}, but must be in N.", code="wrong-unit")
     column = found.values.get("temperature")
