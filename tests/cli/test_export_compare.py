@@ -106,3 +106,15 @@ def test_report_has_the_exit_status_of_the_run(pair: tuple[Path, Path], tmp_path
         assert found["exit_status"] == status
         assert len(found["failures"]) == (1 if status else 0)
         assert done.stderr.count("Failed: ") == (1 if status else 0)
+
+
+def test_loads_of_line_contacts_are_per_length(tmp_path: Path) -> None:
+    table = "speed (m/s),temperature (K),load (N/m),viscoelastic\n0.1,300,5000,{}\n0.2,300,5000,0.2\n"
+    for name, friction in (("a.csv", 0.1), ("b.csv", 0.2)):
+        (tmp_path / name).write_text(table.format(friction), encoding="utf-8")
+    files = tmp_path / "a.csv", tmp_path / "b.csv"
+    assert json.loads(call("compare", *files, "--json").output)["load_unit"] == "N/m"
+    said = call("compare", *files).output
+    assert "5 N/mm" in said
+    assert "5000 N" not in said
+    assert "5 N/mm" in call("compare", *files, "--out", "-").output

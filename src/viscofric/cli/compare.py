@@ -49,7 +49,8 @@ def command(first: Path, second: Path, tolerance: float | None, out: Path | None
         if out is not None:
             from viscofric.study.results.case_table import shown_place
 
-            write_rows(out, [asdict(one) | {"where": shown_place(one.where)} for one in found.differences])
+            line = found.load_unit == "N/m"
+            write_rows(out, [asdict(one) | {"where": shown_place(one.where, line)} for one in found.differences])
     except ViscofricError as error:
         click.echo(f"Error: {words_of(error)}", err=True)
         sys.exit(TROUBLE)
@@ -76,18 +77,19 @@ def _print(first: Path, second: Path, found: ResultsComparison) -> None:
     if found.differences:
         click.echo()
         heading = ["", "largest", "rms", "in errors", "A", "B", "where"]
-        for line in aligned([heading, *map(_row, found.differences)]):
-            click.echo(line)
+        rows = [_row(one, found.load_unit == "N/m") for one in found.differences]
+        for words in aligned([heading, *rows]):
+            click.echo(words)
     click.echo(f"\n{_verdict(found)}")
 
 
-def _row(one: VariableDifference) -> list[str]:
+def _row(one: VariableDifference, line: bool) -> list[str]:
     from viscofric.report.texts.numbers import ABSENT, significant
     from viscofric.study.results.case_table import shown_place
 
     mark = "" if one.equal else " *"
     errors = ABSENT if one.in_errors is None else significant(one.in_errors, 2)
-    where = shown_place(one.where) if one.largest else ABSENT
+    where = shown_place(one.where, line) if one.largest else ABSENT
     unit = "" if one.unit == "1" else f" ({one.unit})"
     values = (f"{value:.6g}" for value in (one.first, one.second))
     return [f"{one.name}{unit}{mark}", f"{one.largest:.1e}", f"{one.rms:.1e}", errors, *values, where]

@@ -190,6 +190,8 @@ def _keys(column: NDArray[Any]) -> list[Any]:
     return [float(f"{value:.{_DIGITS - 1}e}") for value in column.tolist()]
 
 
-def shown_place(place: dict[str, float | str]) -> str:
-    """Return the coordinates of a case in words: "NBR, radius 10 mm, 25 N, 30 °C, 100 mm/s"."""
-    return ", ".join(f"{'' if name in _SPEAKING else f'{name} '}{shown(name, value)}" for name, value in place.items())
+def shown_place(place: dict[str, float | str], line: bool = False) -> str:
+    """Return the coordinates of a case in words: "NBR, radius 10 mm, 25 N, 30 °C, 100 mm/s"; `line` as for `shown`."""
+    return ", ".join(
+        f"{'' if name in _SPEAKING else f'{name} '}{shown(name, value, line)}" for name, value in place.items()
+    )

@@ -70,6 +70,8 @@ class ResultsComparison(Shown):
     differences : tuple of VariableDifference
     tolerance : float or None
         Relative; None: the stated errors.
+    load_unit : str
+        Of loads in `differences`: ``"N"``, or ``"N/m"`` of line contacts.
     """
 
     cases: int
@@ -80,6 +82,7 @@ class ResultsComparison(Shown):
     provenance: tuple[str, ...]
     differences: tuple[VariableDifference, ...]
     tolerance: float | None
+    load_unit: str
 
     def _shown(self) -> Rows:
         return (
@@ -160,6 +163,7 @@ def compare_tables(one: CaseTable, other: CaseTable, tolerance: float | None) ->
         if both.any()
         else (),
         tolerance=tolerance,
+        load_unit="N/m" if one.per_length else "N",
     )
 
 
