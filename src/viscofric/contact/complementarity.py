@@ -43,6 +43,8 @@ _LITTLE = 0.1
 _NOTHING_NEW = 1e-4
 # Part of a gap from which on rounding errors in single precision matter to it.
 _MUCH_LESS = 1e-3
+# Least length of a correction where many spots are solved, of that by the preconditioner.
+_SHORTEST = 0.3
 _DIRECTIONS = 40  # search directions that GCR keeps
 _LINEAR_ITERATIONS = 100  # between two updates of the contact set
 
@@ -219,8 +221,8 @@ def solve_many_spots(
     A step removes from the gap under pressure what known changes of the pressure can remove, preconditions the rest,
     and cuts off pressures below zero.  One product gives the displacement of the whole change: with it the gap is
     known, the set is looked at, and the next steps know one change more.  This is GCR one step late, whose directions
-    outlive changes of the set.  Changes are in the precision of `inner`; what is returned as converged is confirmed
-    with `operator`.
+    outlive changes of the set; corrections are shorter where those before were too long.  Changes are in the precision
+    of `inner`; what is returned as converged is confirmed with `operator`.
 
     Arguments as of `solve_complementarity`, with a depth of 1; of the latest changes as many as `directions` are kept.
     `doubt`: overlap below so many root mean square gaps under pressure does not make contact yet, since pressures are
@@ -238,6 +240,7 @@ def solve_many_spots(
     best, best_contact, best_values = math.inf, contact, values
     steps = since_best = 0
     before, reference = math.inf, 0.0
+    length, fresh = 1.0, 0.0
     while True:
         now, level, chosen = _look_at_gap(backend, gap, loaded, indentation, doubt)
         if now <= tolerance and not confirmed:
@@ -256,10 +259,13 @@ def solve_many_spots(
             extended, collected = extension.on(contact), extension.collecting(contact)
             change = None if image is None else known.move(former, contact, change)
         if image is not None:
-            known.add(change, _levelled(backend, contact.gathered(image), load))
+            fresh = known.add(change, _levelled(backend, contact.gathered(image), load))
         residual = xp.astype(level - contact.gathered(gap), inner.dtype)
-        combined, residual = known.remove(_levelled(backend, residual, load))
-        correction = collected(inner.precondition(extended(residual)))
+        combined, residual, missing = known.remove(_levelled(backend, residual, load))
+        if fresh > 0.0:
+            # The last correction would have been best so much longer; half of that is believed.
+            length = min(1.0, max(_SHORTEST, length * (1.0 + 0.5 * missing / fresh)))
+        correction = length * collected(inner.precondition(extended(residual)))
         old = contact.gathered(pressure)
         values = backend.positive_part(old + (_levelled(backend, correction, load) + combined))
         loaded = contact.indices[values > 0.0]
@@ -348,8 +354,11 @@ class KnownChanges:
         )
         return same * xp.take(change, places)
 
-    def add(self, change: AnyArray, image: AnyArray) -> None:
-        """Add a change and its image, less what others have of them; both are overwritten."""
+    def add(self, change: AnyArray, image: AnyArray) -> float:
+        """Add a change and its image, less what others have of them; return the size of what is new of the image.
+
+        Both are overwritten.
+        """
         first = length = math.sqrt(float(image @ image))
         for _ in range(2):
             whole = length
@@ -361,20 +370,25 @@ class KnownChanges:
             if length > _LITTLE * whole:
                 break
         if length <= _NOTHING_NEW * first:
-            return
+            return 0.0
         image /= length
         change /= length
         self.changes = [*self.changes[1 - self.most :], change]
         self.images = [*self.images[1 - self.most :], image]
+        return length
 
-    def remove(self, residual: AnyArray) -> tuple[AnyArray | float, AnyArray]:
-        """Return the sum of changes that leaves least of a gap, and what it leaves; the gap is overwritten."""
+    def remove(self, residual: AnyArray) -> tuple[AnyArray | float, AnyArray, float]:
+        """Return the sum of changes that leaves least of a gap, what it leaves, and how much of the last is in it.
+
+        The gap is overwritten.
+        """
         total: AnyArray | float = 0.0
+        step: AnyArray | float = 0.0
         for change, image in zip(self.changes, self.images, strict=True):
             step = image @ residual
             residual -= step * image
             total = total + step * change
-        return total, residual
+        return total, residual, float(step)
 
 
 def _levelled(backend: Backend, values: AnyArray, load: float | None) -> AnyArray:
