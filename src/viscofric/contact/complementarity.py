@@ -359,6 +359,8 @@ class KnownChanges:
 
         Both are overwritten.
         """
+        # The oldest is left out first: of it the new one keeps its part.
+        self.changes, self.images = self.changes[1 - self.most :], self.images[1 - self.most :]
         first = length = math.sqrt(float(image @ image))
         for _ in range(2):
             whole = length
@@ -373,8 +375,8 @@ class KnownChanges:
             return 0.0
         image /= length
         change /= length
-        self.changes = [*self.changes[1 - self.most :], change]
-        self.images = [*self.images[1 - self.most :], image]
+        self.changes.append(change)
+        self.images.append(image)
         return length
 
     def remove(self, residual: AnyArray) -> tuple[AnyArray | float, AnyArray, float]:
