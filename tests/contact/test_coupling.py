@@ -131,6 +131,11 @@ def test_a_note_has_the_largest_relative_change() -> None:
     assert note.values["change"] == pytest.approx(2.0 * 0.25 * 1.25 * 0.04)
     assert note.values["share"] == pytest.approx(0.25)
     assert coupling_notes(contacts[:0]) == coupling_notes([replace(contacts[0], stress=7e3)]) == ()
+    # Solved with another shear: by the difference, whatever the direction of slip.
+    (other,) = coupling_notes([replace(contacts[1], solved=1e4)])
+    assert other.code == "other-shear"
+    assert other.values["share"] == pytest.approx(0.75 * 0.25)
+    assert coupling_notes([replace(contacts[1], solved=4e4)]) == ()
 
 
 HEATING = vf.Heating(
@@ -177,6 +182,7 @@ def test_rough_surfaces_have_the_note_whatever_makes_their_coulomb_friction() ->
     law = vf.friction.ConstantShearStress(0.3 * 1e5 / float(heated.corrected_area_fraction[0, 0, 0]))
     rubbed = vf.predict_rough_friction(rubber, surface, interface=law, **case)
     sheared = vf.predict_rough_friction(rubber, surface, coulomb=0.3, interface=law, **case)
+    other = vf.predict_rough_friction(rubber, surface, coulomb=0.6, interface=law, **case)
     theory = vf.persson_theory(rubber, vf.roughness.power_spectrum(surface), heating=HEATING, **case)
     found = [
         note.values["change"]
@@ -186,4 +192,6 @@ def test_rough_surfaces_have_the_note_whatever_makes_their_coulomb_friction() ->
     ]
     assert len(found) == 3
     assert np.allclose(found, found[0], rtol=0.1)  # areas differ by warming and between theory and contact
-    assert "tangential-coupling" not in codes(sheared.notes)
+    assert not {"tangential-coupling", "other-shear"} & set(codes(sheared.notes))
+    (doubt,) = (note for note in other.notes if note.code == "other-shear")
+    assert doubt.values["change"] == pytest.approx(found[1], rel=0.2)  # as much too much as was left out

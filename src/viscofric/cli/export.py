@@ -12,6 +12,8 @@ from viscofric.cli.output import json_option, out_option, print_json
 
 # format -> how its file's name ends
 _ENDINGS = {"csv": ".csv", "excel": ".xlsx", "netcdf": ".nc", "zarr": ".zarr"}
+# what stands beside the cases: group of the results -> in words
+_OTHERS = {"history": "cases over time", "impact": "impacts"}
 _EXAMPLE = """\b
 Example:
   viscofric export study.results --to excel
@@ -52,6 +54,9 @@ def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bo
     from viscofric.study.results.results import open_results
 
     found = open_results(results)
+    others = [words for group, words in _OTHERS.items() if group in found.tree.children]
+    if others and forms != ("excel",):
+        click.echo(f"Only the workbook (--to excel) has the {' and the '.join(others)}.", err=True)
     if out == DASH:
         click.echo(table_text(found.dataset), nl=False)
         return

@@ -48,6 +48,10 @@ REMEDY = (
     + Remedy("coulomb=, without heating", "--coulomb", "viscofric solve --coulomb", "viscofric solve --coulomb")
     + "), or take the mean of friction over both directions of slip."
 )
+#: The same of contacts that were solved with another shear.
+OTHER_REMEDY = (
+    "; give the latter over the pressure as " + Remedy("coulomb=", "--coulomb", "--coulomb", "--coulomb") + "."
+)
 
 
 @dataclass(frozen=True)
@@ -68,6 +72,8 @@ class ShearedContact:
         Contact area over the nominal one, zero for indenters.
     where : str
         Its conditions in words.
+    solved : float
+        Mean shear stress that it was solved with, Pa.
     """
 
     stress: float
@@ -76,11 +82,17 @@ class ShearedContact:
     line: bool = False
     filled: float = 0.0
     where: str = ""
+    solved: float = 0.0
+
+    @property
+    def left_out(self) -> float:
+        """Shear stress that it was solved without, or with too much, Pa."""
+        return abs(abs(self.stress) - self.solved)
 
     @property
     def change(self) -> float:
         """Estimated change of the friction coefficient, of either sign."""
-        both = (2.0 if self.line else 1.0) * self.compliance * abs(self.stress)
+        both = (2.0 if self.line else 1.0) * self.compliance * self.left_out
         return both * max(_SQUARE - self.filled, 0.0)
 
     @property
@@ -93,6 +105,12 @@ class ShearedContact:
         """The change in words."""
         at = f"; {self.where}" if self.where else ""
         percent = f"{100.0 * self.share:.2g}" if self.share < 0.1 else f"{100.0 * self.share:.0f}"
+        if self.solved:
+            return (
+                f"Contacts were solved with a shear stress of {1e-6 * self.solved:.2g} MPa, but their Coulomb friction "
+                f"is one of {1e-6 * abs(self.stress):.2g} MPa; the difference changes the friction coefficient by "
+                f"about {self.change:.2g} ({percent} % of viscoelastic friction{at})"
+            )
         return (
             f"Coulomb friction, a shear stress of {1e-6 * abs(self.stress):.2g} MPa, also displaces the surface in the "
             f"normal direction, which changes the friction coefficient by about {self.change:.2g} "
@@ -103,15 +121,17 @@ class ShearedContact:
     @property
     def values(self) -> dict[str, float]:
         """Numbers of the sentence by name, SI."""
-        return {"stress": abs(self.stress), "change": self.change, "share": self.share}
+        return {"stress": abs(self.stress), "solved": self.solved, "change": self.change, "share": self.share}
 
 
 def coupling_notes(contacts: Iterable[ShearedContact]) -> tuple[Note, ...]:
     """Return a note on the contact whose friction changes most, relative to it; none if it hardly changes."""
-    sheared = [one for one in contacts if one.stress != 0.0]
+    sheared = [one for one in contacts if one.left_out > 0.0]
     worst = max(sheared, key=lambda one: one.share, default=None)
     if worst is None or worst.share <= LARGEST:
         return ()
+    if worst.solved:
+        return (Note("other-shear", worst.said, remedy=OTHER_REMEDY, values=worst.values),)
     return (Note("tangential-coupling", worst.said, remedy=REMEDY, values=worst.values),)
 
 
@@ -171,8 +191,12 @@ class SurfaceCoupling:
             coupling = abs(float(slopes @ layer.coupling(magnitude, poisson_ratio) / over))
         return cls(math.sqrt(float(slopes.sum())), coupling, surface.shape[1] == 1)
 
-    def contact(self, coulomb: float, friction: float, area: float, pressure: float, where: str = "") -> ShearedContact:
+    def contact(
+        self, coulomb: float, friction: float, area: float, pressure: float, where: str = "", solved: float = 0.0
+    ) -> ShearedContact:
         """Return a contact of a Coulomb friction, with its area over the nominal one and its nominal pressure, Pa.
+
+        It was solved with the Coulomb friction `solved`.
 
         (1 − ν²)|S| times the mean of Θ is that with which Persson's theory, erf(√2 (1−ν²)|S| σ0/h'), has the area,
         but for a factor.
@@ -180,5 +204,5 @@ class SurfaceCoupling:
         from scipy.special import erfinv
 
         compliance = self.slope * float(erfinv(area / _SOLVED)) / (math.sqrt(2.0) * pressure)
-        stress = abs(coulomb) * pressure / area
-        return ShearedContact(stress, friction, compliance * self.coupling, self.profile, area, where)
+        stress, known = (abs(one) * pressure / area for one in (coulomb, solved))
+        return ShearedContact(stress, friction, compliance * self.coupling, self.profile, area, where, known)

@@ -26,18 +26,22 @@ from viscofric.units import Quantities, to_si_array
 
 
 def shear_notes(
-    curves: FrictionCurves, coulomb: Array, bodies: Sequence[tuple[Material, Layer | None]], rise: Array | None = None
+    curves: FrictionCurves,
+    coulomb: Array,
+    bodies: Sequence[tuple[Material, Layer | None]],
+    rise: Array | None = None,
+    solved: float = 0.0,
 ) -> tuple[Note, ...]:
-    """Return a note where Coulomb friction (n,) changes predicted friction, solved without it, by too much."""
+    """Return a note where Coulomb friction (n,) changes predicted friction, solved with another one, by too much."""
     # `bodies` are the material and the layer of each point, `rise` (n,) its temperature above that of the body, K.
     assert curves.mean_pressure is not None
     kelvin = curves.temperature if rise is None else curves.temperature + rise
     area = curves.load / curves.mean_pressure
     radius = 0.5 * area if curves.load_unit == "N/m" else np.sqrt(area / math.pi)
-    rows = np.flatnonzero(coulomb != 0.0).tolist()
+    rows = np.flatnonzero(np.abs(coulomb) != abs(solved)).tolist()
     modes = (modes_of(bodies[row][0], float(kelvin[row])) for row in rows)
     return coupling_notes(
-        _sheared(curves, row, float(coulomb[row]), *bodies[row], float(radius[row]), found)
+        _sheared(curves, row, float(coulomb[row]), *bodies[row], float(radius[row]), found, solved)
         for row, found in zip(rows, modes, strict=True)
     )
 
@@ -80,6 +84,7 @@ def _sheared(
     layer: Layer | None,
     radius: float,
     modes: RetardationSpectrum,
+    solved: float = 0.0,
 ) -> ShearedContact:
     """Return the contact of a point of curves, of a radius or half-width, m, with the material's modes there."""
     line, ratio = curves.load_unit == "N/m", material.poisson_ratio
@@ -90,6 +95,7 @@ def _sheared(
         compliance=sheared_compliance(modes, ratio, layer, radius, float(curves.speed[row]), line=line),
         line=line,
         where=str(Place.of(curves, row)),
+        solved=abs(solved) * float(curves.load[row]) / area,
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.arguments import exactly_one, flag, insist_on, insist_on_function
 from viscofric.arrays import Array
-from viscofric.contact.bodies import Layer
+from viscofric.contact.bodies import Layer, checked_coulomb
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
@@ -194,8 +194,9 @@ def predict_friction(
         curves = with_interface(curves, interface, slip, rise=rise)
     warmer = getattr(curves, "temperature_rise", None)
     notes = curves.notes
-    if curves.coulomb is not None and not settings.get("coulomb"):
-        notes += shear_notes(curves, curves.coulomb, [(material, layer)] * len(curves), warmer)
+    if curves.coulomb is not None:
+        solved = checked_coulomb(settings.get("coulomb", 0.0))
+        notes += shear_notes(curves, curves.coulomb, [(material, layer)] * len(curves), warmer, solved)
     return replace(curves, notes=notes)
 
 

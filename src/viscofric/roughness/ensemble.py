@@ -15,7 +15,7 @@ import numpy as np
 from viscofric.arguments import insist_on_function
 from viscofric.arrays import Array
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.bodies import Layer
+from viscofric.contact.bodies import Layer, checked_coulomb
 from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.contact.heated_curve import heat_columns, solve_states
 from viscofric.contact.periodic.heating import ACCURACY, MEAN_LEFT_OUT, PeriodicThermalContact, insist_on_heatable
@@ -279,9 +279,9 @@ def predict_rough_friction(
         left_out = () if heating.nominal_radius is not None else (MEAN_LEFT_OUT,)
         numbers["notes"] = (*numbers["notes"], *doubts, *left_out)
     coulomb = numbers.get("interface_friction", np.full(shape, 0.0 if heating is None else heating.coulomb))
-    if not call.get("coulomb"):
-        shear = _shear_notes(coulomb, numbers, [one for _, one in named], velocities, load, material, layer)
-        numbers["notes"] = (*numbers["notes"], *shear)
+    solved = checked_coulomb(call.get("coulomb", 0.0))
+    shear = _shear_notes(coulomb, numbers, [one for _, one in named], velocities, load, material, layer, solved)
+    numbers["notes"] = (*numbers["notes"], *shear)
     result = RoughFriction if heating is None else HeatedRoughFriction
     return result(
         temperature=kelvin_or_nan,
@@ -300,8 +300,9 @@ def _shear_notes(
     pressure: float,
     material: Material,
     layer: Layer | None,
+    solved: float,
 ) -> tuple[Note, ...]:
-    """Return a note where Coulomb friction (m, n, k), without which contacts were solved, changes their friction."""
+    """Return a note where Coulomb friction (m, n, k) changes that of contacts, solved with another one, by too much."""
     if not coulomb.any():
         return ()
     friction, area = numbers["friction_coefficient"], numbers["corrected_area_fraction"]
@@ -313,6 +314,7 @@ def _shear_notes(
             float(area[place]),
             pressure,
             f"at {shown_speed(float(speeds[place[1]]), 3)}",
+            solved,
         )
         for place in np.ndindex(coulomb.shape)
     )

@@ -80,7 +80,7 @@ def material_notes(study: Study, materials: Iterable[Material]) -> tuple[Note, .
     """Return a note if the cases over time would be heated but for a material."""
     if not study.heats_histories or is_heated(study, materials):
         return ()
-    return (isothermal("Contacts over time", "; those over time need shift factors, and no vertical shift"),)
+    return (isothermal("Contacts over time", ": that needs shift factors, and no vertical shift"),)
 
 
 def _task(case: Any, rubbers: Rubbers, history: History, study: Study, label: str, coulomb: float | None) -> Task:

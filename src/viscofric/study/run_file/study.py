@@ -39,7 +39,7 @@ _MOST_MATERIALS = 100
 
 def isothermal(noun: str, reason: str = "") -> Note:
     """Return the note that such contacts are not heated, with the reason as a clause."""
-    return Note("history-isothermal", f"{noun} are isothermal: only steady cases are heated{reason}.")
+    return Note("history-isothermal", f"{noun} are not heated{reason}.")
 
 
 def _several(value: object) -> object:
@@ -159,7 +159,7 @@ class Study(Shown, Table):
         said = self.uncertainty.notes(rough=self.indenter is None, over_time=over_time)
         if self._against_heating:
             reasons = " or ".join(self._against_heating)
-            said = (*said, isothermal("Contacts over time", f"; over time, heating is not possible with {reasons}"))
+            said = (*said, isothermal("Contacts over time", f": that is not possible with {reasons}"))
         if self.heating is not None and self.impact is not None:
             said = (*said, isothermal("Impacts"))
         return said
