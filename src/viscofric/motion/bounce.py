@@ -276,7 +276,7 @@ class Bounce:
         """Return the indentation into the surface so long after a separation."""
         springs = self.springs
         surface = springs.g + (springs.compliances * np.exp(-time / springs.tau)) @ self._memory
-        return depth - speed_out * time + 0.5 * self.gravity * time**2 - float(surface.min())
+        return depth - speed_out * time + 0.5 * self.gravity * time * time - float(surface.min())
 
     def _largest_gap(self, depth: float, speed_out: float) -> float:
         """Return the largest gap after a separation, up to which it only grows; without gravity it has no end."""
