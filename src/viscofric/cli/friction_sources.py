@@ -206,14 +206,20 @@ def joined(parts: Sequence[FrictionCurves]) -> FrictionCurves:
 
 
 def shifts(
-    name: str, columns: dict[str, str] | None = None, sheet: str | None = None, *, parameter: str = "shift"
-) -> tuple[ShiftLaw, VerticalShift | None]:
-    """Return the shift factors of a table, or those of a rubber, and its vertical shift where it has one."""
+    parameters: dict[str, Any], parameter: str = "shift"
+) -> tuple[ShiftLaw, VerticalShift | None] | tuple[None, None]:
+    """Return the shift factors of a table, or those of a rubber, and its vertical shift; None if none are given."""
     from viscofric.errors import InputError
     from viscofric.rheology.shifts.shift_files import read_shift_factors
 
-    if Path(name).suffix.lower() in _TABLES:
+    name, columns, sheet = (parameters[one] for one in (parameter, "shift_factor_columns", "shift_factor_sheet"))
+    if name is not None and Path(name).suffix.lower() in _TABLES:
         return read_shift_factors(name, columns=columns, sheet=sheet), None
+    if columns or sheet:
+        given = "--shift-factor-column" if columns else "--shift-factor-sheet"
+        raise click.UsageError(f"{given} is for a table of shift factors, and --shift names none.")
+    if name is None:
+        return None, None
     rubber = find_rubber(name, parameter)
     if rubber.shift is None:
         raise InputError(f"{name}: this rubber has no shift factors to compare with.", code="no-shift")

@@ -201,10 +201,9 @@ def command(
     options |= _prior(parameters)
     if anchor is not None:
         options["anchor"] = make_anchor(parameters, anchor, shape.indenter.geometry.load_unit)
-    if parameters["shift"] is not None:
-        options["shift"], _ = shifts(
-            parameters["shift"], parameters["shift_factor_columns"], parameters["shift_factor_sheet"]
-        )
+    shift, _ = shifts(parameters)
+    if shift is not None:
+        options["shift"] = shift
     curves = friction_curves(sources, parameters)
     with contact_bar("Shift factors", quiet=as_json) as bar:
 

@@ -85,16 +85,7 @@ def command(
     from viscofric.report.texts.inverse import shift_record
 
     curves = friction_curves(sources, parameters)
-    known, vertical = (
-        (None, None)
-        if parameters["known"] is None
-        else shifts(
-            parameters["known"],
-            parameters["shift_factor_columns"],
-            parameters["shift_factor_sheet"],
-            parameter="known",
-        )
-    )
+    known, vertical = shifts(parameters, "known")
     master = _shifted(curves, known, vertical, parameters)
     law, why, refused = chosen_law(master, parameters["law"])
     print_notes([] if refused is None else [refused])

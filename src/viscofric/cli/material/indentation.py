@@ -159,10 +159,9 @@ def _settings(parameters: dict[str, Any]) -> dict[str, Any]:
     settings = {name: parameters[name] for name in names}
     if parameters["indenter_poisson_ratio"] is not None:
         settings["indenter_poisson_ratio"] = parameters["indenter_poisson_ratio"]
-    if parameters["shift"] is not None:
-        from viscofric.cli.friction_sources import shifts
+    from viscofric.cli.friction_sources import shifts
 
-        settings["shift"], _ = shifts(
-            parameters["shift"], parameters["shift_factor_columns"], parameters["shift_factor_sheet"]
-        )
+    shift, _ = shifts(parameters)
+    if shift is not None:
+        settings["shift"] = shift
     return settings
