@@ -228,7 +228,8 @@ def solve_many_spots(
     `doubt`: overlap below so many root mean square gaps under pressure does not make contact yet, since pressures are
     not known better.
     """
-    start = operator.products + inner.products
+    used = (operator,) if inner is operator else (operator, inner)
+    start = sum(one.products for one in used)
     backend = operator.backend
     xp, height = backend.xp, backend.asarray(height)
     pressure = _loaded_to(backend, backend.positive_part(xp.asarray(backend.asarray(guess), copy=True)), load)
@@ -250,7 +251,7 @@ def solve_many_spots(
         since_best += 1
         if now < best:
             best, best_contact, best_values, since_best = now, contact, values, 0
-        products = operator.products + inner.products - start
+        products = sum(one.products for one in used) - start
         if now <= tolerance or products >= most_products or since_best >= patience or not math.isfinite(now):
             break
         former, cells = contact, backend.cells(chosen)
@@ -302,7 +303,7 @@ def solve_many_spots(
         load=0.0 if load is None else abs(float(backend.total(pressure)) / load - 1.0),
         set_changes=steps + 1,
         linear_iterations=steps,
-        products=operator.products + inner.products - start,
+        products=sum(one.products for one in used) - start,
     )
 
 
