@@ -405,3 +405,13 @@ def test_means_of_speeds_and_temperatures_are_not_those_of_a_point(tmp_path: Pat
     path.write_text(FOREIGN.replace(kind, name), encoding="utf-8")
     with refused("missing-columns"):
         vf.read_friction_curves(path)
+
+
+def test_unread_columns_of_curves_beside_each_other_are_noted(tmp_path: Path) -> None:
+    path = tmp_path / "curves.csv"
+    rows = ";25 °C;;60 °C;", "speed (m/s);mu;sd;mu;sd", "0.01;0.1;0.01;0.2;0.03", "0.1;0.15;0.01;0.25;0.04"
+    path.write_text("\n".join(rows), encoding="utf-8")
+    curves = vf.read_friction_curves(path, columns={"load": "= 20 N"})
+    assert curves.viscoelastic == pytest.approx([0.1, 0.15, 0.2, 0.25])
+    (unused,) = (note for note in map(note_of, curves.notes) if note.code == "unused-columns")
+    assert unused.values["headings"] == ["sd"]

@@ -210,10 +210,14 @@ def _below_each_other(table: Table) -> Table:
         for row, cells in enumerate(table.rows)
         if any(cells[place].strip().lower() not in MISSING for place in one)
     ]
+    held = {place for one in (shared, *sets) for place in one}
+    unread = {one.heading: replace(one, quantity="") for one in table.unused(held)}.values()  # for notes on them
     below = replace(
         table,
-        columns=tuple(columns[0]),
-        rows=tuple(tuple(table.rows[row][place] for place in (*shared, *one)) for _, row, one in kept),
+        columns=(*columns[0], *unread),
+        rows=tuple(
+            (*(table.rows[row][place] for place in (*shared, *one)), *[""] * len(unread)) for _, row, one in kept
+        ),
         lines=table.lines[[row for _, row, _ in kept]],
     )
     numbers = np.array([number for number, _, _ in kept], dtype=np.int64)
