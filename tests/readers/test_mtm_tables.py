@@ -218,3 +218,19 @@ def test_notes_on_one_of_several_files_keep_their_codes(tmp_path):
     notes = read_mtm(first, second).notes
     assert "unused-columns" in codes(notes)
     assert any(note.startswith("two.csv: ") for note in notes)
+
+
+def test_coefficients_in_per_cent_are_fractions(tmp_path):
+    heading = "temperature (degC),rolling speed (mm/s),SRR (%),load (N),mu"
+    rows = ["25,100,20,20,5", "25,100,-20,20,3"]
+    runs = read_mtm(write(tmp_path, f"{heading} (%)", *rows))
+    assert runs.traction_force == pytest.approx([1.0, -0.6])
+    with refused("wrong-unit", None, "'mu (N)'"):
+        read_mtm(write(tmp_path, f"{heading} (N)", *rows))
+
+
+@pytest.mark.parametrize(("unit", "doubtful"), [("%", False), ("-", True)])
+def test_slip_of_surfaces_that_move_in_opposite_directions_is_noted(tmp_path, unit, doubtful):
+    heading = f"temperature (degC),rolling speed (mm/s),SRR ({unit}),load (N),mu"
+    runs = read_mtm(write(tmp_path, heading, "25,100,20,20,0.05", "25,100,-20,20,0.03"))
+    assert ("opposite-speeds" in codes(runs.notes)) == doubtful

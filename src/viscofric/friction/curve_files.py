@@ -252,15 +252,7 @@ def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:
     unit = load_unit if name == "load" else COLUMNS[name][0]
     column = table.columns[place]
     values = table.numbers_or_missing(place) if name.endswith(_OPEN) else table.numbers(place)
-    if unit:
-        factor, shift = table.conversion(column, unit)
-    elif column.unit in ("", "1", "-", "–"):
-        factor, shift = 1.0, 0.0
-    elif column.unit == "%":
-        factor, shift = 0.01, 0.0
-    else:
-        problem = f"column {column.heading!r} has the unit {column.unit!r}; it is a number without a unit, or in '%'."
-        raise DataFileError(table.path, problem, code="wrong-unit")
+    factor, shift = table.conversion(column, unit) if unit else (table.fraction(column), 0.0)
     values = factor * values + shift
     if name in ("speed", "temperature", "load"):
         bad, right = values <= 0.0, _ABOVE_ZERO[name]

@@ -47,6 +47,8 @@ MISSING = frozenset(
 
 #: A number as printed, with a decimal point or comma.
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+#: Units of a ratio -> factor.
+_FRACTIONS = {"": 1.0, "1": 1.0, "-": 1.0, "–": 1.0, "N/N": 1.0, "%": 0.01}
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,6 +161,14 @@ class Table:
         except InputError:
             problem = f"column {column.heading!r} has the unit {column.unit!r}; it must be one like {example!r}."
             raise self.refused("wrong-unit", problem) from None
+
+    def fraction(self, column: Column) -> float:
+        """Return the factor from a column of numbers without a unit, or in per cent, to the numbers themselves."""
+        factor = _FRACTIONS.get(column.unit.strip())
+        if factor is None:
+            problem = f"column {column.heading!r} has the unit {column.unit!r}; "
+            raise DataFileError(self.path, f"{problem}it is a number without a unit, or in '%'.", code="wrong-unit")
+        return factor
 
     def load_unit(self, column: int) -> str:
         """Return the unit of a load: N, or N/m of a line contact."""

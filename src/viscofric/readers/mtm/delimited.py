@@ -205,6 +205,8 @@ def _whole_numbers(table: Table, what: str) -> Integers | None:
 
 #: Printed slip agrees with the printed speeds to this part of it: a difference of nearly equal speeds.
 SLIP_AGREES = 0.2
+#: Slide-to-roll ratio above which the two surfaces move in opposite directions.
+_OPPOSITE = 2.0
 #: Unit of a slide-to-roll ratio -> factor to a fraction.
 _RATIO = {"%": 0.01, "-": 1.0, "1": 1.0, "–": 1.0}
 
@@ -230,7 +232,11 @@ def speeds(table: Table, notes: list[Note]) -> tuple[Array, Array, set[str]]:
         return disc, ball, {"disc speed", "ball speed", *_agreeing_slip(table, disc, ball, notes)}
     rolling = _values(table, "rolling speed", "m/s")
     what = "sliding speed" if table.has("sliding speed") else "slide to roll ratio"
-    sliding = _slip(table, what) * (1.0 if what == "sliding speed" else rolling)
+    slip = _slip(table, what)
+    sliding = slip * (1.0 if what == "sliding speed" else rolling)
+    if what != "sliding speed" and np.any(np.abs(slip) > _OPPOSITE):
+        said = f"The slide-to-roll ratios reach {100.0 * np.max(np.abs(slip)):.4g} %. Above 200 %, disc and ball move "
+        notes.append(Note("opposite-speeds", f"{said}in opposite directions; is the unit right?"))
     said = f"The speeds of disc and ball follow from rolling speed and {what}, which is positive where the disc is "
     notes.append(Note("speeds-from-slip", f"{said}faster."))
     return rolling + 0.5 * sliding, rolling - 0.5 * sliding, {"rolling speed", what}
@@ -278,7 +284,7 @@ def force(table: Table, load: Array, slip: Array, notes: list[Note]) -> tuple[Ar
         return _values(table, "traction force", "N"), "traction force"
     place = table.place("traction coefficient")
     assert place is not None  # see `missing`
-    coefficient = table.numbers(place)
+    coefficient = table.fraction(table.columns[place]) * table.numbers(place)
     if np.any(coefficient < 0.0):
         return coefficient * load, "traction coefficient"
     alone = slip == 0.0
