@@ -105,3 +105,19 @@ def test_a_file_too_large_for_measurements_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "LARGEST_TABLE", 10)
     with refused("too-large"):
         read_dma(write(tmp_path, HEADER, "20;1;5;0.5"))
+
+
+@pytest.mark.parametrize("label", ["Mean", "Std. dev.", "Mittelwert", "SD (n = 3)"])
+def test_summaries_below_measurements_are_refused(tmp_path, label):
+    heading = "specimen;speed (mm/s);temperature (degC);load (N);viscoelastic friction"
+    rows = ["A;20;30;25;0.02", "B;20;30;25;0.03", f"{label};20;30;25;0.007"]
+    with refused("summary-row", 4, repr(label)):
+        read_friction_curves(write(tmp_path, heading, *rows))
+    with refused("summary-row", 3, repr(label)):
+        read_dma(write(tmp_path, f"{HEADER};", "20;0.1;5;0.5;A", f"20;0.1;5;0.5;{label}"))
+
+
+def test_rows_that_are_all_means_are_measurements(tmp_path):
+    heading = "row;speed (mm/s);temperature (degC);load (N);viscoelastic friction"
+    curves = read_friction_curves(write(tmp_path, heading, "mean;20;30;25;0.02", "Mean;40;30;25;0.0175"))
+    assert curves.viscoelastic.tolist() == [0.02, 0.0175]

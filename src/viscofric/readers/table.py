@@ -49,6 +49,12 @@ MISSING = frozenset(
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 #: Units of a ratio -> factor.
 _FRACTIONS = {"": 1.0, "1": 1.0, "-": 1.0, "–": 1.0, "N/N": 1.0, "%": 0.01}
+#: Labels of rows that summarise others: a mean, or how far the others scatter.
+_OF_SUMMARIES = re.compile(
+    r"(?P<mean>mean( value)?|average|avg|median|mittelwert|mittel|moyenne|media|promedio)"
+    r"|std|std\.? ?dev|stdev|sd|standard deviation|standard error|sem|standardabweichung|stabw|écart[- ]type"
+    r"|desviación (estándar|típica)|variance|varianz|cv|rsd"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,7 +290,24 @@ def make_table(
         printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
         comma = decimal_comma(path, printed)
     numbers = np.array(lines, dtype=np.int64)
-    return Table(path, columns, tuple(rows), numbers, comma, empty_rows=empty, vocabulary=vocabulary)
+    table = Table(path, columns, tuple(rows), numbers, comma, empty_rows=empty, vocabulary=vocabulary)
+    _insist_on_no_summaries(table)
+    return table
+
+
+def _insist_on_no_summaries(table: Table) -> None:
+    """Refuse rows that a column of labels calls means or standard deviations, beside rows that it calls otherwise."""
+    for place, column in enumerate(table.columns):
+        if column.quantity:
+            continue
+        labels = [re.sub(r"\([^)]*\)|[.:]+$", "", row[place].strip().lower()).strip() for row in table.rows]
+        found = [_OF_SUMMARIES.fullmatch(label) for label in labels]
+        kinds = {match["mean"] is None if match else label for match, label in zip(found, labels, strict=True)}
+        row = next((row for row, match in enumerate(found) if match), None)
+        if row is not None and len(kinds) > 1:
+            said = f"{table.rows[row][place].strip()!r} in column {column.heading!r} marks a summary of other rows"
+            problem = f"{said}, which would count as a measurement; remove such rows."
+            raise DataFileError(table.path, problem, int(table.lines[row]), code="summary-row")
 
 
 def instrument_table(
