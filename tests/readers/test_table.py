@@ -121,3 +121,12 @@ def test_rows_that_are_all_means_are_measurements(tmp_path):
     heading = "row;speed (mm/s);temperature (degC);load (N);viscoelastic friction"
     curves = read_friction_curves(write(tmp_path, heading, "mean;20;30;25;0.02", "Mean;40;30;25;0.0175"))
     assert curves.viscoelastic.tolist() == [0.02, 0.0175]
+
+
+def test_cells_in_per_cent_are_read_in_columns_of_ratios_alone(tmp_path):
+    heading = "speed (mm/s);temperature (degC);load (N);viscoelastic friction"
+    assert read_friction_curves(write(tmp_path, heading, "20;30;25;3,1 %")).viscoelastic == pytest.approx([0.031])
+    with refused("not-a-number", 2, "'25 %'"):
+        read_friction_curves(write(tmp_path, heading, "20;30;25 %;0.02"))
+    with refused("ambiguous-decimals", 2, "'3,125 %'"):
+        read_friction_curves(write(tmp_path, heading, "20;30;25;3,125 %"))

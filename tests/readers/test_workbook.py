@@ -12,7 +12,7 @@ import pytest
 from readers.failing_parsers import dying, endless
 from readers.refusal import noted, refused
 from readers.samples.workbook import HEADER, one_sheet, rows, write
-from viscofric import read_dma
+from viscofric import read_dma, read_friction_curves
 from viscofric.errors import DataFileError
 from viscofric.limited_process import LimitedProcess
 from viscofric.readers import parse_workbook, workbook
@@ -270,3 +270,21 @@ def test_a_missing_package_is_not_blamed_on_the_file(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "python_calamine", None)
     with refused("package-missing"):
         parse_workbook.parsed("a.xlsx", one_sheet(tmp_path).read_bytes())
+
+
+@pytest.mark.parametrize("unit", [" (%)", ""])
+def test_cells_that_excel_shows_as_per_cent_are_read_as_shown(tmp_path, unit):
+    import xlsxwriter
+
+    path = tmp_path / "curves.xlsx"
+    heading = ["specimen", "speed (mm/s)", "temperature (degC)", "load (N)", f"viscoelastic friction{unit}"]
+    with xlsxwriter.Workbook(str(path)) as book:
+        book.add_worksheet("a").write_row(0, 0, ["nothing"])
+        sheet = book.add_worksheet("μ & more")
+        sheet.write_row(1, 0, heading)
+        for row, (text, format_of) in enumerate((("10", "0.0%"), ("20", "0%"), ("3,5", '0.00" "%')), start=2):
+            sheet.write_row(row, 0, ["A", text, 30, 25])
+            sheet.write_number(row, 4, 0.031, book.add_format({"num_format": format_of}))
+    curves = read_friction_curves(path)
+    assert curves.viscoelastic == pytest.approx([0.031] * 3, rel=1e-14)
+    assert curves.speed == pytest.approx([0.01, 0.02, 0.0035])

@@ -107,9 +107,9 @@ def guessed(rows: Sequence[NumberedRow]) -> list[str]:
 
 
 def is_number(cell: str) -> bool:
-    """Return whether a cell is a number, with a decimal point or comma."""
+    """Return whether a cell is a number, with a decimal point or comma, perhaps in per cent."""
     try:
-        float(cell.strip().replace(",", ".").replace("−", "-"))
+        float(cell.strip().removesuffix("%").replace(",", ".").replace("−", "-"))
     except ValueError:
         return False
     return True

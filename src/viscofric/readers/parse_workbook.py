@@ -6,6 +6,7 @@ arrays, so that the process starts quickly.
 
 from __future__ import annotations
 
+import html
 import io
 import json
 import re
@@ -19,6 +20,10 @@ MOST_CELLS = 5_000_000
 LONGEST_TEXT = 1000  # characters
 LARGEST_ANSWER = 50_000_000  # bytes
 
+_PLACE = re.compile(r"(?P<column>[A-Z]{1,3})(?P<row>[0-9]{1,7})")
+_ATTRIBUTE = re.compile(r"""([\w:]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+#: Formats of numbers that Excel shows as per cent, besides those that a workbook defines.
+_OF_PER_CENT = (9, 10)
 _CELL = re.compile(rb"""\sr\s*=\s*["']([A-Z]{1,3})([0-9]{1,7})["']""")
 
 
@@ -46,6 +51,8 @@ def parsed(path: str, data: bytes) -> tuple[dict[str, list[list[object]]], list[
                 raise _too_many_cells(path, cells)
             rows = sheet.to_python(skip_empty_area=False)
             sheets[name] = [[_plain(cell) for cell in row] for row in rows]
+        if data.startswith(b"PK"):
+            _show_per_cent(data, sheets)
         size = len(json.dumps(sheets))
     except DataFileError:
         raise
@@ -96,8 +103,57 @@ def _extent(sheet: bytes) -> int:
     """Return rows times columns of the smallest block from the first cell on that holds all cells."""
     width = height = 0
     for letters, digits in _CELL.findall(sheet):
-        column = 0
-        for letter in letters:
-            column = 26 * column + letter - 64
-        width, height = max(width, column), max(height, int(digits))
+        width, height = max(width, _column_number(letters)), max(height, int(digits))
     return width * height
+
+
+def _column_number(letters: bytes) -> int:
+    """Return the number of a column from 1: of AB, 28."""
+    column = 0
+    for letter in letters:
+        column = 26 * column + letter - 64
+    return column
+
+
+def _show_per_cent(data: bytes, sheets: dict[str, list[list[object]]]) -> None:
+    """Write numbers that Excel shows as per cent as it does: a cell that shows 3.1 % holds 0.031."""
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        parts = {part.filename: part for part in archive.infolist()}
+        if not {"xl/styles.xml", "xl/workbook.xml", "xl/_rels/workbook.xml.rels"} <= parts.keys():
+            return
+        styles = _styles_of_per_cent(archive.read("xl/styles.xml"))
+        if not styles:
+            return
+        targets = {
+            one.get("Id", ""): one.get("Target", "")
+            for one in _elements("Relationship", archive.read("xl/_rels/workbook.xml.rels"))
+        }
+        for sheet in _elements("sheet", archive.read("xl/workbook.xml")):
+            target = targets.get(sheet.get("r:id", ""), "")
+            part, rows = (
+                target.lstrip("/") if target.startswith("/") else f"xl/{target}",
+                sheets.get(sheet.get("name", "")),
+            )
+            for cell in _elements("c", archive.read(part)) if rows is not None and part in parts else ():
+                if cell.get("s") in styles and (place := _PLACE.fullmatch(cell.get("r", ""))):
+                    _show_cell(rows or [], int(place["row"]) - 1, _column_number(place["column"].encode()) - 1)
+
+
+def _elements(name: str, xml: bytes) -> list[dict[str, str]]:
+    """Return the attributes of the elements of a name."""
+    tags = re.findall(rf"<(?:\w+:)?{name}\s([^<>]*)>", xml.decode("utf-8", "replace"))
+    return [{key: html.unescape(one or other) for key, one, other in _ATTRIBUTE.findall(tag)} for tag in tags]
+
+
+def _styles_of_per_cent(xml: bytes) -> set[str]:
+    """Return the numbers of the styles whose format of numbers shows per cent."""
+    formats = {str(one) for one in _OF_PER_CENT}
+    formats |= {one.get("numFmtId", "") for one in _elements("numFmt", xml) if "%" in one.get("formatCode", "")}
+    used = re.search(rb"<(?:\w+:)?cellXfs\b.*?</(?:\w+:)?cellXfs>", xml, re.DOTALL)
+    each = _elements("xf", used[0]) if used else []
+    return {str(number) for number, one in enumerate(each) if one.get("numFmtId") in formats}
+
+
+def _show_cell(rows: list[list[object]], row: int, column: int) -> None:
+    if row < len(rows) and column < len(rows[row]) and isinstance(value := rows[row][column], (int, float)):
+        rows[row][column] = f"{100.0 * value:.15g} %"

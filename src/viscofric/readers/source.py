@@ -69,8 +69,8 @@ def _marked(data: bytes) -> bytes:
     return data
 
 
-COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*")
-_LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
+COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*%?\s*")
+_LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}\s*%?")
 #: Relative agreement of Hz and rad/s in one row, both printed with about two digits.
 PRINTED_FREQUENCY = 0.05
 

@@ -138,8 +138,11 @@ class Table:
                 code="mixed-decimals",
             )
         plain = text.replace(",", ".") if self.decimal_comma else text
+        factor = 1.0
+        if plain.endswith("%") and not column.base and column.unit.strip() in _FRACTIONS:
+            plain, factor = plain.removesuffix("%"), 0.01 / _FRACTIONS[column.unit.strip()]
         try:
-            value = column.base ** float(plain) if column.base else float(plain)
+            value = column.base ** float(plain) if column.base else factor * float(plain)
         except (ValueError, OverflowError):
             value = math.nan
         if not math.isfinite(value) or "_" in plain:

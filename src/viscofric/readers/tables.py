@@ -448,5 +448,5 @@ def numbered_rows(path: str, cells: Sequence[Sequence[float | str]]) -> list[Num
 def _text(cell: float | str, *, comma: bool) -> str:
     """Write a cell as a text table would, with the decimal mark of the sheet's other cells."""
     if isinstance(cell, str):
-        return cell
+        return cell.replace(".", ",") if comma and cell.endswith(" %") and is_number(cell) else cell
     return repr(float(cell)).removesuffix(".0").replace(".", "," if comma else ".")
