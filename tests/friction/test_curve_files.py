@@ -415,3 +415,16 @@ def test_unread_columns_of_curves_beside_each_other_are_noted(tmp_path: Path) ->
     assert curves.viscoelastic == pytest.approx([0.1, 0.15, 0.2, 0.25])
     (unused,) = (note for note in map(note_of, curves.notes) if note.code == "unused-columns")
     assert unused.values["headings"] == ["sd"]
+
+
+@pytest.mark.parametrize(("second", "holds"), [("20 N, 60 °C", True), ("40 N, 60 °C", False), ("0,02 kN; 60 °C", True)])
+def test_a_load_of_all_rows_is_refused_where_tables_state_several(tmp_path: Path, second: str, holds: bool) -> None:
+    path = tmp_path / "curves.csv"
+    table = "speed (m/s)\tmu\n0.01\t0.1\n0.1\t0.15"
+    path.write_text(f"20 N, 25 °C\n{table}\n\n{second}\n{table}\n", encoding="utf-8")
+    if holds:
+        assert vf.read_friction_curves(path, columns={"load": "= 20 N"}).load == pytest.approx([20.0] * 4)
+        return
+    with refused("several-tables") as caught:
+        vf.read_friction_curves(path, columns={"load": "= 20 N"})
+    assert "40 N" in str(caught.value)

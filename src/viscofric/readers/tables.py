@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from viscofric.errors import DataFileError, not_needed
+from viscofric.errors import DataFileError, InputError, not_needed
 from viscofric.notes import Note, Remedy
 from viscofric.readers.dma.names import (
     TITLES_STATE,
@@ -19,8 +19,16 @@ from viscofric.readers.dma.names import (
     temperature_of_title,
 )
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
-from viscofric.readers.headings import FREQUENCIES_OF_HEADINGS, Column, Vocabulary, heading, option_of, place_of
-from viscofric.readers.source import Source, decimal_comma, same_unit
+from viscofric.readers.headings import (
+    CONSTANT,
+    FREQUENCIES_OF_HEADINGS,
+    Column,
+    Vocabulary,
+    heading,
+    option_of,
+    place_of,
+)
+from viscofric.readers.source import Source, decimal_comma, same_unit, unit_conversion
 from viscofric.readers.table import MISSING, NumberedRow, Table, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
 
@@ -40,6 +48,9 @@ _BLANKS = "blanks"
 _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 
 
+#: A number with its unit in a title, and SI units of values that titles may state, besides temperatures.
+_STATED = re.compile(r"(?<![\w.,])(?P<number>\d+(?:[.,]\d+)?)\s?(?P<unit>[A-Za-zµμ]+(?:/[A-Za-zµμ]+)?)(?![\w/])")
+_IN_TITLES = ("N", "N/m", "m/s")
 #: Quantities that often have one value in all rows, which tables then lack.
 _FOR_ALL_ROWS = {"load": "20 N", "temperature": "25 degC"}
 #: A quoted cell that does not end with its line, and the most lines of one row.
@@ -181,12 +192,40 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     if block is None and words.several == "titled":
         table = _below_each_other(table)
     table, given = table.with_constants(), words.constants.get("temperature")
+    _insist_on_one_value(table)
     place = table.place("temperature") if given and table.rows else None
     if place is not None:
         factor, offset = table.conversion(table.columns[place], "K")
         if states_another(table, float(factor * table.numbers(place)[0] + offset)):
             raise table.refused("value-not-needed", f"{TITLES_STATE}; leave out {given!r}.")
     return table
+
+
+def _insist_on_one_value(table: Table) -> None:
+    """Refuse a value of all rows where the titles of several tables state several: ``20 N, 25 °C``, ``40 N, 60 °C``."""
+    for said in table.vocabulary.constants.values():
+        constant = CONSTANT.fullmatch(said)
+        unit = next((si for si in _IN_TITLES if constant and _si_value(constant, si) is not None), None)
+        if unit is None:
+            continue
+        each: dict[frozenset[float | None], str] = {}
+        for title in table.titles:
+            stated = {_si_value(one, unit): one[0] for one in _STATED.finditer(" ".join(title))}
+            if held := stated.keys() - {None}:
+                each.setdefault(frozenset(held), ", ".join(stated[one] for one in stated if one is not None))
+        if len(each) > 1:
+            shown = " and ".join(map(repr, each.values()))
+            problem = f"the lines above its tables state {shown}, so that {said!r} does not hold for all rows; give "
+            raise DataFileError(table.path, f"{problem}each table a file of its own.", code="several-tables")
+
+
+def _si_value(stated: re.Match[str], unit: str) -> float | None:
+    """Return a number with its unit in an SI unit, None if it is of another kind."""
+    try:
+        factor, offset = unit_conversion(stated["unit"], unit)
+        return float(f"{factor * float(stated['number'].replace(',', '.')) + offset:.9g}")
+    except (InputError, ValueError):
+        return None
 
 
 def _below_each_other(table: Table) -> Table:
