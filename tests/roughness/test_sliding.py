@@ -186,6 +186,7 @@ def test_what_cannot_be_predicted_is_refused_and_what_fails_is_named():
         ({"surfaces": []}, "surfaces"),
         ({"surfaces": [surface, 1.0]}, "surfaces"),
         ({"surfaces": vf.Topography(surface.heights, 1.0)}, "not-periodic"),
+        ({"surfaces": [surface, road(32, 1, waves=6), surface]}, "same-surface"),
         ({"speeds": []}, "speeds"),
         ({"pressure": -1.0}, "pressure"),
     ):

@@ -349,4 +349,9 @@ def _named(surfaces: object) -> list[tuple[str, PeriodicSurface]]:
             raise InputError(
                 f"surfaces: number {place} is {brief(one)}, not a Topography or PeriodicSurface.", code="wrong-type"
             )
+    for place, (name, one) in enumerate(found, 1):
+        for earlier, (_, other) in enumerate(found[: place - 1], 1):
+            if one.spacing == other.spacing and np.array_equal(one.z, other.z):
+                problem = f"surfaces: number {place} ({name!r}) has the heights of number {earlier}; give each surface "
+                raise InputError(f"{problem}once, since the interval counts them as independent.", code="same-surface")
     return found
