@@ -428,3 +428,18 @@ def test_a_load_of_all_rows_is_refused_where_tables_state_several(tmp_path: Path
     with refused("several-tables") as caught:
         vf.read_friction_curves(path, columns={"load": "= 20 N"})
     assert "40 N" in str(caught.value)
+
+
+@pytest.mark.parametrize("heading", ["mu_60C", "60 °C mu", "mu 60 °C", "mu (60 °C)", "mu 60 °C (%)"])
+def test_a_temperature_of_all_rows_is_not_that_of_another_heading(tmp_path: Path, heading: str) -> None:
+    path = tmp_path / "curves.csv"
+    rows = f"speed (m/s);{heading.replace('60', '25')};{heading}", "0.01;0.1;0.2", "0.1;0.15;0.25"
+    path.write_text("\n".join(rows), encoding="utf-8")
+    named = {"load": "= 20 N", "viscoelastic_friction": f"{heading} (-)"}
+    with refused("temperatures-contradict") as caught:
+        vf.read_friction_curves(path, columns={**named, "temperature": "= 25 degC"})
+    assert repr(heading) in str(caught.value)
+    assert vf.read_friction_curves(path, columns={**named, "temperature": "= 60 degC"}).viscoelastic.tolist() == [
+        0.2,
+        0.25,
+    ]

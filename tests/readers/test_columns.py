@@ -350,3 +350,13 @@ def test_blank_rows_may_outnumber_data(tmp_path):
     sweeps = read_dma(path)
     assert_is_the_table(sweeps)
     assert noted(sweeps.notes, "empty-rows", "40 rows")
+
+
+def test_a_named_heading_may_not_state_another_temperature_than_the_one_given(tmp_path):
+    rows = ["1,10,1,8,0.8", "2,11,1,9,0.9", "3,12,1,10,1"]
+    path = write(tmp_path, "f (Hz),E' 25 °C (MPa),E'' 25 °C (MPa),E' 60 °C (MPa),E'' 60 °C (MPa)", *rows)
+    named = {"storage_modulus": "E' 60 °C (MPa)", "loss_modulus": "E'' 60 °C (MPa)"}
+    with refused("temperatures-contradict"):
+        read_dma(path, columns=named, temperature="25 degC")
+    sweeps = read_dma(path, columns=named, temperature="60 degC")
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([8e6, 9e6, 10e6])

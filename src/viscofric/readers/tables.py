@@ -15,6 +15,7 @@ from viscofric.readers.dma.names import (
     TITLES_STATE,
     deformation_of,
     frequency_of_title,
+    insist_on_same_temperature,
     states_another,
     temperature_of_title,
 )
@@ -196,8 +197,10 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     place = table.place("temperature") if given and table.rows else None
     if place is not None:
         factor, offset = table.conversion(table.columns[place], "K")
-        if states_another(table, float(factor * table.numbers(place)[0] + offset)):
+        kelvin = float(factor * table.numbers(place)[0] + offset)
+        if states_another(table, kelvin):
             raise table.refused("value-not-needed", f"{TITLES_STATE}; leave out {given!r}.")
+        insist_on_same_temperature(table, kelvin, repr(given))
     return table
 
 

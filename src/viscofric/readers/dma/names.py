@@ -215,6 +215,15 @@ def states_another(table: Table, given: float | None) -> bool:
     return given is not None and any(kelvin and abs(kelvin - given) > _SAME_TEMPERATURE for kelvin in found)
 
 
+def insist_on_same_temperature(table: Table, given: float, said: str) -> None:
+    """Refuse a column that the user names though its heading states another temperature (K) than a given one."""
+    for one in table.columns:
+        kelvin = temperature_in_name(one.heading) if one.given and one.quantity else None
+        if kelvin and abs(kelvin - given) > _SAME_TEMPERATURE:
+            problem = f"column {one.heading!r} states another temperature than {said}; correct one of them."
+            raise table.refused("temperatures-contradict", problem)
+
+
 #: What a table says whose temperature is not to be given.
 TITLES_STATE = "the headings, or the lines above its tables, state the temperatures"
 
@@ -223,6 +232,8 @@ def temperatures_of_titles(table: Table, source: Source | None = None) -> Array 
     """Return the temperature of each row, K, by the headings or lines above tables; None if one of them gives none."""
     if states_another(table, None if source is None else source.temperature):
         raise not_needed(table.path, "temperature", "temperature-not-needed", TITLES_STATE, " for this file")
+    if source is not None and source.temperature is not None:
+        insist_on_same_temperature(table, source.temperature, "the one given for this file")
     found = [temperature_of_title(title) for title in table.titles]
     if table.block is None or None in found:
         return None
