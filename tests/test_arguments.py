@@ -213,7 +213,7 @@ def rough_contact():
 
 @functools.cache
 def rough_friction():
-    return vf.predict_rough_friction(rubber(), [road(), road()], speeds=0.1, pressure=5e3)
+    return vf.predict_rough_friction(rubber(), [road(), made(seed=2)], speeds=0.1, pressure=5e3)
 
 
 @functools.cache

@@ -117,6 +117,12 @@ def test_summaries_below_measurements_are_refused(tmp_path, label):
         read_dma(write(tmp_path, f"{HEADER};", "20;0.1;5;0.5;A", f"20;0.1;5;0.5;{label}"))
 
 
+def test_of_means_and_their_scatter_the_scatter_is_refused(tmp_path):
+    heading = "row;speed (mm/s);temperature (degC);load (N);viscoelastic friction"
+    with refused("summary-row", 3, "'Std'"):
+        read_friction_curves(write(tmp_path, heading, "Mean;20;30;25;0.02", "Std;20;30;25;0.001"))
+
+
 def test_rows_that_are_all_means_are_measurements(tmp_path):
     heading = "row;speed (mm/s);temperature (degC);load (N);viscoelastic friction"
     curves = read_friction_curves(write(tmp_path, heading, "mean;20;30;25;0.02", "Mean;40;30;25;0.0175"))

@@ -306,7 +306,9 @@ def _insist_on_no_summaries(table: Table) -> None:
         labels = [re.sub(r"\([^)]*\)|[.:]+$", "", row[place].strip().lower()).strip() for row in table.rows]
         found = [_OF_SUMMARIES.fullmatch(label) for label in labels]
         kinds = {match["mean"] is None if match else label for match, label in zip(found, labels, strict=True)}
-        row = next((row for row, match in enumerate(found) if match), None)
+        # Where all rows are summaries, the means are the measurements.
+        rows = [row for row, match in enumerate(found) if match and (not all(found) or not match["mean"])]
+        row = rows[0] if rows else None
         if row is not None and len(kinds) > 1:
             said = f"{table.rows[row][place].strip()!r} in column {column.heading!r} marks a summary of other rows"
             problem = f"{said}, which would count as a measurement; remove such rows."
