@@ -610,3 +610,17 @@ def test_coarser_surfaces_keep_the_waves_that_they_can_hold() -> None:
     np.testing.assert_allclose(third.z, long[::3, ::3], rtol=0.0, atol=1e-14)
     assert half.spacing == (1.0, 1.0)
     assert third.spacing == (1.5, 1.5)
+
+
+@pytest.mark.parametrize(("points", "pressure"), [((16, 8), 4e4), ((24, 24), 2e2)])
+def test_few_points_in_contact_take_few_products(points: tuple[int, int], pressure: float) -> None:
+    """Changes that are kept do not fit a set of other points; what is known of them is forgotten then."""
+    rng, products = np.random.default_rng(5871), []
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    for _ in range(10):
+        heights = rng.standard_normal(points)
+        surface = vf.contact.PeriodicSurface(1e-6 * heights / heights.std(), spacing=1e-6)
+        found = vf.solve_periodic(rubber, surface, speed=0.01, pressure=pressure)
+        assert (found.pressure > 0.0).sum() < 20
+        products.append(found.diagnostics.products)
+    assert max(products) < 50

@@ -532,6 +532,12 @@ def test_a_line_above_each_table_gives_its_temperature(tmp_path, titles, extra):
         read_dma(write(tmp_path, *(line.replace(titles[1].format("30"), "Sweep 2") for line in lines)))
 
 
+def test_words_above_one_table_are_not_its_temperature(tmp_path):
+    lines = ["NBR 70, conditioned at 23 °C", "f (Hz);E' (MPa);E'' (MPa)", "0,1;5;0,5", "1;6;0,6"]
+    sweeps = read_dma(write(tmp_path, *lines), temperature="30 degC")
+    assert sweeps.temperatures - 273.15 == pytest.approx([30.0])
+
+
 @pytest.mark.parametrize(
     ("titles", "joined"),
     [

@@ -43,6 +43,8 @@ _LITTLE = 0.1
 _NOTHING_NEW = 1e-4
 # Part of a gap from which on rounding errors in single precision matter to it.
 _MUCH_LESS = 1e-3
+# Part of the least residual so far below which there is headway.
+_HEADWAY = 0.99
 # Least length of a correction where many spots are solved, of that by the preconditioner.
 _SHORTEST = 0.3
 _DIRECTIONS = 40  # search directions that GCR keeps
@@ -100,6 +102,7 @@ def solve_complementarity(
     inner: ContactOperator | None = None,
     patience: int | None = None,
     tighten: Literal["without headway", "near the end"] = "without headway",
+    directions: int = _DIRECTIONS,
     extension: Extension | None = None,
     doubt: float = 0.0,
 ) -> ComplementaritySolution:
@@ -130,6 +133,8 @@ def solve_complementarity(
         Looks at the contact set without a smaller residual after which the solver gives up.
     tighten : {"without headway", "near the end"}
         When linear problems are solved more tightly; see above.
+    directions : int
+        Search directions that are kept while a linear problem is solved: two numbers each for every cell in contact.
     extension : Extension, optional
         Of residuals beyond the contact before they are preconditioned; zeros by default.
     doubt : float
@@ -181,7 +186,7 @@ def solve_complementarity(
         unit = abs(state_now.indentation) if depth is None else depth
         gap = contact.gathered(gap)  # the rest of it is not needed, and large
         correction, steps, linear = solve_on_contact(
-            inner, gap, contact, reduction=reduction, floor=0.5 * tolerance * unit, directions=_DIRECTIONS,
+            inner, gap, contact, reduction=reduction, floor=0.5 * tolerance * unit, directions=directions,
             fixed_load=load is not None, extension=extension,
         )  # fmt: skip
         linear_iterations += steps
@@ -248,9 +253,9 @@ def solve_many_spots(
             gap, confirmed = _gap(backend, operator(pressure), height), True
             continue
         reference = reference or now
-        since_best += 1
+        since_best = 0 if now < _HEADWAY * best else since_best + 1
         if now < best:
-            best, best_contact, best_values, since_best = now, contact, values, 0
+            best, best_contact, best_values = now, contact, values
         products = sum(one.products for one in used) - start
         if now <= tolerance or products >= most_products or since_best >= patience or not math.isfinite(now):
             break
@@ -350,9 +355,9 @@ class KnownChanges:
         xp = self.backend.xp
         places = xp.clip(xp.searchsorted(old.indices, new.indices), max=len(old) - 1)
         same = xp.astype(xp.take(old.indices, places) == new.indices, change.dtype)
-        self.changes, self.images = (
-            [same * xp.take(one, places) for one in kind] for kind in (self.changes, self.images)
-        )
+        for kind in (self.changes, self.images):
+            for number, one in enumerate(kind):  # one by one, so that few are there twice
+                kind[number] = same * xp.take(one, places)
         return same * xp.take(change, places)
 
     def add(self, change: AnyArray, image: AnyArray) -> float:
@@ -373,6 +378,8 @@ class KnownChanges:
             if length > _LITTLE * whole:
                 break
         if length <= _NOTHING_NEW * first:
+            # Images no longer belong to their changes where cells have left the contact: all are forgotten.
+            self.changes, self.images = [], []
             return 0.0
         image /= length
         change /= length

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 _PATIENCE = 3  # looks at the contact set without a smaller residual before another method takes over
 _FEW_DIRECTIONS = (6, 12)  # changes that are kept, for elastic and viscoelastic solids; enough for most contacts
 _MANY_DIRECTIONS = 40
+# Part of the area in contact up to which the set is chosen anew at every step: the changes that are kept take memory on
+# the contact.
+_SPARSE = 0.25
 _FEW_PRODUCTS = 120  # of the active set: what it cannot solve with these is left to the splitting
 # Residual, in rms heights, from which on the active set continues for as long as it halves it: its set is nearly right.
 _NEARLY = 1e-5
@@ -101,9 +104,12 @@ class OneGrid:
         kind = 0 if self.elastic else 1
         pressure = self._split(self.single, pressure, _FIRST_STEPS, self.quick_rho, displacement)
         del displacement
-        start, result = pressure, self._many_spots(pressure, _FEW_DIRECTIONS[kind])
-        if not result.converged and self.products < self.most_products:
-            result = self._active_set(result.pressure, 2 * _PATIENCE, _FEW_PRODUCTS)
+        start, result, few = pressure, None, _FEW_DIRECTIONS[kind]
+        if self._loaded(pressure) <= _SPARSE * self.cells:
+            result = self._many_spots(pressure, few)
+        if result is None or (not result.converged and self.products < self.most_products):
+            found = pressure if result is None else result.pressure
+            result = self._active_set(found, 2 * _PATIENCE, _FEW_PRODUCTS, few)
         steps, turn = _MORE_STEPS, 0
         while not result.converged and self.products < self.most_products:
             if turn == _TURNS and not self.elastic:
@@ -117,7 +123,7 @@ class OneGrid:
             start = self._split(self.exact, start, allowed, self.rho(_ALL_WAVES[turn % 2]), accelerated=True)
             result = self._many_spots(start, _MANY_DIRECTIONS)
             if not result.converged and self.products < self.most_products:
-                result = self._active_set(start, _PATIENCE, allowed // 4)
+                result = self._active_set(start, _PATIENCE, allowed // 4, _MANY_DIRECTIONS)
             steps = int(_GROWTH * steps)
         return result
 
@@ -140,17 +146,17 @@ class OneGrid:
         """Products with the transfer function so far."""
         return self.exact.products + self.single.products
 
-    def _active_set(self, pressure: AnyArray, patience: int, most: int) -> ComplementaritySolution:
-        result = self._few_sets(pressure, patience, most)
+    def _active_set(self, pressure: AnyArray, patience: int, most: int, directions: int) -> ComplementaritySolution:
+        result = self._few_sets(pressure, patience, most, directions)
         residual = math.inf
         while not result.converged and result.complementarity < min(_NEARLY, 0.5 * residual):
             if self.products >= self.most_products:
                 break
             residual = result.complementarity
-            result = self._few_sets(result.pressure, patience, most)
+            result = self._few_sets(result.pressure, patience, most, directions)
         return result
 
-    def _few_sets(self, pressure: AnyArray, patience: int, most: int) -> ComplementaritySolution:
+    def _few_sets(self, pressure: AnyArray, patience: int, most: int, directions: int) -> ComplementaritySolution:
         result = solve_complementarity(
             self.exact,
             self.height,
@@ -163,6 +169,7 @@ class OneGrid:
             inner=self.single,
             patience=patience,
             tighten="near the end",
+            directions=directions,
             extension=self.extension,
             doubt=_DOUBT[0 if self.elastic else 1],
         )
@@ -176,7 +183,7 @@ class OneGrid:
             pressure,
             indentation=self.indentation,
             tolerance=self.tolerance,
-            most_products=self.most_products,
+            most_products=self.most_products - self.products,
             inner=self.single,
             patience=_PATIENCE,
             directions=directions,

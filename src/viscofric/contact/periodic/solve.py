@@ -60,7 +60,7 @@ _UNSURE_AT_EDGES = 0.25
 _FADING = 0.5**1.5
 #: Bytes of memory for each point while an elastic and a viscoelastic contact is solved with up to a fifth of the area
 #: in contact: those of the arrays and of the surface, and what the allocator keeps.  In full contact up to 30 more.
-BYTES_PER_POINT = (100, 120)
+BYTES_PER_POINT = (105, 120)
 
 
 @one_blas_thread

@@ -211,8 +211,11 @@ FROM_TITLES = Note(
 
 def states_another(table: Table, given: float | None) -> bool:
     """Return whether a heading, or a line above a table, states another temperature (K) than a given one."""
+    # Words above a single table, such as those of a conditioning, are not read as its temperature.
+    if table.block is None or given is None:
+        return False
     found = [temperature_of_title(title) for title in table.titles]
-    return given is not None and any(kelvin and abs(kelvin - given) > _SAME_TEMPERATURE for kelvin in found)
+    return any(kelvin and abs(kelvin - given) > _SAME_TEMPERATURE for kelvin in found)
 
 
 def insist_on_same_temperature(table: Table, given: float, said: str) -> None:
