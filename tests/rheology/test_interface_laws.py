@@ -151,3 +151,19 @@ def test_extrapolation_and_unknown_errors_are_known():
     found = law.to_dataset(temperatures=[300.0, 310.0])["shear_stress"]
     assert found.dims == ("temperature", "speed")
     assert found.attrs["units"] == "Pa"
+
+
+def test_levels_of_temperatures_whiten_with_the_covariance_factored_once(monkeypatch):
+    """W C Wᵀ = 1 and ln det C, of the whole covariance."""
+    random = np.random.default_rng(0)
+    speed, kelvin = np.tile(np.linspace(-4.0, -1.0, 6), 4), np.repeat([303.15, 313.15, 323.15, 333.15], 6)
+    mixed = 0.01 * random.standard_normal((24, 24))
+    covariance = mixed @ mixed.T + 1e-4 * np.eye(24)
+    table = StressTable.of(speed, kelvin, 5.5 + 0.1 * random.standard_normal(24), covariance)
+    monkeypatch.setattr(np.linalg, "eigh", None)
+    for level, scatter in ((0.0, 0.02), (0.1, 0.0), (0.3, 0.05)):
+        whiten = table.levelled(level).whitening(scatter**2)
+        whole = covariance + scatter**2 * np.eye(24) + level**2 * (kelvin[:, None] == kelvin)
+        np.testing.assert_allclose(whiten(whiten(whole).T), np.eye(24), atol=1e-9)
+        assert whiten.log_det == pytest.approx(np.linalg.slogdet(whole)[1], abs=1e-6)
+    compare_stress_laws(table, None, 313.15, True)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -23,10 +24,12 @@ from viscofric.rheology.shifts.law_fitting import (
     SMALLEST_ERROR,
     Solution,
     Table,
+    Whitening,
     criterion_of,
     least_squares,
+    linear,
+    plausible,
     solved,
-    with_misfit,
 )
 from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
@@ -48,6 +51,9 @@ _ALIKE = 0.05  # decades
 #: twenty tests without any, one has it.
 _LEVELS = (1e-3, 1.0)
 _SEEN = 1.35
+#: Levels are sought to this part of them, by laws made linear about the constants found, so many times at most.
+_ALIKE_LEVELS = 0.1
+_ROUNDS = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,18 +62,32 @@ class StressTable(Table):
 
     speed: Array  # (n,), log10 of m/s
     kelvin: Array  # (n,)
-    covariance: Array  # (n, n)
+    level: float = 0.0  # error that all values of a temperature share, beyond the covariance, decades
 
     @classmethod
     def of(cls, speed: Array, kelvin: Array, values: Array, covariance: Array) -> StressTable:
         """Prepare values (n,) with their covariance (n, n)."""
         variance, axes = np.linalg.eigh(covariance)
-        return cls(values, axes.T, np.maximum(variance, 0.0) + SMALLEST_ERROR**2, 0.0, speed, kelvin, covariance)
+        return cls(values, axes.T, np.maximum(variance, 0.0) + SMALLEST_ERROR**2, 0.0, speed, kelvin)
+
+    @cached_property
+    def together(self) -> Array:
+        """What an error of each of k temperatures gives to the combinations, (n, k)."""
+        return np.asarray(self.turn @ (self.kelvin[:, None] == np.unique(self.kelvin)))
 
     def levelled(self, level: float) -> StressTable:
         """Return the table with a further error (decades) that all values of a temperature share."""
-        together = self.kelvin[:, None] == self.kelvin
-        return self.of(self.speed, self.kelvin, self.values, self.covariance + level**2 * together)
+        other = replace(self, level=level)
+        other.__dict__["together"] = self.together  # of the same values
+        return other
+
+    def whitening(self, scatter: float) -> Whitening:
+        """Include the levels of temperatures: an addition of as many dimensions as there are temperatures."""
+        own = super().whitening(scatter)
+        if self.level == 0.0:
+            return own
+        axes, sizes, _ = np.linalg.svd(own.of_turned(self.level * self.together), full_matrices=False)
+        return replace(own, axes=axes, sizes=sizes)
 
 
 class _Family:
@@ -241,22 +261,57 @@ def _level(family: _Family, table: StressTable, first: Array, chi2: float) -> tu
     if freedom < 1 or chi2 <= len(table) - family.size:
         return 0.0, 1.0
 
-    def likelihood(level: float) -> float:
-        """Return ln of the restricted likelihood."""
-        levelled = table.levelled(level)
-        found, scatter = with_misfit(family, levelled, least_squares(family, levelled, first, 0.0))
-        spread = float(np.linalg.slogdet(found.covariance)[1])
-        return 0.5 * (spread - found.chi2 - float(np.sum(np.log(levelled.variance + scatter**2))))
-
-    found = minimize_scalar(
-        lambda log: -likelihood(float(np.exp(log))),
-        bounds=(float(np.log(_LEVELS[0])), float(np.log(_LEVELS[1]))),
-        method="bounded",
-        options={"xatol": 0.1},
-    )
-    if -found.fun < likelihood(0.0) + _SEEN:
+    bound = np.log(_LEVELS)
+    about = _About.of(family, table, first)
+    without, level = about.likelihood(0.0)[0], 0.0
+    for _ in range(_ROUNDS):
+        found = minimize_scalar(
+            lambda log, about=about: -about.likelihood(float(np.exp(log)))[0],
+            bounds=(float(bound[0]), float(bound[1])),
+            method="bounded",
+            options={"xatol": _ALIKE_LEVELS},
+        )
+        last, level = level, float(np.exp(found.x))
+        if not family.positive or abs(level - last) <= 2.0 * _ALIKE_LEVELS * level:
+            break
+        # Not linear: the same about the constants with that level.
+        scatter = about.likelihood(level)[1]
+        about = _About.of(family, table, least_squares(family, table.levelled(level), first, scatter**2).parameters)
+    if about.likelihood(level)[0] < without + _SEEN:
         return 0.0, 1.0
-    return float(np.exp(found.x)), float(stdtrit(freedom, 0.975)) / LEVEL_95
+    return level, float(stdtrit(freedom, 0.975)) / LEVEL_95
+
+
+class _About(NamedTuple):
+    """A law made linear at some constants: combinations of its slopes by them, and of its misfit."""
+
+    table: StressTable
+    slopes: Array
+    misfit: Array
+
+    @classmethod
+    def of(cls, family: _Family, table: StressTable, parameters: Array) -> _About:
+        """Make a law linear at its constants, by their logarithms if these are sought."""
+        slopes, misfit = family.gradient(parameters), table.values
+        if family.positive:
+            slopes = slopes * parameters
+            misfit = misfit - family.values(parameters)
+        return cls(table, table.turn @ slopes, table.turn @ misfit)
+
+    def likelihood(self, level: float) -> tuple[float, float]:
+        """Return ln of the restricted likelihood, and the scatter (decades), with a level of temperatures."""
+        levelled = self.table.levelled(level)
+        freedom = len(self.misfit) - self.slopes.shape[1]
+
+        def fit(_: Solution | None, scatter: float) -> Solution:
+            whiten = levelled.whitening(scatter)
+            return linear(whiten.of_turned(self.slopes), whiten.of_turned(self.misfit))
+
+        found, scatter = fit(None, 0.0), 0.0
+        if found.chi2 > freedom:
+            found, scatter = plausible(fit, found, freedom)
+        spread = float(np.linalg.slogdet(found.covariance)[1])
+        return 0.5 * (spread - found.chi2 - levelled.whitening(scatter**2).log_det), scatter
 
 
 def _wider(found: Solution, scatter: float, freedom: int) -> Array:

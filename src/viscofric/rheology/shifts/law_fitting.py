@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -54,6 +55,37 @@ class Model(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
+class Whitening:
+    """From values (n,), or columns (n, k), to m combinations of variance one.
+
+    Beyond their own errors, the combinations may share `axes` (m, k), orthonormal, with errors of these sizes (k,).
+    """
+
+    turn: Array
+    error: Array
+    axes: Array | None = None
+    sizes: Array | None = None
+
+    def __call__(self, values: Array) -> Array:
+        """Return the combinations (m,), or (m, k)."""
+        return self.of_turned(self.turn @ values)
+
+    def of_turned(self, turned: Array) -> Array:
+        """Return the combinations of values that are turned already."""
+        own = (turned.T / self.error).T
+        if self.axes is None or self.sizes is None:
+            return np.asarray(own)
+        less = 1.0 - 1.0 / np.sqrt(1.0 + self.sizes**2)
+        return np.asarray(own - (self.axes * less) @ (self.axes.T @ own))
+
+    @property
+    def log_det(self) -> float:
+        """Return ln det of the covariance that becomes the identity, without the part of `turn`."""
+        shared = 0.0 if self.sizes is None else float(np.sum(np.log1p(self.sizes**2)))
+        return 2.0 * float(np.sum(np.log(self.error))) + shared
+
+
+@dataclass(frozen=True, eq=False)
 class Table:
     """Values (n,) to be fitted, and m combinations of them that scatter independently."""
 
@@ -65,9 +97,9 @@ class Table:
     def __len__(self) -> int:
         return len(self.variance)
 
-    def whitening(self, scatter: float) -> Array:
-        """Return the matrix from values to combinations of variance one, with independent scatter² in every value."""
-        return np.asarray(self.turn / np.sqrt(self.variance + scatter)[:, None])
+    def whitening(self, scatter: float) -> Whitening:
+        """Return what makes combinations of variance one, with independent scatter² in every value."""
+        return Whitening(self.turn, np.sqrt(self.variance + scatter))
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,7 +201,8 @@ def criterion_of(family: Model, table: Table, parameters: Array) -> float:
 def _log_density(family: Model, table: Table, start: Array, scatter: float) -> float:
     """Return the largest ln L over the constants, with a scatter of this variance in every value."""
     chi2 = least_squares(family, table, start, scatter).chi2
-    return -0.5 * (chi2 + float(np.sum(np.log(2.0 * np.pi * (table.variance + scatter)))) + table.log_volume)
+    log_det = table.whitening(scatter).log_det + len(table) * float(np.log(2.0 * np.pi))
+    return -0.5 * (chi2 + log_det + table.log_volume)
 
 
 def _not_described(table: FactorTable, kind: str) -> InputError:
@@ -189,11 +222,19 @@ def with_misfit(family: Model, table: Table, bare: Solution) -> tuple[Solution, 
     freedom = len(table) - family.size
     if freedom == 0 or bare.chi2 <= freedom:
         return bare, 0.0
+    return plausible(lambda last, scatter: least_squares(family, table, last.parameters, scatter), bare, freedom)
+
+
+def plausible(fit: Callable[[Solution, float], Solution], bare: Solution, freedom: int) -> tuple[Solution, float]:
+    """Return the fit whose scatter brings χ² to the degrees of freedom, and that scatter.
+
+    `fit` takes the fit before it, and the square of the scatter.
+    """
     found = bare
     low, high = 2 * np.log(SMALLEST_ERROR), 2 * np.log(LARGEST_SCATTER)
     for _ in range(40):
         middle = 0.5 * (low + high)
-        found = least_squares(family, table, found.parameters, float(np.exp(middle)))
+        found = fit(found, float(np.exp(middle)))
         low, high = (middle, high) if found.chi2 > freedom else (low, middle)
         if high - low < 1e-2:
             break
@@ -204,11 +245,11 @@ def least_squares(family: Model, table: Table, start: Array, scatter: float) -> 
     """Minimise the whitened misfit over the constants."""
     whiten = table.whitening(scatter)
     if not family.positive:
-        return _linear(whiten @ family.gradient(start), whiten @ table.values)
-    return _positive(family, whiten, whiten @ table.values, start)
+        return linear(whiten(family.gradient(start)), whiten(table.values))
+    return _positive(family, whiten, whiten(table.values), start)
 
 
-def _linear(matrix: Array, target: Array) -> Solution:
+def linear(matrix: Array, target: Array) -> Solution:
     """Minimise |matrix p − target|², columns brought to one size first."""
     size = np.linalg.norm(matrix, axis=0)
     left, upper = np.linalg.qr(matrix / size)
@@ -218,18 +259,18 @@ def _linear(matrix: Array, target: Array) -> Solution:
     return Solution(parameters, inverse @ inverse.T, float(misfit @ misfit))
 
 
-def _positive(family: Model, whiten: Array, target: Array, start: Array) -> Solution:
+def _positive(family: Model, whiten: Whitening, target: Array, start: Array) -> Solution:
     """Minimise in the logarithms of the constants, which keeps them positive."""
 
     def misfit(logarithm: Array) -> Array:
         try:
-            return np.asarray(target - whiten @ family.values(np.exp(logarithm)))
+            return np.asarray(target - whiten(family.values(np.exp(logarithm))))
         except InputError:  # beyond the law's pole: the step is rejected
             return np.full(len(target), np.inf)
 
     def normal(logarithm: Array, now: Array) -> tuple[Array, Array]:
         parameters = np.exp(logarithm)
-        jacobian = whiten @ (family.gradient(parameters) * parameters)
+        jacobian = whiten(family.gradient(parameters) * parameters)
         return jacobian.T @ jacobian, jacobian.T @ now
 
     point = descend(misfit, normal, np.log(start), iterations=ITERATIONS, tolerance=CONVERGED)
