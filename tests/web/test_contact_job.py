@@ -138,7 +138,8 @@ def test_rough_surface_is_answered_by_a_coarser_likeness_first(desk: Desk) -> No
     ).to_surface()
     solved = vf.solve_periodic(rubber(), surface, speed=0.1, pressure=5e5, temperature=303.15, tolerance=1e-5)
     assert value(sharp, "friction_coefficient") == pytest.approx(solved.friction_coefficient, rel=ROUNDING)
-    assert value(sharp, "contact_area_fraction") == pytest.approx(solved.contact_area_fraction, rel=ROUNDING)
+    # To this tolerance the last bits of the pressure decide on single points.
+    assert value(sharp, "contact_area_fraction") == pytest.approx(solved.contact_area_fraction, abs=4.0 / 256**2)
     # Two points in the shortest wave are few, but tell what sort of friction it is.
     assert value(coarse, "friction_coefficient") == pytest.approx(solved.friction_coefficient, rel=0.2)
     for answer in (coarse, sharp):
