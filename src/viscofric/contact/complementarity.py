@@ -233,9 +233,11 @@ def solve_many_spots(
     `doubt`: overlap below so many root mean square gaps under pressure does not make contact yet, since pressures are
     not known better.
     """
-    used = (operator,) if inner is operator else (operator, inner)
-    start = sum(one.products for one in used)
-    backend = operator.backend
+    start, inner_start, backend = operator.products, inner.products, operator.backend
+
+    def spent() -> int:
+        return operator.products - start + (0 if inner is operator else inner.products - inner_start)
+
     xp, height = backend.xp, backend.asarray(height)
     pressure = _loaded_to(backend, backend.positive_part(xp.asarray(backend.asarray(guess), copy=True)), load)
     contact = backend.cells(pressure > 0.0)
@@ -256,8 +258,7 @@ def solve_many_spots(
         since_best = 0 if now < _HEADWAY * best else since_best + 1
         if now < best:
             best, best_contact, best_values = now, contact, values
-        products = sum(one.products for one in used) - start
-        if now <= tolerance or products >= most_products or since_best >= patience or not math.isfinite(now):
+        if now <= tolerance or spent() >= most_products or since_best >= patience or not math.isfinite(now):
             break
         former, cells = contact, backend.cells(chosen)
         if extended is None or len(cells) != len(former) or not bool(xp.all(cells.indices == former.indices)):
@@ -269,7 +270,7 @@ def solve_many_spots(
         residual = xp.astype(level - contact.gathered(gap), inner.dtype)
         combined, residual, missing = known.remove(_levelled(backend, residual, load))
         if fresh > 0.0:
-            # The last correction would have been best so much longer; half of that is believed.
+            # The best length of the last correction is known now; the next one goes half of the way to it.
             length = min(1.0, max(_SHORTEST, length * (1.0 + 0.5 * missing / fresh)))
         correction = length * collected(inner.precondition(extended(residual)))
         old = contact.gathered(pressure)
@@ -308,7 +309,7 @@ def solve_many_spots(
         load=0.0 if load is None else abs(float(backend.total(pressure)) / load - 1.0),
         set_changes=steps + 1,
         linear_iterations=steps,
-        products=sum(one.products for one in used) - start,
+        products=spent(),
     )
 
 

@@ -1,4 +1,6 @@
-"""The periodic contact on one grid: some splitting, then the active set; where that fails, slower and robust methods.
+"""The periodic contact on one grid: some splitting, then a contact set chosen anew at every step, or the active set.
+
+Where these fail, slower and robust methods follow.
 
 Everything here is dimensionless: depths in rms heights of the surface, compliances relative to the largest.
 """
@@ -162,16 +164,12 @@ class OneGrid:
             self.height,
             self.load,
             pressure,
-            indentation=self.indentation,
-            tolerance=self.tolerance,
             most_products=max(min(most, self.most_products - self.products), 1),
             depth=1.0,
-            inner=self.single,
             patience=patience,
             tighten="near the end",
             directions=directions,
-            extension=self.extension,
-            doubt=_DOUBT[0 if self.elastic else 1],
+            **self._asked,
         )
         return self._counted(result)
 
@@ -181,16 +179,23 @@ class OneGrid:
             self.height,
             self.load,
             pressure,
-            indentation=self.indentation,
-            tolerance=self.tolerance,
             most_products=self.most_products - self.products,
-            inner=self.single,
             patience=_PATIENCE,
             directions=directions,
-            extension=self.extension,
-            doubt=_DOUBT[0 if self.elastic else 1],
+            **self._asked,
         )
         return self._counted(result)
+
+    @property
+    def _asked(self) -> dict[str, Any]:
+        """What both methods that choose a contact set are asked."""
+        return {
+            "indentation": self.indentation,
+            "tolerance": self.tolerance,
+            "inner": self.single,
+            "extension": self.extension,
+            "doubt": _DOUBT[0 if self.elastic else 1],
+        }
 
     def _tight_active_set(
         self, operator: PeriodicOperator, pressure: AnyArray, tolerance: float | None, most: int
