@@ -81,9 +81,9 @@ class StressTable(Table):
         other.__dict__["together"] = self.together  # of the same values
         return other
 
-    def whitening(self, scatter: float) -> Whitening:
+    def whitening(self, added: float) -> Whitening:
         """Include the levels of temperatures: an addition of as many dimensions as there are temperatures."""
-        own = super().whitening(scatter)
+        own = super().whitening(added)
         if self.level == 0.0:
             return own
         axes, sizes, _ = np.linalg.svd(own.of_turned(self.level * self.together), full_matrices=False)
@@ -303,8 +303,8 @@ class _About(NamedTuple):
         levelled = self.table.levelled(level)
         freedom = len(self.misfit) - self.slopes.shape[1]
 
-        def fit(_: Solution | None, scatter: float) -> Solution:
-            whiten = levelled.whitening(scatter)
+        def fit(_: Solution | None, added: float) -> Solution:
+            whiten = levelled.whitening(added)
             return linear(whiten.of_turned(self.slopes), whiten.of_turned(self.misfit))
 
         found, scatter = fit(None, 0.0), 0.0

@@ -97,9 +97,9 @@ class Table:
     def __len__(self) -> int:
         return len(self.variance)
 
-    def whitening(self, scatter: float) -> Whitening:
-        """Return what makes combinations of variance one, with independent scatter² in every value."""
-        return Whitening(self.turn, np.sqrt(self.variance + scatter))
+    def whitening(self, added: float) -> Whitening:
+        """Return what makes combinations of variance one, with an independent variance added to every value."""
+        return Whitening(self.turn, np.sqrt(self.variance + added))
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,10 +198,10 @@ def criterion_of(family: Model, table: Table, parameters: Array) -> float:
     return -2.0 * (most + float(np.log(mean))) + 2.0 * (family.size + family.surcharge)
 
 
-def _log_density(family: Model, table: Table, start: Array, scatter: float) -> float:
-    """Return the largest ln L over the constants, with a scatter of this variance in every value."""
-    chi2 = least_squares(family, table, start, scatter).chi2
-    log_det = table.whitening(scatter).log_det + len(table) * float(np.log(2.0 * np.pi))
+def _log_density(family: Model, table: Table, start: Array, added: float) -> float:
+    """Return the largest ln L over the constants, with a variance added to every value."""
+    chi2 = least_squares(family, table, start, added).chi2
+    log_det = table.whitening(added).log_det + len(table) * float(np.log(2.0 * np.pi))
     return -0.5 * (chi2 + log_det + table.log_volume)
 
 
@@ -222,7 +222,7 @@ def with_misfit(family: Model, table: Table, bare: Solution) -> tuple[Solution, 
     freedom = len(table) - family.size
     if freedom == 0 or bare.chi2 <= freedom:
         return bare, 0.0
-    return plausible(lambda last, scatter: least_squares(family, table, last.parameters, scatter), bare, freedom)
+    return plausible(lambda last, added: least_squares(family, table, last.parameters, added), bare, freedom)
 
 
 def plausible(fit: Callable[[Solution, float], Solution], bare: Solution, freedom: int) -> tuple[Solution, float]:
@@ -241,9 +241,9 @@ def plausible(fit: Callable[[Solution, float], Solution], bare: Solution, freedo
     return found, float(np.exp(0.25 * (low + high)))
 
 
-def least_squares(family: Model, table: Table, start: Array, scatter: float) -> Solution:
-    """Minimise the whitened misfit over the constants."""
-    whiten = table.whitening(scatter)
+def least_squares(family: Model, table: Table, start: Array, added: float) -> Solution:
+    """Minimise the whitened misfit over the constants; a variance is added to every value."""
+    whiten = table.whitening(added)
     if not family.positive:
         return linear(whiten(family.gradient(start)), whiten(table.values))
     return _positive(family, whiten, whiten(table.values), start)
