@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,10 +28,11 @@ from viscofric.motion.cycle_numbers import Found, Period
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.history import History
 from viscofric.motion.march import INSTANT, march
+from viscofric.motion.mover import Mover
 from viscofric.motion.schedule import Schedule
 from viscofric.motion.shear import shear_notes
 from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
-from viscofric.motion.watch import RepeatingMover, Watch, Watched
+from viscofric.motion.watch import Watch, Watched
 from viscofric.rheology.material import Material
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantities, Quantity, number
@@ -132,8 +133,7 @@ def solve_cycle(
         track, doubts, _ = solve_free(problem, asked, None, search.follow)
         notes = (*notes, *doubts)
     else:
-        repeating = cast("RepeatingMover[Any]", mover)
-        track = search.follow(repeating, problem.schedule, accuracy=accuracy, times=asked)
+        track = search.follow(mover, problem.schedule, accuracy=accuracy, times=asked)
     assert search.whole is not None
     assert search.found is not None
     # On cells, the track has the errors by the cells, which the whole period of one grid has not.
@@ -159,7 +159,7 @@ class _Search:
 
     def follow(
         self,
-        repeating: RepeatingMover[Any],
+        repeating: Mover[Any],
         schedule: Schedule,
         *,
         accuracy: float,
@@ -168,7 +168,7 @@ class _Search:
         progress: None = None,
     ) -> Track[Watched]:
         """Return one period in the periodic state."""
-        mover = Watch.of(repeating, schedule)
+        mover: Any = Watch.of(repeating, schedule)
         # Before a jump at the start, which is a part of the period.
         first, last = (schedule.at(time, after=False) for time in (schedule.start, schedule.end))
         state = mover.begin()

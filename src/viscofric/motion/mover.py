@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol, TypeVar
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viscofric.arrays import Array
 from viscofric.motion.schedule import Instant
@@ -76,31 +77,30 @@ class Field:
 class Mover(Protocol[State]):
     """A contact that can be moved through a schedule by steps.
 
-    States are immutable: a step makes a new one, so that any may be stored and continued from.
+    States are immutable: a step makes a new one, so that any may be stored and continued from.  What has a body here is
+    so of most contacts.
     """
+
+    #: First part of the accuracy that one step may add to the difference of the chains, between times asked for.
+    share: float = SHARE
 
     @property
     def scales(self) -> Scales:
         """Sizes that errors are compared with."""
         ...
 
-    @property
-    def share(self) -> float:
-        """First part of the accuracy that one step may add to the difference of the chains, between times asked for."""
-        ...
-
     def floor(self, largest: Scales) -> Scales:
-        """Return the errors by the contact conditions, which are met to a tolerance, from the largest values so far."""
-        ...
+        """Return the errors by contact conditions that are met to a tolerance, from the largest values so far."""
+        return Scales(0.0, 0.0, 0.0, 0.0)
 
     @property
     def can_tighten(self) -> bool:
         """Whether the contact conditions can be met more closely."""
-        ...
+        return False
 
     def tighten(self) -> None:
         """Meet the contact conditions more closely from now on."""
-        ...
+        return
 
     @property
     def quickest(self) -> float:
@@ -123,7 +123,7 @@ class Mover(Protocol[State]):
 
     def accept(self, state: State, instant: Instant) -> None:
         """Raise a `ViscofricError` where the method does not hold for a state that the march has accepted."""
-        ...
+        return
 
     def observe(self, state: State) -> Observation:
         """Return the observed quantities of a state."""
@@ -135,8 +135,36 @@ class Mover(Protocol[State]):
 
     def early(self, since: float) -> float:
         """Return how many times as large `Observation.left_out` is so soon after a jump, s of the clock."""
-        ...
+        return 1.0
 
     def ticks(self, start: Instant, end: Instant) -> Array | None:
         """Return the times after the start at which steps may end, up to the end; None if any."""
+        return None
+
+    # --- of a repeated history ---------------------------------------------------------------------------------
+
+    def memory_of(self, state: State) -> NDArray[Any]:
+        """Return the memory, scaled so that half the square of its norm is the energy that it stores."""
         ...
+
+    def with_memory(self, state: State, memory: NDArray[Any]) -> State:
+        """Return a state with another memory, with its dissipated energy set to zero."""
+        ...
+
+    def recovered(self, change: NDArray[Any], touched: Array, start: Instant, end: Instant) -> NDArray[Any]:
+        """Return the change of a memory over a period, divided by 1 − e^z."""
+        # Where points in contact stay where they are, by the corresponding matrix (`recovery_at_depth`). `touched` is
+        # the part of the period in which each point of `touching` touched.
+        ...
+
+    def memory_from(self, coarser: Any, memory: NDArray[Any]) -> NDArray[Any]:
+        """Return the memory of a mover of the same kind on another grid, where there are several."""
+        return memory
+
+    def touching(self, state: State) -> Array:
+        """Return 1 for each point that touches, 0 for the others; empty where `recovered` does not need it."""
+        return np.empty(0)
+
+    def coarser_load(self, state: State) -> float:
+        """Return the load by half of the points at the same depth; the same load where grids are compared instead."""
+        return self.observe(state).load

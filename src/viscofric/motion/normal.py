@@ -19,7 +19,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, ClassVar
 
 import numpy as np
 
@@ -27,7 +26,7 @@ from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.motion.memory import StepParts, quickest_time, recovery_at_depth, step_parts
-from viscofric.motion.mover import QUICK, SHARE, Field, Observation, Scales
+from viscofric.motion.mover import QUICK, Field, Mover, Observation, Scales
 from viscofric.motion.problem import Problem
 from viscofric.motion.schedule import Instant, Schedule
 from viscofric.motion.springs import both_sides, elastic_radius, graded_row, quadrature_error
@@ -56,7 +55,7 @@ class SpringState:
 
 
 @dataclass(frozen=True, eq=False)
-class NormalMotion:
+class NormalMotion(Mover[SpringState]):
     """Mover of a body of revolution that moves along its axis; see the module."""
 
     indenter: Indenter
@@ -69,8 +68,6 @@ class NormalMotion:
     g: Array
     weights: Array  # of ∫ over both sides
     spacing: float  # largest distance of springs up to the edge, m
-    share: ClassVar[float] = SHARE
-    can_tighten: ClassVar[bool] = False
 
     @classmethod
     def of(cls, problem: Problem) -> NormalMotion:
@@ -96,13 +93,6 @@ class NormalMotion:
             indenter, schedule, glassy, compliances, spectrum.tau[keep], radius, *graded_row(indenter, edge, count),
             spacing=edge / count,
         )  # fmt: skip
-
-    def floor(self, largest: Scales) -> Scales:
-        """Return zeros: the contact conditions are met to rounding."""
-        return Scales(0.0, 0.0, 0.0, 0.0)
-
-    def tighten(self) -> None:
-        """Do nothing: the contact conditions are met to rounding."""
 
     @cached_property
     def quickest(self) -> float:
@@ -214,14 +204,6 @@ class NormalMotion:
         force = isotonic_regression(state.force, weights=weights, increasing=False).x
         return Field({"r": r}, transform @ np.diff(force, append=0.0))
 
-    def early(self, since: float) -> float:
-        """Return one: what springs leave out does not depend on time."""
-        return 1.0
-
-    def ticks(self, start: Instant, end: Instant) -> Array | None:
-        """Any step may end anywhere."""
-        return None
-
     def accept(self, state: SpringState, instant: Instant) -> None:
         """Raise `ConvergenceError` where the contact is wider than the row."""
         if state.force[-1] > 0.0 and not self.indenter.has_walls:
@@ -255,10 +237,6 @@ class NormalMotion:
             matrix = recovery_at_depth(self.glassy / level, self.compliances, self.tau, period)
             found[these] = (change - common)[these] @ matrix.T
         return np.asarray(found + common / freely)
-
-    def memory_from(self, coarser: Any, memory: Array) -> Array:
-        """Return the memory: there is one grid."""
-        return memory
 
     def touching(self, state: SpringState) -> Array:
         """Return 1 for each spring that touches, 0 for the others."""

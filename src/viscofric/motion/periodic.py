@@ -24,7 +24,7 @@ from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.motion.memory import Modes, quickest_time, recovery_at_depth
-from viscofric.motion.mover import QUICK, Field, Observation, Scales
+from viscofric.motion.mover import QUICK, Field, Mover, Observation, Scales
 from viscofric.motion.problem import Problem
 from viscofric.motion.schedule import Instant
 from viscofric.motion.wave_contact import StepContact, Target
@@ -70,7 +70,7 @@ class _Step(NamedTuple):
     contact: StepContact
 
 
-class PeriodicMover:
+class PeriodicMover(Mover[PeriodicState]):
     """A periodic surface that moves through a schedule."""
 
     def __init__(self, problem: Problem, modes: Modes | None = None, times: Iterable[float] = ()) -> None:
@@ -217,9 +217,6 @@ class PeriodicMover:
         done = after.stored, state.dissipated + after.dissipated
         return self._state(pressure, (waves, scaled), after.memory, problem.response, past, depth, done, trend)
 
-    def accept(self, state: PeriodicState, instant: Instant) -> None:
-        """Do nothing: the method holds for every state."""
-
     def observe(self, state: PeriodicState) -> Observation:
         """Return the observed quantities of a state, per area."""
         work = self.pressure_unit * self.depth_unit
@@ -249,10 +246,6 @@ class PeriodicMover:
         """Return how many times as large the error of merged modes is so soon after a jump, s of the clock."""
         return self.merged.growth_of_error(Modes.of(self.schedule.spectrum), since)
 
-    def ticks(self, start: Instant, end: Instant) -> None:
-        """Return None: a step may end at any time."""
-        return
-
     def memory_of(self, state: PeriodicState) -> NDArray[Any]:
         """Return the memory, scaled so that half the square of its norm is the energy that it stores."""
         return np.asarray(self._roots * state.memory)
@@ -272,18 +265,6 @@ class PeriodicMover:
         turn = self.grid.turn(np.asarray(end.position) - np.asarray(start.position))
         steps = ((end.clock - start.clock) / self.modes.tau)[:, None, None]
         return change / -np.expm1(-steps + 1j * turn)
-
-    def memory_from(self, coarser: Any, memory: NDArray[Any]) -> NDArray[Any]:
-        """Return the memory: there is one grid."""
-        return memory
-
-    def touching(self, state: PeriodicState) -> Array:
-        """Return no points: `recovered` does not need them."""
-        return np.empty(0)
-
-    def coarser_load(self, state: PeriodicState) -> float:
-        """Return the load."""
-        return self.pressure_unit * float(state.pressure.mean())
 
     @cached_property
     def _roots(self) -> Array:

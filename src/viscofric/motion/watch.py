@@ -3,44 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from viscofric.arrays import Array
-from viscofric.motion.mover import Field, Mover, Observation, Scales, State
+from viscofric.motion.mover import Field, Mover, Observation
 from viscofric.motion.schedule import Instant, Schedule
-
-
-class RepeatingMover(Mover[State], Protocol[State]):
-    """A mover whose memory can be read and set."""
-
-    def memory_of(self, state: State) -> NDArray[Any]:
-        """Return the memory, scaled so that half the square of its norm is the energy that it stores."""
-        ...
-
-    def with_memory(self, state: State, memory: NDArray[Any]) -> State:
-        """Return a state with another memory, with its dissipated energy set to zero."""
-        ...
-
-    def recovered(self, change: NDArray[Any], touched: Array, start: Instant, end: Instant) -> NDArray[Any]:
-        """Return the change of a memory over a period, divided by 1 − e^z."""
-        # Where points in contact stay where they are, by the corresponding matrix (`recovery_at_depth`). `touched` is
-        # the part of the period in which each point of `touching` touched.
-        ...
-
-    def memory_from(self, coarser: Any, memory: NDArray[Any]) -> NDArray[Any]:
-        """Return the memory of a mover of the same kind on another grid; of movers that have several grids."""
-        ...
-
-    def touching(self, state: State) -> Array:
-        """Return 1 for each point that touches, 0 for the others; empty where `recovered` does not need it."""
-        ...
-
-    def coarser_load(self, state: State) -> float:
-        """Return the load by half of the points at the same depth; the same load where grids are compared instead."""
-        ...
 
 
 class Watched(NamedTuple):
@@ -56,44 +26,19 @@ class Watched(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Watch:
-    """A mover as another one, whose states are `Watched`; see `RepeatingMover`."""
+    """A mover as another one, whose states are `Watched`: all else is that of the mover."""
 
-    mover: RepeatingMover[Any]
+    mover: Mover[Any]
     start: float
     omega: float
 
     @classmethod
-    def of(cls, mover: RepeatingMover[Any], schedule: Schedule) -> Watch:
+    def of(cls, mover: Mover[Any], schedule: Schedule) -> Watch:
         """Return a mover watched over a period."""
         return cls(mover, schedule.start, 2.0 * np.pi / (schedule.end - schedule.start))
 
-    @property
-    def scales(self) -> Scales:
-        """Of the mover."""
-        return self.mover.scales
-
-    @property
-    def share(self) -> float:
-        """Of the mover."""
-        return self.mover.share
-
-    def floor(self, largest: Scales) -> Scales:
-        """Return that of the mover."""
-        return self.mover.floor(largest)
-
-    @property
-    def can_tighten(self) -> bool:
-        """Of the mover."""
-        return self.mover.can_tighten
-
-    def tighten(self) -> None:
-        """Lower the tolerance of the mover."""
-        self.mover.tighten()
-
-    @property
-    def quickest(self) -> float:
-        """Of the mover."""
-        return self.mover.quickest
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.mover, name)
 
     def begin(self) -> Watched:
         """Return the mover's first state, with empty sums."""
@@ -120,14 +65,6 @@ class Watch:
         """Return the pressure of the state."""
         return self.mover.pressure(state.state)
 
-    def early(self, since: float) -> float:
-        """Return that of the mover."""
-        return self.mover.early(since)
-
-    def ticks(self, start: Instant, end: Instant) -> Array | None:
-        """Return the mover's ticks."""
-        return self.mover.ticks(start, end)
-
     def memory_of(self, state: Watched) -> NDArray[Any]:
         """Return the memory of the state."""
         return self.mover.memory_of(state.state)
@@ -141,7 +78,7 @@ class Watch:
         return self._begun(state.state)
 
     def recovered(self, change: NDArray[Any], state: Watched, start: Instant, end: Instant) -> NDArray[Any]:
-        """Return the change of a memory over the period that ended in a state, as `RepeatingMover.recovered`."""
+        """Return the change of a memory over the period that ended in a state, as `Mover.recovered`."""
         return self.mover.recovered(change, state.touched / (end.clock - start.clock), start, end)
 
     def _begun(self, state: Any) -> Watched:

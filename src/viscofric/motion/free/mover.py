@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
 
 import numpy as np
 
@@ -25,7 +24,7 @@ from viscofric.motion.free.past import NO_PAST, Far, Past, parted
 from viscofric.motion.free.state import FreeState, Place, Products
 from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import Modes, StepCoefficients, recovery_at_depth
-from viscofric.motion.mover import SHARE, Field, Observation, Scales
+from viscofric.motion.mover import Field, Mover, Observation, Scales
 from viscofric.motion.schedule import Instant
 
 # Space by which the box of the memory is wider than it must be, as a part of it.
@@ -36,11 +35,9 @@ _TICK = 1.0  # distance between times at which steps may end, in cells
 
 
 @dataclass(eq=False)
-class FreeMover(Cells):
+class FreeMover(Cells, Mover[FreeState]):
     """Steps of a free contact; see `viscofric.motion.mover.Mover`."""
 
-    share: ClassVar[float] = SHARE
-    can_tighten: ClassVar[bool] = False
     reach: Extent = field(default=Extent(-math.inf, -math.inf, -math.inf), init=False)  # of all contacts so far
     longest: float = field(default=0.0, init=False)  # the longest of them
     datum: float = field(default=0.0, init=False)  # depth at the start, where depths have no level
@@ -57,9 +54,6 @@ class FreeMover(Cells):
         # Gaps are closed to a part of what the body yields in a step, so that a glassy load leaves no error behind.
         relaxed = self.setting.scale.force * self.setting.geometry.parabolic_load
         return Scales(*(self.tolerance * one for one in largest._replace(load=min(largest.load, relaxed))))
-
-    def tighten(self) -> None:
-        """Do nothing: steps end at cells, of which one is never too short."""
 
     @property
     def quickest(self) -> float:
@@ -283,14 +277,6 @@ class FreeMover(Cells):
         there = here.finer(self.grid.spacing, self.grid.width, times)
         self._swept = there.box
         return np.asarray(self._roots * here.carried(memory / coarser._roots, there))
-
-    def touching(self, state: FreeState) -> Array:
-        """Return no points: `recovered` does not need them."""
-        return np.empty(0)
-
-    def coarser_load(self, state: FreeState) -> float:
-        """Return the load."""
-        return self.setting.scale.force * self.grid.cell_area * float(state.pressure.sum())
 
     @property
     def _roots(self) -> Array:
