@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from viscofric.rheology.superposition.joined_isotherms import ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.rheology.superposition.overlap import LogSweep, OverlapQuality, OwnShifts, own_shifts
 from viscofric.rheology.superposition.van_gurp_palmen import Drift, NeighbourDistance, drift, neighbour_distances
-from viscofric.showing import Plotted, Rows
+from viscofric.showing import Plotted, Rows, Shown
 from viscofric.units import shown_celsius
 
 Verdict: TypeAlias = Literal["holds", "other factors", "not identified", "doubtful", "roughly", "fails", "untested"]
@@ -42,6 +43,40 @@ ONE_PAIR = 3.0
 _NAMED = 3
 
 
+class Judged(Shown):
+    """What checks of sweeps and of step tests have in common: the verdict."""
+
+    verdict: Verdict
+    figure_of_merit: float
+
+    @property
+    def roughly(self) -> bool:
+        """Whether superposition holds only roughly: the figure of merit is above 1, and not above 2."""
+        return self.verdict == "roughly"
+
+    @property
+    def holds(self) -> bool:
+        """Whether superposition holds within noise and the reproducibility of measurements, wherever it was tested.
+
+        False where isotherms drift to one side, or where sweeps do not fix a step of α.
+        """
+        return self.verdict in ("holds", "other factors")
+
+    def _dataset(self, temperatures: Array, sentences: Sequence[str], **more: Any) -> Dataset:
+        return dataset(
+            "isotherm",
+            {"temperature": (temperatures, "K", "temperature")},
+            attributes={
+                "verdict": self.verdict,
+                "holds": int(self.holds),
+                "roughly": int(self.roughly),
+                "figure_of_merit": self.figure_of_merit,
+                "sentences": json.dumps(list(sentences), ensure_ascii=False),
+                **more,
+            },
+        )
+
+
 @dataclass(frozen=True, eq=False)
 class Diagram:
     """Points of all isotherms in a plot that no shift along the frequency changes."""
@@ -58,7 +93,7 @@ class Diagram:
 
 
 @dataclass(frozen=True, eq=False)
-class SuperpositionCheck(Plotted):
+class SuperpositionCheck(Judged, Plotted):
     """Whether the isotherms of a superposition are one material at shifted frequencies.
 
     Parameters
@@ -121,19 +156,6 @@ class SuperpositionCheck(Plotted):
         )
 
     @property
-    def roughly(self) -> bool:
-        """Whether superposition holds only roughly: the figure of merit is above 1, and not above 2."""
-        return self.verdict == "roughly"
-
-    @property
-    def holds(self) -> bool:
-        """Whether superposition holds within noise and the reproducibility of measurements, wherever it was tested.
-
-        False where isotherms drift to one side, or where sweeps do not fix a step of α.
-        """
-        return self.verdict in ("holds", "other factors")
-
-    @property
     def consistent(self) -> bool:
         """Whether E' and E'' belong to each other; True where that was not tested."""
         return self.kramers_kronig is None or self.kramers_kronig.holds
@@ -141,19 +163,8 @@ class SuperpositionCheck(Plotted):
     def to_dataset(self) -> Dataset:
         """Return the temperatures (K) of the isotherms as a labelled data set, with the verdict as attributes."""
         *holding, causality = self.sentences
-        return dataset(
-            "isotherm",
-            {"temperature": (np.unique(self.cole_cole.temperature), "K", "temperature")},
-            attributes={
-                "verdict": self.verdict,
-                "holds": int(self.holds),
-                "roughly": int(self.roughly),
-                "figure_of_merit": self.figure_of_merit,
-                "sentences": json.dumps(holding, ensure_ascii=False),
-                "consistent": int(self.consistent),
-                "causality": causality,
-            },
-        )
+        kelvin = np.unique(self.cole_cole.temperature)
+        return self._dataset(kelvin, holding, consistent=int(self.consistent), causality=causality)
 
 
 def check(

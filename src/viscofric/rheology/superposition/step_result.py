@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,7 +12,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.data import MasterCurve
-from viscofric.datasets import Dataset, dataset
+from viscofric.datasets import Dataset
 from viscofric.notes import Note
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -23,12 +22,13 @@ from viscofric.rheology.superposition.consistency import (
     ONE_PAIR,
     REPRODUCIBILITY,
     ROUGH_FIGURE,
+    Judged,
     Verdict,
 )
 from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
 from viscofric.rheology.superposition.joined_isotherms import Tested, ranges, shown
 from viscofric.rheology.superposition.overlap import LogSweep, OverlapQuality, join, own_shifts
-from viscofric.showing import Plotted, Rows, Shown
+from viscofric.showing import Plotted, Rows
 from viscofric.step_tests import StepMasterCurve, StepTest
 from viscofric.threads import one_blas_thread
 from viscofric.units import shown_number
@@ -43,7 +43,7 @@ LEAST_POINTS = 4
 
 
 @dataclass(frozen=True, eq=False)
-class StepCheck(Shown):
+class StepCheck(Judged):
     """Whether creep or relaxation tests are one material at shifted times.
 
     Parameters
@@ -87,33 +87,13 @@ class StepCheck(Shown):
         )
 
     @property
-    def roughly(self) -> bool:
-        """Whether superposition holds only roughly: the figure of merit is above 1, and not above 2."""
-        return self.verdict == "roughly"
-
-    @property
-    def holds(self) -> bool:
-        """Whether superposition holds within noise and the reproducibility of measurements."""
-        return self.verdict in ("holds", "other factors")
-
-    @property
     def consistent(self) -> bool:
         """True: one curve has no second one to contradict it."""
         return True
 
     def to_dataset(self) -> Dataset:
         """Return the temperatures (K) of the tests as a labelled data set, with the verdict as attributes."""
-        return dataset(
-            "isotherm",
-            {"temperature": (self.temperatures, "K", "temperature")},
-            attributes={
-                "verdict": self.verdict,
-                "holds": int(self.holds),
-                "roughly": int(self.roughly),
-                "figure_of_merit": self.figure_of_merit,
-                "sentences": json.dumps(list(self.sentences), ensure_ascii=False),
-            },
-        )
+        return self._dataset(self.temperatures, self.sentences)
 
 
 #: The master curve of one kind of tests.
