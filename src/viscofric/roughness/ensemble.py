@@ -16,7 +16,7 @@ from viscofric.arguments import insist_on_function
 from viscofric.arrays import Array
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import Layer, checked_coulomb
-from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
+from viscofric.contact.coupling import SurfaceCoupling
 from viscofric.contact.heated_curve import heat_columns, solve_states
 from viscofric.contact.periodic.heating import ACCURACY, MEAN_LEFT_OUT, PeriodicThermalContact, insist_on_heatable
 from viscofric.contact.periodic.solution import PeriodicSolution
@@ -30,9 +30,9 @@ from viscofric.rheology.interface.friction import check_interface_heat, friction
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.patches import contact_statistics
-from viscofric.roughness.rough_friction import HeatedRoughFriction, RoughFriction
+from viscofric.roughness.rough_friction import HeatedRoughFriction, RoughFriction, shear_notes, states
 from viscofric.roughness.topography import Topography
-from viscofric.units import Quantities, Quantity, positive, shown_speed, to_si_array
+from viscofric.units import Quantities, Quantity, positive
 
 
 class Numbers(NamedTuple):
@@ -230,7 +230,7 @@ def predict_rough_friction(
     if unknown := settings.keys() - PeriodicSettings.__annotations__.keys():
         raise TypeError(f"predict_rough_friction() got an unexpected keyword argument {min(unknown)!r}")
     named = _named(surfaces)
-    velocities, kelvins = _states(speeds, temperatures)
+    velocities, kelvins = states(speeds, temperatures)
     insist_on_function(progress, "progress")
     load = positive(pressure, "Pa", "pressure")
     if interface is not None:
@@ -279,9 +279,11 @@ def predict_rough_friction(
         left_out = () if heating.nominal_radius is not None else (MEAN_LEFT_OUT,)
         numbers["notes"] = (*numbers["notes"], *doubts, *left_out)
     coulomb = numbers.get("interface_friction", np.full(shape, 0.0 if heating is None else heating.coulomb))
-    solved = checked_coulomb(call.get("coulomb", 0.0))
-    shear = _shear_notes(coulomb, numbers, [one for _, one in named], velocities, load, material, layer, solved)
-    numbers["notes"] = (*numbers["notes"], *shear)
+    if coulomb.any():
+        coupled = [SurfaceCoupling.of(one, material.poisson_ratio, layer) for _, one in named]
+        solved = checked_coulomb(call.get("coulomb", 0.0))
+        both = coulomb, numbers["friction_coefficient"], numbers["corrected_area_fraction"]
+        numbers["notes"] += shear_notes(*both, velocities, load, coupled, solved)
     result = RoughFriction if heating is None else HeatedRoughFriction
     return result(
         temperature=kelvin_or_nan,
@@ -290,47 +292,6 @@ def predict_rough_friction(
         surfaces=tuple(name for name, _ in named),
         **numbers,
     )
-
-
-def _shear_notes(
-    coulomb: Array,
-    numbers: dict[str, Any],
-    surfaces: list[PeriodicSurface],
-    speeds: Array,
-    pressure: float,
-    material: Material,
-    layer: Layer | None,
-    solved: float,
-) -> tuple[Note, ...]:
-    """Return a note where Coulomb friction (m, n, k) changes that of contacts, solved with another one, by too much."""
-    if not coulomb.any():
-        return ()
-    friction, area = numbers["friction_coefficient"], numbers["corrected_area_fraction"]
-    each = [SurfaceCoupling.of(one, material.poisson_ratio, layer) for one in surfaces]
-    return coupling_notes(
-        each[place[2]].contact(
-            float(coulomb[place]),
-            float(friction[place]),
-            float(area[place]),
-            pressure,
-            f"at {shown_speed(float(speeds[place[1]]), 3)}",
-            solved,
-        )
-        for place in np.ndindex(coulomb.shape)
-    )
-
-
-def _states(speeds: Quantities, temperatures: Quantities | None) -> tuple[Array, list[float | None]]:
-    """Return speeds, m/s, and temperatures, K, at least one of each; None where no temperature was given."""
-    velocities = to_si_array(speeds, "m/s", "speeds")
-    if not velocities.size:
-        raise InputError("speeds must hold at least one value.", code="empty-list")
-    kelvins: list[float | None] = [None]
-    if temperatures is not None:
-        kelvins = [positive(float(one), "K", "temperatures") for one in to_si_array(temperatures, "K", "temperatures")]
-        if not kelvins:
-            raise InputError("temperatures must hold at least one value.", code="empty-list")
-    return velocities, kelvins
 
 
 def _named(surfaces: object) -> list[tuple[str, PeriodicSurface]]:

@@ -34,7 +34,7 @@ import numpy as np
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array
 from viscofric.contact.bodies import half_space_coupling
-from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
+from viscofric.contact.coupling import SurfaceCoupling
 from viscofric.contact.heated_result import INTERFACE, beyond
 from viscofric.errors import InputError
 from viscofric.heat.heating import Heating
@@ -46,9 +46,10 @@ from viscofric.rheology.material import Material, insist_on_material
 from viscofric.roughness.flash import Flash
 from viscofric.roughness.persson_integrals import Case, Found, Theory
 from viscofric.roughness.persson_result import HeatedPerssonTheory, PerssonTheory
+from viscofric.roughness.rough_friction import shear_notes, states
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.thermal import ThermalProperties
-from viscofric.units import Quantities, Quantity, positive, share, shown_speed, to_si, to_si_array
+from viscofric.units import Quantities, Quantity, positive, share, to_si
 
 _CLOSEST, _LOOSEST = 1e-8, 0.1
 #: Rises from which hot states are looked for, K: the first at which α is known.
@@ -124,14 +125,9 @@ def persson_theory(
     """
     insist_on_material(material)
     insist_on(spectrum, "spectrum", PowerSpectrum, right="a PowerSpectrum; see power_spectrum(topography)")
-    velocities = to_si_array(speeds, "m/s", "speeds")
-    if not velocities.size or not np.all(velocities >= 0.0):
+    velocities, kelvins = states(speeds, temperatures)
+    if not np.all(velocities >= 0.0):
         raise InputError("speeds must hold at least one value, none of them below zero.", code="empty-list")
-    kelvins: list[float | None] = [None]
-    if temperatures is not None:
-        kelvins = [positive(float(one), "K", "temperatures") for one in to_si_array(temperatures, "K", "temperatures")]
-        if not kelvins:
-            raise InputError("temperatures must hold at least one value.", code="empty-list")
     sharing = to_si(gamma, "dimensionless", "gamma")
     if not 0.0 <= sharing <= 1.0:
         raise InputError(f"gamma = {sharing:g}: must lie between 0 and 1.", code="out-of-range")
@@ -216,17 +212,10 @@ def _with_coulomb(
         rubbed = friction_on_area(interface, slip, face[..., None], result.pressure, area[..., None])
         notes, coulomb = rubbed["notes"], rubbed["interface_friction"][..., 0]
         result = replace(result, interface_friction=coulomb, interface_error=rubbed["interface_error"][..., 0])
-    contacts = (
-        surface.contact(
-            float(coulomb[place]),
-            float(friction[place]),
-            float(area[place]),
-            result.pressure,
-            f"at {shown_speed(float(result.speed[place[1]]), 3)}",
-        )
-        for place in np.ndindex(friction.shape)
+    sheared = shear_notes(
+        coulomb[..., None], friction[..., None], area[..., None], result.speed, result.pressure, [surface]
     )
-    return replace(result, notes=(*notes, *coupling_notes(contacts)))
+    return replace(result, notes=(*notes, *sheared))
 
 
 def _insist_on_known(law: InterfaceLaw, slip: Array, face: Array) -> None:
@@ -254,9 +243,9 @@ def _columns(isothermal: Found, cold: Found, hot: Found, branch: str) -> dict[st
         "face_rise": np.array([one.face_rise for one in chosen]),
         "loss_weighted_rise": mean,
     }
-    for name, states in (("cold", [one for one, _ in ends]), ("hot", [one for _, one in ends])):
-        columns[f"{name}_friction"] = np.array([float(one.friction[-1]) for one in states])
-        columns[f"{name}_rise"] = np.array([one.mean_rise for one in states])
+    for name, side in (("cold", [one for one, _ in ends]), ("hot", [one for _, one in ends])):
+        columns[f"{name}_friction"] = np.array([float(one.friction[-1]) for one in side])
+        columns[f"{name}_rise"] = np.array([one.mean_rise for one in side])
     return columns
 
 

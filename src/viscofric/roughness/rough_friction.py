@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import NormalDist
 from typing import Literal
@@ -10,13 +11,14 @@ from typing import Literal
 import numpy as np
 
 from viscofric.arrays import Array
+from viscofric.contact.coupling import SurfaceCoupling, coupling_notes
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.result import SolvedHeatColumns
-from viscofric.notes import note_attributes
+from viscofric.notes import Note, note_attributes
 from viscofric.rheology.interface.friction import total_error, total_friction
 from viscofric.showing import Plotted, Rows
-from viscofric.units import share
+from viscofric.units import Quantities, positive, share, shown_speed, to_si_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,6 +189,43 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
     def to_dataset(self) -> Dataset:
         """Return everything as `RoughFriction` does, with the columns of the heat."""
         return super().to_dataset().assign(self.heat_variables("temperature", "speed", "surface"))
+
+
+def states(speeds: Quantities, temperatures: Quantities | None) -> tuple[Array, list[float | None]]:
+    """Return speeds, m/s, and temperatures, K, at least one of each; None where no temperature was given."""
+    velocities = to_si_array(speeds, "m/s", "speeds")
+    if not velocities.size:
+        raise InputError("speeds must hold at least one value.", code="empty-list")
+    kelvins: list[float | None] = [None]
+    if temperatures is not None:
+        kelvins = [positive(float(one), "K", "temperatures") for one in to_si_array(temperatures, "K", "temperatures")]
+        if not kelvins:
+            raise InputError("temperatures must hold at least one value.", code="empty-list")
+    return velocities, kelvins
+
+
+def shear_notes(
+    coulomb: Array,
+    friction: Array,
+    area: Array,
+    speeds: Array,
+    pressure: float,
+    surfaces: Sequence[SurfaceCoupling],
+    solved: float = 0.0,
+) -> tuple[Note, ...]:
+    """Return a note where Coulomb friction (m, n, k) changes that of contacts, solved with another one, by too much."""
+    # The contacts are those at n speeds on k surfaces, of which `area` (m, n, k) is the part in contact.
+    return coupling_notes(
+        surfaces[place[2]].contact(
+            float(coulomb[place]),
+            float(friction[place]),
+            float(area[place]),
+            pressure,
+            f"at {shown_speed(float(speeds[place[1]]), 3)}",
+            solved,
+        )
+        for place in np.ndindex(coulomb.shape)
+    )
 
 
 def interval_of_mean(found: Array, level: float = 0.95) -> tuple[Array, Array]:
