@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
 from viscofric.arrays import Mask
 from viscofric.contact.bodies import Layer
@@ -22,6 +22,8 @@ from viscofric.friction.cases.solving import Task
 from viscofric.rheology.material import Material, alpha_and_b
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import shown_celsius, shown_number
+
+Made = TypeVar("Made")
 
 
 @dataclass(frozen=True)
@@ -157,9 +159,7 @@ class Rubbers:
 
     materials: Sequence[Material]
     members: Mapping[int, Sequence[Material]]  # index of a material → its bootstrap samples
-    _modes: dict[tuple[int, int | None, float | None], RetardationSpectrum] = field(default_factory=dict, repr=False)
-    _lean: dict[tuple[int, int | None], Material] = field(default_factory=dict, repr=False)
-    _shifts: dict[tuple[int, int | None, float], tuple[float, float]] = field(default_factory=dict, repr=False)
+    _kept: dict[tuple[object, ...], Any] = field(default_factory=dict, repr=False)
     #: Units of contacts, by indenter, stiffness (Pa) and load, or indentation (m).
     scale: Callable[[Indenter, float, float], Scale] = field(default_factory=lambda: cache(Scale.for_load), repr=False)
     scale_at: Callable[[Indenter, float, float], Scale] = field(
@@ -181,27 +181,26 @@ class Rubbers:
 
     def without_notes(self, case: Case) -> Material:
         """Return the material of a case as modes, without the notes on their fit."""
-        key = case.material, case.sample
-        if key not in self._lean:
-            material = self.of(case)
-            self._lean[key] = replace(material, spectrum=_without_notes(material, None))
-        return self._lean[key]
+        material = self.of(case)
+        return self._once(case, "lean", lambda: replace(material, spectrum=_without_notes(material, None)))
 
     def shifts(self, case: Case) -> tuple[float, float]:
         """Return α and b of a case's material at its temperature."""
-        key = case.material, case.sample, case.temperature
-        if key not in self._shifts:
-            self._shifts[key] = alpha_and_b(self.of(case), case.temperature)
-        return self._shifts[key]
+        return self._once(case, case.temperature, lambda: alpha_and_b(self.of(case), case.temperature))
 
     def modes(self, case: Case, *, at_reference: bool = False) -> RetardationSpectrum:
         """Return the modes of a case's material at its temperature, or at the reference temperature."""
         material = self.of(case)
         kelvin = None if at_reference or material.shift is None else case.temperature
-        key = case.material, case.sample, kelvin
-        if key not in self._modes:
-            self._modes[key] = _without_notes(material, kelvin)
-        return self._modes[key]
+        return self._once(case, ("modes", kelvin), lambda: _without_notes(material, kelvin))
+
+    def _once(self, case: Case, what: object, make: Callable[[], Made]) -> Made:
+        """Return what is the same for all cases of one material and sample, made once."""
+        key = case.material, case.sample, what
+        if key not in self._kept:
+            self._kept[key] = make()
+        found: Made = self._kept[key]
+        return found
 
     def reference(self, case: Case) -> float:
         """Return the temperature recorded for a family's contacts, K; zero for materials without a shift."""
