@@ -12,7 +12,7 @@ from viscofric.contact.operators.convolution import SteadyMaterial, collocation_
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.cells import Cells
-from viscofric.motion.free.state import FreeState, Products
+from viscofric.motion.free.state import FreeState, Place, Products
 from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import step_coefficients
 from viscofric.motion.schedule import Instant
@@ -27,23 +27,7 @@ _FADED, _WINDOWS = 20.0, 12.0
 def untouched(cells: Cells, instant: Instant) -> FreeState:
     """Return the state of an untouched body, the indenter at its place, just touching."""
     place = cells.placed(instant)
-    window = cells.window(place)
-    zero = np.zeros(window.shape)
-    count = len(cells.setting.body.times)
-    return FreeState(
-        place=place,
-        window=window,
-        pressure=zero,
-        trend=zero,
-        duration=0.0,
-        box=window,
-        memory=np.zeros((count, *window.shape)),
-        products=Products(0.0, np.zeros(count), np.zeros(count)),
-        faced=0.0,
-        depth=0.0,
-        dissipated=0.0,
-        force=(0.0, 0.0),
-    )
+    return _resting(cells, place, np.zeros(cells.window(place).shape), 0.0)
 
 
 def rested(cells: Cells, instant: Instant) -> FreeState:
@@ -58,7 +42,12 @@ def rested(cells: Cells, instant: Instant) -> FreeState:
             break
     else:
         raise ConvergenceError("no window was found that holds the contact.", code="no-window")
-    window, count = cells.window(place), len(body.times)
+    return _resting(cells, place, pressure, reached)
+
+
+def _resting(cells: Cells, place: Place, pressure: Array, depth: float) -> FreeState:
+    """Return the state whose memory is the pressure itself."""
+    window, count = cells.window(place), len(cells.setting.body.times)
     product = float(np.vdot(pressure, cells.response(pressure)))
     facing = cells.facing or cells.response
     return FreeState(
@@ -71,7 +60,7 @@ def rested(cells: Cells, instant: Instant) -> FreeState:
         memory=np.repeat(pressure[None], count, axis=0),
         products=Products(product, np.full(count, product), np.full(count, product)),
         faced=float(np.vdot(pressure, facing(pressure))),
-        depth=reached,
+        depth=depth,
         dissipated=0.0,
         force=(0.0, 0.0),
     )
