@@ -1,4 +1,4 @@
-"""Names of NumPy's arrays for annotations, the line of a field through the axis, and fits of numbers above zero."""
+"""Names of NumPy's arrays for annotations, the line of a field through the axis, polynomials, fits above zero."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -17,6 +17,22 @@ def centre_line(y: Array, field: Array) -> Array:
     """Return the line of a field (nx, ny) through the axis: the mean of the rows of cells beside it."""
     middle = np.flatnonzero(np.isclose(np.abs(y), np.abs(y).min(), rtol=1e-6))
     return np.asarray(field[:, middle].mean(axis=1))
+
+
+def gauss(count: int) -> tuple[Array, Array]:
+    """Return nodes and weights of Gauss's rule over the unit interval, (n,) each."""
+    node, weight = np.polynomial.legendre.leggauss(count)
+    return 0.5 * (node + 1.0), 0.5 * weight
+
+
+def lagrange(nodes: Array, places: Array) -> Array:
+    """Return Lagrange's weights, (places, nodes), of nodes (nodes,) at places (places,)."""
+    away, apart = places[:, None] - nodes, nodes[:, None] - nodes
+    result = np.ones((len(places), len(nodes)))
+    for row in range(len(nodes)):
+        others = np.arange(len(nodes)) != row
+        result[:, row] = np.prod(away[:, others] / apart[row, others], axis=1)
+    return result
 
 
 def non_negative_fit(matrix: Array, aim: Array) -> Array:

@@ -23,7 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, gauss
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_law import ShiftLaw
@@ -35,7 +35,7 @@ _EXACT = 1e-12
 _BEND = 0.25
 #: A kink of the law (of Tg, of a table) is enclosed by this many halvings.
 _HALVINGS = 40
-_NODES, _WEIGHTS = (0.5 * column for column in np.polynomial.legendre.leggauss(12))
+_NODES, _WEIGHTS = gauss(12)
 
 
 class Reading(float):
@@ -308,7 +308,7 @@ class _Clock:
         return np.asarray(10.0 ** (self.law.log10(self.first) - decades))  # type: ignore[union-attr, arg-type]
 
     def _part(self, start: float, end: float) -> float:
-        return float((end - start) * (_WEIGHTS @ self._rate(start + (end - start) * (0.5 + _NODES))))
+        return float((end - start) * (_WEIGHTS @ self._rate(start + (end - start) * _NODES)))
 
 
 def _clock(length: float, ends: tuple[float, float] | None, law: ShiftLaw | None, first: float | None) -> _Clock:

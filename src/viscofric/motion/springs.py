@@ -21,12 +21,13 @@ from collections.abc import Callable
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, gauss
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
 
-_NODES, _PARTS = np.polynomial.legendre.leggauss(40)
-_ANGLES, _ANGLE_WEIGHTS = 0.25 * math.pi * (_NODES + 1.0), 0.25 * math.pi * _PARTS
+_ANGLES, _ANGLE_WEIGHTS = (0.5 * math.pi * column for column in gauss(40))
+#: Of integrals over a row up to the edge of the contact.
+PLACES, SHARES = gauss(20)
 _DIRECTIONS = np.array([0.3, 0.9, 1.5707963267948966, 2.2, 3.141592653589793, 4.4])
 #: Rounding error of heights that should be the same in all directions.
 _ROUND = 1e-9
@@ -86,31 +87,31 @@ def elastic_radius(indenter: Indenter, depth: float | None, load: float | None, 
     """Return the contact radius on an elastic half-space of the plane-strain modulus E*, for a depth or a load, m."""
     if indenter.has_walls:
         return float(getattr(indenter, "radius"))  # noqa: B009  only a FlatPunch has vertical walls
-    nodes, weights = np.polynomial.legendre.leggauss(20)
-    share, part = 0.5 * (nodes + 1.0), 0.5 * weights
 
     def excess(radius: float) -> float:
         edge = float(profile(indenter, np.array(radius)))
         if depth is not None:
             return edge - depth
-        inner = float(part @ profile(indenter, radius * share))
+        inner = float(SHARES @ profile(indenter, radius * PLACES))
         return 2.0 * modulus * radius * (edge - inner) - float(load or 0.0)
 
     return _root(excess)
 
 
+def elastic_work(indenter: Indenter, radius: float, depth: float) -> float:
+    """Return ∫₀ᵃ (δ − g)² ds, m³: the elastic energy of a contact of a radius, over E*."""
+    return radius * float(SHARES @ np.square(depth - profile(indenter, radius * PLACES)))
+
+
 def impact_radius(indenter: Indenter, energy: float, weight: float, modulus: float) -> float:
     """Return the largest contact radius on an elastic half-space after an impact of some energy under a weight, m."""
-    # The energy E* ∫₀ᵃ (δ − g)² ds of the springs is the kinetic energy plus the work of the weight.
+    # The energy of the springs is the kinetic energy plus the work of the weight.
     if indenter.has_walls:
         return elastic_radius(indenter, 0.0, None, modulus)
-    nodes, weights = np.polynomial.legendre.leggauss(20)
-    share, part = 0.5 * (nodes + 1.0), 0.5 * weights
 
     def excess(radius: float) -> float:
         depth = float(profile(indenter, np.array(radius)))
-        stored = modulus * radius * float(part @ np.square(depth - profile(indenter, radius * share)))
-        return stored - energy - weight * depth
+        return modulus * elastic_work(indenter, radius, depth) - energy - weight * depth
 
     return _root(excess)
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import erf
 
-from viscofric.arrays import Array, ComplexArray
+from viscofric.arrays import Array, ComplexArray, gauss
 from viscofric.errors import ConvergenceError
 from viscofric.rheology.material import Material
 from viscofric.roughness.flash import Flash
@@ -171,10 +171,9 @@ class _Grid:
         self.width = np.diff(ends)
         self.q = spectrum.wave_number[0] * np.exp(logs)
         self.cubed_density = self.q**3 * spectrum(self.q)
-        place, weight = np.polynomial.legendre.leggauss(directions)
-        s = 0.5 * (place + 1.0)
+        s, weight = gauss(directions)
         self.cosines = np.sin(0.5 * math.pi * s**2)
-        self.weights = 0.5 * weight * math.pi * s
+        self.weights = weight * math.pi * s
         self.log_weights = np.zeros(len(self.q))
         self.log_weights[:-2:2] += self.width / 6.0
         self.log_weights[1::2] = 4.0 * self.width / 6.0

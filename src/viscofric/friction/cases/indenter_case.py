@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from viscofric.arrays import Array, Mask
+from viscofric.arrays import Array, Mask, lagrange
 from viscofric.contact.bodies import Layer, indenter_compliance
 from viscofric.contact.free.geometry import LINE
 from viscofric.contact.free.grids import Extent
@@ -26,7 +26,7 @@ from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.cases.case import Case, Place, Rubbers, Settings
-from viscofric.friction.cases.interpolation import FRICTION, Between, Interpolated, Node, weights
+from viscofric.friction.cases.interpolation import FRICTION, Between, Interpolated, Node
 from viscofric.friction.cases.record import Failure, Record, indenter_record
 from viscofric.friction.cases.solving import Task, solve_indenter
 from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
@@ -272,7 +272,7 @@ class Sensitivities:
         if len(found) < len(known):
             return None
         at = np.array([s for s, _ in nodes])
-        shares = weights(at, np.array([place.s for place in places]))
+        shares = lagrange(at, np.array([place.s for place in places]))
         # At the reference temperature, where all nodes are.
         log_tau = [log_times(modes, np.exp(-place.s)) for place in places]
         # vτ over the length is the same in the case and in the node.

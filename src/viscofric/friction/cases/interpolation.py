@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import Array, Mask
+from viscofric.arrays import Array, Mask, lagrange
 
 #: Column of friction in the values of a node.
 FRICTION = 0
@@ -59,17 +59,6 @@ def _walk(beyond: list[int], first: int, toward: int, least: int, furthest: int)
     return found
 
 
-def weights(nodes: Array, places: Array) -> Array:
-    """Return Lagrange's weights, (places, nodes), of nodes (nodes,) at places (places,)."""
-    away = places[:, None] - nodes
-    apart = nodes[:, None] - nodes
-    result = np.ones((len(places), len(nodes)))
-    for row in range(len(nodes)):
-        others = np.arange(len(nodes)) != row
-        result[:, row] = np.prod(away[:, others] / apart[row, others], axis=1)
-    return result
-
-
 class Interpolated(NamedTuple):
     """Values between nodes, each array (places, columns)."""
 
@@ -90,11 +79,11 @@ def interpolate(
     shown = np.where(logarithmic, np.log(unit), values)
     low, high = (step * end for end in chosen.interval)
     looked_at = low + (high - low) * _WITHIN
-    inside = weights(nodes, looked_at) @ shown
+    inside = lagrange(nodes, looked_at) @ shown
     fewer = [list(rows) for rows in chosen.fewer]
-    differences = [inside - weights(nodes[rows], looked_at) @ shown[rows] for rows in fewer]
+    differences = [inside - lagrange(nodes[rows], looked_at) @ shown[rows] for rows in fewer]
     apart = _CAUTION * np.abs(differences).max(axis=(0, 1))
-    full = weights(nodes, places)
+    full = lagrange(nodes, places)
     found = full @ shown
     found = np.where(logarithmic, np.exp(found), found)
     # A difference of logarithms is a relative one.

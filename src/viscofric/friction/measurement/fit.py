@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from viscofric.arrays import Array, Indices, Integers
+from viscofric.arrays import Array, Indices, Integers, lagrange
 from viscofric.friction.measurement.conditions import Condition
 from viscofric.friction.measurement.zeros import Zeros
 from viscofric.traction import TractionRuns
@@ -76,10 +76,7 @@ class Growth:
 
     def _weights(self, log_speed: Array) -> Array:
         """Return Lagrange's polynomials (n, k) minus their values at the condition's speed."""
-        weights = np.ones((log_speed.size, self.places.size))
-        for one, other in np.ndindex(weights.shape[1], weights.shape[1]):
-            if one != other:
-                weights[:, one] *= (log_speed - self.places[other]) / (self.places[one] - self.places[other])
+        weights = lagrange(self.places, log_speed)
         weights[:, 0] -= 1.0
         return weights
 

@@ -15,7 +15,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from viscofric.arrays import Array, Indices
+from viscofric.arrays import Array, Indices, lagrange
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.response import Response
 
@@ -136,9 +136,4 @@ def parted(box: Box, memory: Array, window: Box) -> tuple[Box, Array, list[tuple
 def _interpolation(count: int) -> tuple[Array, Array]:
     """Return a few of so many cells, and the matrix from values there to those on all cells."""
     nodes = np.unique(np.round(np.linspace(0.0, count - 1.0, min(count, _NODES))).astype(int))
-    cells = np.arange(count)[:, None]
-    matrix = np.ones((count, len(nodes)))
-    for k, node in enumerate(nodes):
-        others = np.delete(nodes, k)
-        matrix[:, k] = np.prod((cells - others) / (node - others), axis=1)
-    return nodes, matrix
+    return nodes, lagrange(nodes, np.arange(float(count)))

@@ -84,6 +84,19 @@ class Points:
         return len(self.along)
 
 
+def columns(along: Array, values: Mapping[str, tuple[Array, float]], times: Array) -> dict[str, Any]:
+    """Return fields of `Points` for columns of values (k,), by name, with their relative errors; times in s."""
+    size = len(along)
+    return {
+        "along": np.tile(along, len(values)),
+        "response": np.concatenate([column for column, _ in values.values()]),
+        "error": np.repeat([error for _, error in values.values()], size),
+        "count": np.ones(size * len(values)),
+        "lags": (float(times.min()), float(times.max())),
+        "parts": tuple((name, slice(n * size, (n + 1) * size)) for n, name in enumerate(values)),
+    }
+
+
 class Contact(Points, ABC):
     """The points of one record, and their response to a material."""
 
@@ -172,17 +185,7 @@ class Known(Contact):
     @classmethod
     def of(cls, frequency: Array, values: Mapping[str, tuple[Array, float]], **contact: Any) -> Known:
         """Return values over ω (k,), N/m or Pa, and their relative errors, by names such as "storage_modulus"."""
-        size = len(frequency)
-        along = np.tile(frequency, len(values))
-        return cls(
-            along=along,
-            response=np.concatenate([column for column, _ in values.values()]),
-            error=np.repeat([error for _, error in values.values()], size),
-            count=np.ones(len(along)),
-            lags=(1.0 / float(frequency.max()), 1.0 / float(frequency.min())),
-            parts=tuple((name, slice(n * size, (n + 1) * size)) for n, name in enumerate(values)),
-            **contact,
-        )
+        return cls(**columns(frequency, values, 1.0 / frequency), **contact)
 
     def ends(self, trial: Trial) -> tuple[float, float, float]:
         """Return the measured frequencies, rad/s."""

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, lagrange
 from viscofric.friction.identification.indentation.contact import EXACT, Answer, Shared, Trial
 from viscofric.friction.identification.indentation.rows import Reduced, Rows, RowsContact, changes
 from viscofric.rheology.spectra.step_misfit import contour
@@ -194,10 +194,7 @@ def _weights(time: Array, knots: Array, bends: Array, jumps: Array, grid: Array 
         lag = lags[rows, columns]
         place = np.log(np.maximum(lag / low, 1.0)) / spacing
         cell = np.clip(np.floor(place).astype(int) - 1, 0, count - 4)
-        x = place - cell
-        for node in range(4):  # Lagrange's cubics
-            others = [other for other in range(4) if other != node]
-            share = np.prod([(x - other) / (node - other) for other in others], axis=0)
+        for node, share in enumerate(lagrange(np.arange(4.0), place - cell).T):
             of_mean, of_value = block[rows] * 2 * count + cell + node, (block[rows] * 2 + 1) * count + cell + node
             weights += np.bincount(of_mean, share * bends[columns] * lag, len(weights))
             weights += np.bincount(of_value, share * jumps[columns], len(weights))

@@ -17,12 +17,13 @@ from viscofric.friction.identification.indentation.contact import (
     Contact,
     Shared,
     Trial,
+    columns,
     logarithm,
     wider,
 )
 from viscofric.friction.identification.indentation.tables import ReboundRecord
 from viscofric.motion.bounce import Bounce
-from viscofric.motion.springs import elastic_radius, impact_radius, profile
+from viscofric.motion.springs import elastic_radius, elastic_work, impact_radius, profile
 from viscofric.motion.tangents import Falling, Followed, follow
 
 #: Springs, and their margin beyond the radius on an elastic half-space of the compliance after the impact.
@@ -50,22 +51,13 @@ class Impacts(Contact):
     @classmethod
     def of(cls, record: ReboundRecord, indenter: Indenter, shared: Shared = EXACT) -> Impacts:
         """Return the impacts of a record; the lags are contact times over π, measured or of similar elastic ones."""
-        names, size = record.quantities, len(record)
         times = record.contact_time
         if times is None:
-            depths = [_depth(record, indenter, place) for place in range(size)]
+            depths = [_depth(record, indenter, place) for place in range(len(record))]
             times = _ELASTIC_TIME * np.array(depths) / record.speed
-        return cls(
-            along=np.tile(record.speed, len(names)),
-            response=np.concatenate([getattr(record, name) for name in names]),
-            error=np.repeat([record.error[name] for name in names], size),
-            count=np.ones(size * len(names)),
-            lags=(float(times.min()) / _HALF_SINE, float(times.max()) / _HALF_SINE),
-            parts=tuple((name, slice(n * size, (n + 1) * size)) for n, name in enumerate(names)),
-            record=record,
-            indenter=indenter,
-            shared=shared,
-        )
+        values = {name: (getattr(record, name), record.error[name]) for name in record.quantities}
+        points = columns(record.speed, values, times / _HALF_SINE)
+        return cls(**points, record=record, indenter=indenter, shared=shared)
 
     def ends(self, trial: Trial) -> tuple[float, float, float]:
         """Return angular frequencies of half-sines as long as the contacts with a material, rad/s."""
@@ -79,13 +71,11 @@ class Impacts(Contact):
         """Ln of the plane-strain compliance of a similar elastic impact, of the same energy and depth."""
         if self.record.quantities == ("restitution",):
             return None
-        nodes, weights = np.polynomial.legendre.leggauss(20)
         found = []
         for place, speed in enumerate(self.record.speed):
             depth = _depth(self.record, self.indenter, place)
             radius = elastic_radius(self.indenter, depth, None, 1.0)
-            inside = depth - profile(self.indenter, 0.5 * radius * (nodes + 1.0))
-            found.append(radius * 0.5 * float(weights @ np.square(inside)) / (0.5 * self.record.mass * speed**2))
+            found.append(elastic_work(self.indenter, radius, depth) / (0.5 * self.record.mass * speed**2))
         return float(np.median(np.log(found)))
 
     def answer(self, trial: Trial) -> Answer:

@@ -11,7 +11,7 @@ from viscofric.arrays import Array, Integers
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.friction.identification.indentation.contact import Contact, Points, Trial
 from viscofric.friction.identification.indentation.record import IndentationRecord
-from viscofric.motion.springs import elastic_radius, profile
+from viscofric.motion.springs import PLACES, SHARES, elastic_radius, profile
 from viscofric.rheology.spectra.step_misfit import REACH
 
 #: Rows are averaged over so many equal parts of each decade of time since the last kink of the prescribed quantity.
@@ -38,10 +38,9 @@ class Reduced:
         self._radius = elastic_radius(indenter, largest, None, 1.0)
         self._depths = self._values = None
         if not indenter.has_walls:
-            nodes, weights = np.polynomial.legendre.leggauss(20)
             radii = self._radius * np.geomspace(1e-6, BEYOND, _RADII)
             self._depths = profile(indenter, radii)
-            inner = profile(indenter, 0.5 * radii[:, None] * (nodes + 1.0)) @ (0.5 * weights)
+            inner = profile(indenter, radii[:, None] * PLACES) @ SHARES
             self._radii = radii
             self._values = 2.0 * radii * (self._depths - inner)
 
