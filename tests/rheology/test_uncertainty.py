@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -159,6 +159,17 @@ def test_vertical_shifts_are_drawn_with_the_spectrum_they_belong_to():
     storage = np.array([material.at().storage_modulus(fast) for material in unsure.materials])
     slope = np.polyfit(raised, np.log10(storage), 1)[0]
     assert slope == pytest.approx(-1.0, abs=0.1)
+
+
+def test_a_given_table_of_vertical_shifts_errs_at_temperatures_of_its_own():
+    table = VerticalShiftFactors([253.15, REFERENCE, 373.15], np.zeros(3), REFERENCE, np.diag([0.04**2, 0.0, 0.0]))
+    samples = sample_materials(replace(known_superposition(noise=1e-3), vertical_shift=table), samples=20)
+    raised = np.array([material.vertical_shift.log10(KELVIN[0]) for material in samples.materials])
+    # 10 K of 50 K from the uncertain end; a standard deviation from 20 draws is known to 1/√38 = 16 %, three of that.
+    assert np.std(raised) == pytest.approx(0.8 * 0.04, rel=0.5)
+    # The glassy end is softer where b is larger there; the noise is 4e-4 decades, but single samples are wider.
+    glassy = np.log10([one.at().storage_modulus(samples.frequency_range[1] / 30) for one in samples.materials])
+    assert np.median(np.abs(glassy + raised - np.median(glassy + raised))) < 0.1 * np.std(raised)
 
 
 @dataclass(frozen=True, eq=False)

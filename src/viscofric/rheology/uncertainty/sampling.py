@@ -14,7 +14,7 @@ from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
-from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.spectra.fit_verdict import Curve
 from viscofric.rheology.spectra.modulus_misfit import Modes
@@ -118,68 +118,48 @@ def sample_materials(
     whole_number(samples, "samples", FEWEST_SAMPLES, 10**6)
     whole_number(seed, "seed", 0)
     text(name, "name")
-    if isinstance(fit, JointSuperposition):
-        return _of_several(fit, spectrum, samples, seed, law, poisson_ratio, name)
-    curve, shifts = fit.master_curve, fit.shift_factors
-    spectrum = fit_retardation_spectrum(curve) if spectrum is None else spectrum
-    _insist_on_same_curve(spectrum, curve)
-    random = np.random.default_rng(seed)
-    tables, verticals, offsets = _tables(random, fit, samples)
-    moved = np.array([table.log10_values for table in tables]) - shifts.log10_values
-    raised = np.zeros_like(moved)
-    if isinstance(fit.vertical_shift, VerticalShiftFactors):
-        rows = [one.log10_values for one in verticals if isinstance(one, VerticalShiftFactors)]
-        raised = np.array(rows) - fit.vertical_shift.log10_values
-    laws: Sequence[ShiftLaw] = tables if law is None else _laws(random, shifts, moved, shifts.law(law))
-    drawn = Resampled(random, fit, spectrum, moved, offsets - raised[..., None])
-    refit = Refit(random.spawn(1)[0], spectrum, drawn.misfit, *drawn.ends)
-    fitted = [refit(*drawn(number)) for number in range(samples)]
-    materials = [
-        Material(as_spectrum(modes), shift, poisson_ratio, name, vertical)
-        for modes, shift, vertical in zip(fitted, laws, verticals, strict=True)
-    ]
-    missed = _misfit(curve, shifts, spectrum)
-    return MaterialSamples(tuple(materials), *_on_lattice(refit, fitted), frequencies_of(curve), missed)
-
-
-def _of_several(
-    fit: JointSuperposition,
-    spectrum: RetardationSpectrum | None,
-    samples: int,
-    seed: int,
-    law: str | None,
-    poisson_ratio: float,
-    name: str,
-) -> MaterialSamples:
-    """Draw samples from several kinds of tests: each with its own errors, shifts in common, one spectrum."""
-    common, curves = fit.shift_factors, [part.master_curve for part in fit.parts]
+    joint = fit if isinstance(fit, JointSuperposition) else None
+    parts, alone = ((fit,), (fit,)) if not isinstance(fit, JointSuperposition) else (fit.parts, fit.alone)
+    common, vertical = fit.shift_factors, fit.vertical_shift
+    gains = joint.gains if joint else (np.eye(len(common.temperatures)),)
     spectrum = fit_retardation_spectrum(fit) if spectrum is None else spectrum
+    if joint is None:
+        _insist_on_same_curve(spectrum, parts[0].master_curve)
     random = np.random.default_rng(seed)
-    alone = [(one, *_tables(random, one, samples)) for one in fit.alone]
-    moved = np.zeros((samples, len(common.temperatures)))
-    for (one, tables, _, _), gain in zip(alone, fit.gains, strict=True):
-        moved += (np.array([table.log10_values for table in tables]) - one.shift_factors.log10_values) @ gain.T
+    errors = [_errors(random, one, samples) for one in alone]
+    moved = np.sum([error @ gain.T for (error, _, _), gain in zip(errors, gains, strict=True)], axis=0)
+    tables = [ShiftFactors(common.temperatures, common.log10_values + row, common.reference) for row in moved]
+    verticals: list[VerticalShift | None] = [vertical] * samples
+    if isinstance(vertical, VerticalShiftFactors):
+        fitted_too = errors[0][1]
+        rows = normal_deviates(random, vertical.covariance, samples) if fitted_too is None else fitted_too
+        rows = rows + vertical.log10_values
+        verticals = [VerticalShiftFactors(vertical.temperatures, row, vertical.reference) for row in rows]
+    laws: Sequence[ShiftLaw] = tables if law is None else _laws(random, common, moved, common.law(law))
     drawn = []
-    for part, (_, _, _, offsets) in zip(fit.parts, alone, strict=True):
+    for part, (_, _, offsets) in zip(parts, errors, strict=True):
         own = part.shift_factors.temperatures
         place = np.abs(own[:, None] - common.temperatures).argmin(axis=1)
+        if vertical is not None:
+            raised = np.array([b.log10(own) for b in verticals if b is not None]) - vertical.log10(own)
+            offsets = offsets - raised[..., None]
         drawn.append(Resampled(random, part, spectrum, moved[:, place], offsets))
-    joint = joint_misfit(curves)
-    refit = Refit(
-        random.spawn(1)[0], spectrum, joint, min(one.ends[0] for one in drawn), max(one.ends[1] for one in drawn)
-    )
+    ends = min(one.ends[0] for one in drawn), max(one.ends[1] for one in drawn)
+    together = joint_misfit([part.master_curve for part in parts]) if joint else drawn[0].misfit
+    refit = Refit(random.spawn(1)[0], spectrum, together, *ends)
     fitted = []
     for number in range(samples):
         misfits, noise = zip(*(one(number) for one in drawn), strict=True)
-        fitted.append(refit(JointMisfit(misfits, joint.free), np.concatenate(noise)))
-    tables = [ShiftFactors(common.temperatures, common.log10_values + row, common.reference) for row in moved]
-    laws: Sequence[ShiftLaw] = tables if law is None else _laws(random, common, moved, common.law(law))
+        sample = JointMisfit(misfits, together.free) if isinstance(together, JointMisfit) else misfits[0]
+        fitted.append(refit(sample, np.concatenate(noise)))
     materials = tuple(
-        Material(as_spectrum(modes), shift, poisson_ratio, name, fit.vertical_shift)
-        for modes, shift in zip(fitted, laws, strict=True)
+        Material(as_spectrum(modes), shift, poisson_ratio, name, b)
+        for modes, shift, b in zip(fitted, laws, verticals, strict=True)
     )
-    assert spectrum.fit is not None
-    return MaterialSamples(materials, *_on_lattice(refit, fitted), spectrum.fit.frequency_range)
+    assert spectrum.fit is not None  # `Refit` refuses others
+    measured = spectrum.fit.frequency_range if joint else frequencies_of(parts[0].master_curve)
+    missed = None if joint else _misfit(parts[0].master_curve, common, spectrum)
+    return MaterialSamples(materials, *_on_lattice(refit, fitted), measured, missed)
 
 
 def _on_lattice(refit: Refit, fitted: Sequence[Modes]) -> tuple[Array, Array]:
@@ -223,17 +203,13 @@ def normal_deviates(random: np.random.Generator, covariance: Array, samples: int
     return np.asarray(random.standard_normal((samples, len(values))) @ root)
 
 
-def _tables(
-    random: np.random.Generator, fit: Fit, samples: int
-) -> tuple[list[ShiftFactors], Sequence[VerticalShift | None], Array]:
-    """Draw shift factors, vertical shifts and offsets (samples, isotherms, m) together, as they are correlated."""
+def _errors(random: np.random.Generator, fit: Fit, samples: int) -> tuple[Array, Array | None, Array]:
+    """Draw errors of log10 α and of a fitted log10 b, and offsets (samples, isotherms, m), as they are correlated."""
     shifts, vertical = fit.shift_factors, fit.vertical_shift
     size = len(shifts.temperatures)
     covariance = shifts.covariance
-    if isinstance(vertical, VerticalShiftFactors):
-        cross = fit.cross_covariance
-        cross = np.zeros((size, size)) if cross is None else cross
-        covariance = np.block([[shifts.covariance, cross], [cross.T, vertical.covariance]])
+    if fit.cross_covariance is not None and isinstance(vertical, VerticalShiftFactors):
+        covariance = np.block([[covariance, fit.cross_covariance], [fit.cross_covariance.T, vertical.covariance]])
     count = len(covariance)
     if fit.offsets is not None:
         shared = fit.offsets.with_shifts[:count]
@@ -243,12 +219,9 @@ def _tables(
     if fit.offsets is not None:
         errors = fit.offsets.resized(random.spawn(1)[0], errors)
         offsets = fit.offsets.of_moduli(errors[:, count:])
-    tables = [ShiftFactors(shifts.temperatures, shifts.log10_values + row[:size], shifts.reference) for row in errors]
-    if not isinstance(vertical, VerticalShiftFactors):
-        return tables, [vertical] * samples, offsets
-    rows = vertical.log10_values + errors[:, size:count]
-    drawn = [VerticalShiftFactors(vertical.temperatures, row, vertical.reference) for row in rows]
-    return tables, drawn, offsets
+    moved = errors[:, :size]
+    moved = moved - moved @ weights_between(shifts.temperatures, np.array([shifts.reference])).T
+    return moved, errors[:, size:count] if count > size else None, offsets
 
 
 def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: ParametricLaw) -> list[ShiftLaw]:
