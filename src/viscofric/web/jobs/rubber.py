@@ -10,7 +10,9 @@ from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.study.rubber import Rubber
-from viscofric.web.figures.rubber import rubber_view
+from viscofric.web.figures.shift import law_table, shift_figures, verdict_numbers
+from viscofric.web.figures.spectrum import modes_table, spectrum_figures, spectrum_numbers_shown
+from viscofric.web.figures.sweeps import moduli_of_material
 from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber
 from viscofric.web.jobs.shift_numbers import shift_numbers
@@ -31,7 +33,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     )
     rubber = made_rubber(study, context)
     found = _without_bands(rubber, table.fixed_shift_factors)
-    reply = found | rubber_view(found)
+    reply = found | _view(found)
     if not options.bands or wanted.draws == 0 or rubber.superposed is None:
         why = (
             ""
@@ -45,7 +47,46 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     if drawn.samples is None:
         return reply | {"band": None, "no_band": " ".join(drawn.notes)}
     found |= {"band": band_numbers(drawn.samples, frequencies(rubber)), "no_band": ""}
-    return found | rubber_view(found)
+    return found | _view(found)
+
+
+def _view(found: dict[str, Any]) -> dict[str, Any]:
+    """Return what is shown of a result, without columns that figures have of their own."""
+    shift, check, spectrum = found["shift"], found["check"], found["spectrum"]
+    modes, causal = spectrum["modes"], (check or {}).get("kramers_kronig")
+    alone = causal and {name: entry for name, entry in causal.items() if not isinstance(entry, (list, dict))}
+    laws = {"laws": law_table(shift["laws"])} if shift and shift["laws"] else {}
+    return {
+        "shift": shift and _without_lines(shift),
+        "check": check and {**check, "kramers_kronig": alone},
+        "figures": {
+            **spectrum_figures(found),
+            **(shift_figures(found) if shift else {}),
+            **moduli_of_material(spectrum),
+        },
+        "tables": laws | ({"modes": modes_table(spectrum)} if modes else {}),
+        "key_numbers": spectrum_numbers_shown(found),
+        "verdict_numbers": verdict_numbers(found) if shift and check else [],
+        "summary": {
+            "shift": _shift_summary(found),
+            "spectrum": f"{len(modes['retardation_time'])} modes" if modes else "a table of moduli",
+        },
+    }
+
+
+def _without_lines(shift: dict[str, Any]) -> dict[str, Any]:
+    def bare(law: dict[str, Any]) -> dict[str, Any]:
+        return {name: entry for name, entry in law.items() if name != "line"}
+
+    return {**shift, "laws": [bare(law) for law in shift["laws"]], "material": bare(shift["material"])}
+
+
+def _shift_summary(found: dict[str, Any]) -> str:
+    if not found["shift"]:
+        return "no shift with temperature"
+    if found["check"]:
+        return str(found["check"]["short"])
+    return "assumed law" if found["shift"]["used"] == "assumed" else "from the material file"
 
 
 def _without_bands(rubber: Rubber, held: dict[float, float]) -> dict[str, Any]:

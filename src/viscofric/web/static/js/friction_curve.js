@@ -9,7 +9,7 @@ import { state } from "./state.js";
 import * as units from "./units.js";
 import { Button, Card, Checks, Folded, Notes, Progress } from "./views.js";
 
-// What is drawn of a curve, {speed, reduced_speed, curves of its cases (figures/curve.py), friction, …}: points as they become
+// What is drawn of a curve, {speed, reduced_speed, curves of its cases (jobs/curve.py), friction, …}: points as they become
 // known, bands and doubts at the end, other curves in grey.  A look is {view: "speed" | "shifted", quantity, combination}.
 
 const GREY = "grey";
