@@ -17,9 +17,9 @@ from viscofric.cli.contact_options import (
     inputs_of,
 )
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import CSV, DASH, refuse_to_overwrite
+from viscofric.cli.files import CSV, refuse_to_overwrite
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
-from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, write_files
+from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, write_files
 from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.cli.run import NOT_ACCURATE
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
@@ -94,15 +94,11 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
             heating=chosen_heating(parameters),
             **settings,
         )
-    if as_json:
-        print_json(_record(curves, rubber, shape.record, parameters))
-    elif out != DASH:
-        _print(name, rubber, curves)
+    answer(lambda: _record(curves, rubber, shape.record, parameters), lambda: _print(name, rubber, curves))
     print_notes(curves.notes)
     write_files(
         ("curves", out, partial(write_friction_curves, curves)),
         ("picture", picture, drawing(_figure_of(curves), curves, mark=rubber.synthetic)),
-        quiet=as_json or out == DASH,
     )
     beyond = _beyond_accuracy(curves, parameters["accuracy"])
     if beyond:
@@ -204,7 +200,6 @@ def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
             ends = zip(curves.viscoelastic_lower[rows].tolist(), curves.viscoelastic_upper[rows].tolist(), strict=True)
             columns.append(["95 % band", *(f"{significant(low, 4)} to {significant(high, 4)}" for low, high in ends)])
         columns += _of_heat(curves, rows)
-    for line in aligned(zip(*columns, strict=True)):
-        click.echo(line)
+    click.echo("\n".join(aligned(zip(*columns, strict=True))))
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
     click.echo(f"\nnumerical error  {percent(worst)} at most")

@@ -12,11 +12,11 @@ from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import FILE, JSON, Source, plainly, refuse_to_overwrite
 from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
 from viscofric.cli.output import (
+    answer,
     drawing,
     json_option,
     out_option,
     picture_option,
-    print_json,
     synthetic_option,
     write_files,
 )
@@ -211,18 +211,17 @@ def command(
             bar(done, total, f"Step {step}: contacts")
 
         found = identify_material(curves, indenter=shape.indenter, progress=show, **options)
-    if as_json:
+
+    def record() -> dict[str, Any]:
         inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
         inputs |= chosen(parameters) | separation_record(parameters)
-        record = identification_record(found, inputs) | listed("notes", curves.notes)
-        print_json(record)
-    else:
-        _print(found)
+        return identification_record(found, inputs) | listed("notes", curves.notes)
+
+    answer(record, lambda: _print(found))
     print_notes(curves.notes)
     write_files(
         ("material", out, lambda path: write_card(found.material, path, format="json")),
         ("picture", picture, drawing("identified.identified_figure", found, known, mark=synthetic)),
-        quiet=as_json,
     )
 
 

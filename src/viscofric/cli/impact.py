@@ -17,8 +17,8 @@ from viscofric.cli.contact_options import (
     inputs_of,
 )
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_dataset
-from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
+from viscofric.cli.files import DATA, refuse_to_overwrite, write_dataset
+from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
 from viscofric.cli.rubber_options import chosen_rubber, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -62,7 +62,7 @@ Examples:
 @json_option()
 @out_option("Write the contact over time, or the curve of several (.csv or .nc); `-` prints it.", endings=DATA)
 @picture_option("Draw the contact over time, or the restitution of several")
-def command(as_json: bool, out: Path | None, picture: Path | None, **parameters: Any) -> None:
+def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
     """Solve the impact of a body of revolution of given mass: restitution, contact time, largest force.
 
     Quantities carry their unit. Several speeds or temperatures give the restitution curve.
@@ -81,7 +81,10 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
     result = _solved(rubber.material, shape.indenter, speeds, kelvins, parameters)
     seconds = time.perf_counter() - began
     name = f"{shape.words} on {rubber.name}"
-    if as_json:
+
+    def record() -> dict[str, Any]:
+        from viscofric.report.texts.motion import impact_record
+
         inputs = {
             "material": rubber.record(None if kelvins is None else kelvins[0]),
             "indenter": shape.record | {"elastic": elastic_record(parameters)},
@@ -89,16 +92,12 @@ def command(as_json: bool, out: Path | None, picture: Path | None, **parameters:
             "speed": speeds,
             "temperature": kelvins,
         }
-        from viscofric.report.texts.motion import impact_record
+        return impact_record(inputs, result, seconds)
 
-        print_json(impact_record(inputs, result, seconds), indent=None)
-    elif out != DASH:
-        click.echo(f"{name}{rubber.mark}, {parameters['mass']}\n")
-        _print(result, seconds)
+    answer(record, lambda: _print(f"{name}{rubber.mark}, {parameters['mass']}\n", result, seconds), indent=None)
     write_files(
         ("data", out, lambda path: write_dataset(path, result.to_dataset())),
         ("picture", picture, drawing("pressures.impact_figure", result, name, mark=rubber.synthetic)),
-        quiet=as_json or out == DASH,
     )
     print_notes(result.warnings, word="Warning")
 
@@ -122,12 +121,12 @@ def _solved(
     return restitution_curve(material, indenter, speeds=speeds, temperatures=kelvins, **settings)
 
 
-def _print(result: ImpactSolution | RestitutionCurve, seconds: float) -> None:
+def _print(title: str, result: ImpactSolution | RestitutionCurve, seconds: float) -> None:
     from viscofric.motion.impact_solution import RestitutionCurve
     from viscofric.report.texts.motion import impact_lines, restitution_lines
 
+    click.echo(title)
     if isinstance(result, RestitutionCurve):
-        for line in restitution_lines(result):
-            click.echo(line)
-        return
-    print_pairs(impact_lines(result, seconds))
+        click.echo("\n".join(restitution_lines(result)))
+    else:
+        print_pairs(impact_lines(result, seconds))

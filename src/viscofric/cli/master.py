@@ -8,14 +8,14 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import CSV, DASH, Source, plainly, refusal, refuse_to_overwrite
+from viscofric.cli.files import CSV, Source, plainly, refusal, refuse_to_overwrite
 from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
 from viscofric.cli.output import (
+    answer,
     drawing,
     json_option,
     out_option,
     picture_option,
-    print_json,
     print_pairs,
     synthetic_option,
     write_files,
@@ -72,7 +72,7 @@ Example:
 @synthetic_option
 @json_option("Print everything as JSON, in SI units.")
 def command(
-    sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **parameters: Any
+    sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, **parameters: Any
 ) -> None:
     """Shift the friction curves of several temperatures onto a master curve, and find α(T) from friction alone.
 
@@ -92,23 +92,19 @@ def command(
     agreement = _agreement(master, known)
     if out is not None and not master.found:
         raise refusal("no-factors", f"{out} is not written: friction determines no shift factors.")
-    if as_json:
-        inputs = {"sources": [plainly(str(path)) for path in sources]}
-        inputs |= {"shift": parameters["known"]} | {
-            name: parameters[name] for name in ("reference", "law", "ball", "level_error")
-        }
-        record = shift_record(master, law, agreement, inputs | separation_record(parameters)) | {
-            "law_explanation": why or None
-        }
-        print_json(record)
-    elif out != DASH:
-        _print(master, known, law, why, agreement)
+
+    def record() -> dict[str, Any]:
+        inputs = {"sources": [plainly(str(path)) for path in sources], "shift": parameters["known"]}
+        inputs |= {name: parameters[name] for name in ("reference", "law", "ball", "level_error")}
+        found = shift_record(master, law, agreement, inputs | separation_record(parameters))
+        return found | {"law_explanation": why or None}
+
+    answer(record, lambda: _print(master, known, law, why, agreement))
     print_notes((*curves.notes, *master.notes))
     draw = drawing("friction.shifted_figure", master, known, mark=synthetic, synthetic=synthetic)
     write_files(
         ("factors", out, lambda path: master.shift_factors.save(path)),  # noqa: PLW0108 - not of all of them
         ("picture", picture, draw),
-        quiet=as_json or out == DASH,
     )
 
 
@@ -164,7 +160,5 @@ def _print(
 ) -> None:
     from viscofric.report.texts.inverse import shift_lines, shift_words
 
-    for line in shift_lines(master, known):
-        click.echo(line)
-    click.echo()
+    click.echo("\n".join([*shift_lines(master, known), ""]))
     print_pairs(shift_words(master, law, agreement, why))

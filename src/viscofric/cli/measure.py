@@ -8,14 +8,14 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import CSV, DASH, Source, plainly, refuse_to_overwrite
+from viscofric.cli.files import CSV, Source, plainly, refuse_to_overwrite
 from viscofric.cli.friction_sources import separated_runs, separation_options, separation_record
 from viscofric.cli.output import (
+    answer,
     drawing,
     json_option,
     out_option,
     picture_option,
-    print_json,
     print_pairs,
     synthetic_option,
     write_files,
@@ -39,9 +39,7 @@ Example:
 @picture_option("Draw viscoelastic and Coulomb friction against speed")
 @synthetic_option
 @json_option("Print the friction curves as JSON, in SI units.")
-def command(
-    runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, as_json: bool, **parameters: Any
-) -> None:
+def command(runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, **parameters: Any) -> None:
     """Separate viscoelastic from Coulomb friction in RUNS, files of a mini-traction machine (MTM, ETM).
 
     The signs of the surface speeds separate the force: viscoelastic friction changes sign with the motion of the
@@ -53,26 +51,20 @@ def command(
     from viscofric.report.texts.friction import friction_record
 
     curves = separated_runs(runs, parameters)
-    if as_json:
-        inputs = {"runs": [plainly(str(path)) for path in runs], **separation_record(parameters)}
-        record = friction_record(curves, inputs)
-        print_json(record)
-    elif out != DASH:
-        _print(curves)
+
+    def record() -> dict[str, Any]:
+        return friction_record(curves, {"runs": [plainly(str(path)) for path in runs], **separation_record(parameters)})
+
+    answer(record, lambda: _print(curves))
     print_notes(curves.notes)
     draw = drawing("friction.friction_figure", curves, mark=synthetic, synthetic=synthetic)
-    write_files(
-        ("curves", out, lambda path: write_friction_curves(curves, path)),
-        ("picture", picture, draw),
-        quiet=as_json or out == DASH,
-    )
+    write_files(("curves", out, lambda path: write_friction_curves(curves, path)), ("picture", picture, draw))
 
 
 def _print(curves: FrictionCurves) -> None:
     from viscofric.report.texts.friction import friction_lines, friction_table
 
-    for line in friction_table(curves):
-        click.echo(line)
+    click.echo("\n".join(friction_table(curves)))
     said = friction_lines(curves)
     if said:
         click.echo()

@@ -80,6 +80,15 @@ def print_json(record: dict[str, Any], indent: int | None = 2) -> None:
     click.echo(json.dumps(plain(record, digits=None), indent=indent, ensure_ascii=False, allow_nan=False))
 
 
+def answer(record: Callable[[], dict[str, Any]], show: Callable[[], object], *, indent: int | None = 2) -> None:
+    """Print what was found: as JSON with `--json`, else for people, unless `--out -` prints a table instead."""
+    parameters = click.get_current_context().params
+    if parameters["as_json"]:
+        print_json(record(), indent)
+    elif parameters["out"] != DASH:
+        show()
+
+
 def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
     """Print pairs of name and value, the values one below the other."""
     pairs = list(pairs)
@@ -88,14 +97,20 @@ def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
         click.echo(f"{name:<{width}}  {value}")
 
 
-def write_files(*files: tuple[str, Path | None, Callable[[Path], object]], quiet: bool) -> None:
+def write_files(*files: tuple[str, Path | None, Callable[[Path], object]]) -> None:
     """Write the requested ones of files (a word, its path, what writes it; `-` prints it), and name them."""
     for word, path, write in files:
         if path is not None:
             with to_be_written(path) as target:
                 write(target)
             if path != DASH:
-                print_written((word, path), err=quiet)
+                print_written((word, path), err=is_piped())
+
+
+def is_piped() -> bool:
+    """Whether standard output has the JSON or the table of `--out -`, so that all else goes to standard error."""
+    parameters = click.get_current_context().params
+    return bool(parameters["as_json"]) or parameters["out"] == DASH
 
 
 def print_written(*written: tuple[str, object], figures: Sequence[Path] = (), err: bool = False) -> None:

@@ -19,9 +19,9 @@ from viscofric.cli.contact_options import (
     inputs_of,
 )
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import DASH, DATA, refuse_to_overwrite, write_fields
+from viscofric.cli.files import DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
-from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
+from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
 from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.contact.settings import ContactSettings
 
@@ -88,7 +88,7 @@ Example:
 @json_option("Print inputs, results and diagnostics as JSON, in SI units.")
 @picture_option("Draw pressure and profile")
 @out_option("Write pressure and displacement (.nc or .csv); `-` prints the table.", endings=DATA)
-def command(as_json: bool, picture: Path | None, out: Path | None, **parameters: Any) -> None:
+def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
     """Solve one steady contact of an indenter that slides or rolls over rubber.
 
     Quantities carry their unit. Every result has its estimated discretisation error.
@@ -109,19 +109,15 @@ def command(as_json: bool, picture: Path | None, out: Path | None, **parameters:
     solution = solve_steady(rubber.material, shape.indenter, speed=_speed(parameters["speed"]), **settings)
     seconds = time.perf_counter() - began
     name = in_contact(shape.words, rubber, settings["layer"])
-    if as_json:
+
+    def record() -> dict[str, Any]:
         from viscofric.report.texts.contact import contact_record
 
-        record = contact_record(_inputs(parameters, rubber, shape, solution), solution, seconds)
-        print_json(record)
-    elif out != DASH:
-        _print(name, rubber, solution, seconds)
+        return contact_record(_inputs(parameters, rubber, shape, solution), solution, seconds)
+
+    answer(record, lambda: _print(name, rubber, solution, seconds))
     draw = drawing("contact.contact_figure", solution, shape.indenter, name, mark=rubber.synthetic)
-    write_files(
-        ("picture", picture, draw),
-        ("fields", out, lambda path: write_fields(path, solution)),
-        quiet=as_json or out == DASH,
-    )
+    write_files(("picture", picture, draw), ("fields", out, lambda path: write_fields(path, solution)))
 
 
 def _speed(text: str) -> float | str:
@@ -175,6 +171,5 @@ def _print(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: f
     print_pairs(contact_lines(solution, seconds))
     if solution.derivatives is not None:
         click.echo()
-        for line in derivative_lines(solution, rubber.material.modes_at(solution.temperature)):
-            click.echo(line)
+        click.echo("\n".join(derivative_lines(solution, rubber.material.modes_at(solution.temperature))))
     print_notes(solution.warnings, word="Warning")

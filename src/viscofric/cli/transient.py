@@ -22,10 +22,20 @@ from viscofric.cli.contact_options import (
     surface_options,
 )
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import DASH, DATA, FILE, PICTURES, Source, check_ending, refuse_to_overwrite, write_dataset
+from viscofric.cli.files import DATA, FILE, PICTURES, Source, check_ending, refuse_to_overwrite, write_dataset
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.history_options import chosen_history, chosen_times, history_options
-from viscofric.cli.output import drawing, json_option, out_option, picture_option, print_json, print_pairs, write_files
+from viscofric.cli.output import (
+    answer,
+    drawing,
+    is_piped,
+    json_option,
+    out_option,
+    picture_option,
+    print_pairs,
+    print_written,
+    write_files,
+)
 from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 
 if TYPE_CHECKING:
@@ -100,13 +110,14 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     if not len(run.time):  # nothing was reached
         raise KeyboardInterrupt
     name = in_contact(shape.words, rubber, layer)
-    if as_json:
-        print_json(_record(parameters, rubber, shape, history, result, seconds), indent=None)
-    elif out != DASH:
-        _print(name, rubber, history, result, seconds)
-    _write(name, rubber.synthetic, result, parameters["times"] is not None, out, drawings, quiet=as_json)
+    answer(
+        lambda: _record(parameters, rubber, shape, history, result, seconds),
+        lambda: _print(name, rubber, history, result, seconds),
+        indent=None,
+    )
+    _write(name, rubber.synthetic, result, parameters["times"] is not None, out, drawings)
     if parameters["state"] is not None:
-        click.echo(f"state    {parameters['state']}", err=as_json or out == DASH)
+        print_written(("state", parameters["state"]), err=is_piped())
     print_notes(run.warnings, word="Warning")
     if run.interrupted:
         word, status = ("Terminated", TERMINATED) if Terminated.received else ("Interrupted", INTERRUPTED)
@@ -219,8 +230,6 @@ def _write(
     at_times: bool,
     out: Path | None,
     drawings: dict[str, Path | None],
-    *,
-    quiet: bool,
 ) -> None:
     """Write the requested files; pressures `at_times` are those at all times of the solution."""
     run: Any = getattr(result, "run", result)
@@ -238,5 +247,4 @@ def _write(
         ("picture", drawings["picture"], whole),
         ("picture", drawings["pressures"], strip),
         ("animation", drawings["animation"], animate),
-        quiet=quiet or out == DASH,
     )

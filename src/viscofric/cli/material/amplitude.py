@@ -83,11 +83,9 @@ def command(files: tuple[Path, ...], as_json: bool, picture: Path | None, out: P
     if as_json:
         print_json(record)
     else:
-        for line in lines:
-            click.echo(line)
+        click.echo("\n".join(lines))
         print_notes(notes)
-    draw = drawing("ramps.amplitude_figure", fit, mark=chosen["synthetic"])
-    write_files(("picture", picture, draw), quiet=as_json)
+    write_files(("picture", picture, drawing("ramps.amplitude_figure", fit, mark=chosen["synthetic"])))
 
 
 def _fitted(fit: PayneFit) -> tuple[dict[str, Any], list[str]]:

@@ -11,11 +11,11 @@ from viscofric.cli.contact_options import chosen_indenter, elastic_options, inde
 from viscofric.cli.errors import typed_as
 from viscofric.cli.files import CSV, FILE, JSON, Source, check_ending, refuse_to_overwrite
 from viscofric.cli.output import (
+    answer,
     drawing,
     json_option,
     out_option,
     picture_option,
-    print_json,
     synthetic_option,
     write_files,
 )
@@ -94,7 +94,6 @@ def command(
     picture: Path | None,
     beside: str | None,
     synthetic: bool,
-    as_json: bool,
     **parameters: Any,
 ) -> None:
     """Identify a material from indentation tests and rebounds in FILES.
@@ -121,16 +120,11 @@ def command(
     records = [one for path, at in zip(files, kelvin, strict=True) for one in _records(path, at, parameters)]
     found = identify_from_indentation(records, shape.indenter, **_settings(parameters))
     data = found.to_dataset()
-    if as_json:
-        said = {"results": record(data), **listed("notes", found.notes)}
-        print_json(said)
-    else:
-        click.echo(str(found))
+    answer(lambda: {"results": record(data), **listed("notes", found.notes)}, lambda: click.echo(str(found)))
     write_files(
         ("material", out, lambda path: write_card(found.material, path, format="json")),
         ("table", table, data.to_dataframe().to_csv),
         ("picture", picture, drawing("identified.indentation_figure", found, known, mark=synthetic)),
-        quiet=as_json,
     )
 
 

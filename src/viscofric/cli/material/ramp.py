@@ -79,8 +79,7 @@ def command(files: tuple[Path, ...], as_json: bool, out: Path | None, **chosen: 
         }
         print_json(record)
     else:
-        for line in [*described("ramps", ramps, map(str, files))[1], *map(str, peaks)]:
-            click.echo(line)
+        click.echo("\n".join([*described("ramps", ramps, map(str, files))[1], *map(str, peaks)]))
         if chosen["reference"] is None:
             print_notes(ramps.notes)
     if chosen["reference"] is not None:

@@ -54,8 +54,7 @@ def _print(files: tuple[Path, ...], out: Path | None, as_json: bool, reading: di
         record, lines = described(kind, test, [plainly(str(path)) for path in own])
         records.append(record)
         if not as_json:
-            for line in lines:
-                click.echo(line)
+            click.echo("\n".join(lines))
         print_notes(test.notes)
         if out is not None and kind == "dma":
             from viscofric.study.rubber_results import write_sweeps

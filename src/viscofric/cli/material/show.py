@@ -46,8 +46,7 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], ou
         spectrum = material.to_dataset(temperature)
         print_json({"material": about, "spectrum": record(spectrum), "modulus": record(moduli)})
     elif out != DASH:
-        for line in [*_about(material), *_lines(moduli)]:
-            click.echo(line)
+        click.echo("\n".join([*_about(material), *_lines(moduli)]))
 
 
 def _about(material: Material) -> list[str]:
