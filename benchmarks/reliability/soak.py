@@ -194,7 +194,7 @@ class User:
 
     def check(self, client: httpx.Client) -> None:
         """Have a run file checked."""
-        assert self._job(client, "check", self._study(7))["event"] == "result"
+        assert self._job(client, "export-run-file", self._study(7))["event"] == "result"
 
     def upload(self, client: httpx.Client) -> None:
         """Store the example, a file of 100 kB, and remove one."""

@@ -206,7 +206,7 @@ def test_body_that_is_too_large_is_refused_before_it_is_read(server: Server, chu
             yield b"0" * 1_000_000
 
     with server.client(f"workspace-huge-{chunked}") as client:
-        for path in ("/api/jobs/check", "/api/files/huge.csv", "/api/status"):
+        for path in ("/api/jobs/export-run-file", "/api/files/huge.csv", "/api/status"):
             method = "PUT" if "files" in path else "POST"
             content = forever() if chunked else b"0" * 20_000_001
             try:
@@ -219,7 +219,7 @@ def test_body_that_is_too_large_is_refused_before_it_is_read(server: Server, chu
 
 
 def test_slow_and_partial_requests_keep_nobody_waiting(server: Server) -> None:
-    head = f"POST /api/jobs/check HTTP/1.1\r\nHost: {server.base[7:]}\r\nAuthorization: Bearer {server.token}\r\n"
+    head = f"POST /api/jobs/recognise HTTP/1.1\r\nHost: {server.base[7:]}\r\nAuthorization: Bearer {server.token}\r\n"
     partial = [b"G", b"GET / HTTP/1.1\r\nHost: ", f"{head}Content-Length: 1000\r\n\r\n{{".encode(), b"\x16\x03\x01\x02"]
     open_ones = []
     try:
@@ -380,7 +380,7 @@ def test_body_that_comes_byte_by_byte_is_given_up() -> None:
     async def send(message: dict[str, object]) -> None:
         reported.append(message)
 
-    scope = {"type": "http", "path": "/api/jobs/check", "headers": []}
+    scope = {"type": "http", "path": "/api/jobs/export-run-file", "headers": []}
     run_apart(Limits(application, lambda path: 10**6, pause=0.2)(scope, drip, send))  # type: ignore[arg-type]
     assert reported[0]["status"] == 408
 
@@ -400,7 +400,7 @@ def test_body_that_does_not_come_is_given_up() -> None:
     async def send(message: dict[str, object]) -> None:
         reported.append(message)
 
-    scope = {"type": "http", "path": "/api/jobs/check", "headers": []}
+    scope = {"type": "http", "path": "/api/jobs/export-run-file", "headers": []}
     run_apart(Limits(application, lambda path: 10, pause=0.05)(scope, silence, send))  # type: ignore[arg-type]
     assert reported[0]["status"] == 408
     assert "0.05 s" in json.loads(reported[1]["body"])["message"]  # type: ignore[arg-type]
@@ -425,7 +425,7 @@ def test_body_that_does_not_come_is_given_up() -> None:
 )
 def test_odd_bodies_are_refused_in_a_sentence(server: Server, body: bytes) -> None:
     with server.client("workspace-odd") as client:
-        answer = client.post("/api/jobs/check", content=body, headers={"Content-Type": "application/json"})
+        answer = client.post("/api/jobs/export-run-file", content=body, headers={"Content-Type": "application/json"})
         assert answer.status_code in (400, 422), answer.text
         assert answer.json()["message"]
 
@@ -450,7 +450,7 @@ def test_odd_bodies_are_refused_in_a_sentence(server: Server, body: bytes) -> No
 def test_odd_studies_end_in_a_sentence(server: Server, study: dict[str, object]) -> None:
     with server.client("workspace-odd") as client:
         content = json.dumps({"study": study})
-        answer = client.post("/api/jobs/check", content=content, headers={"Content-Type": "application/json"})
+        answer = client.post("/api/jobs/export-run-file", content=content, headers={"Content-Type": "application/json"})
         last = json.loads(answer.text.splitlines()[-1])
         assert answer.status_code == 422 or last["event"] == "error"
         assert last["message"]

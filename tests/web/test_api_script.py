@@ -36,17 +36,17 @@ def script(tab: Page, body: str, *given: Any) -> Any:
 
 
 def test_job_is_answered_and_its_errors_name_the_field(tab: Page) -> None:
-    found = script(tab, "return api.runJob('check', {study: given[0]})", STUDY)
+    found = script(tab, "return api.runJob('export-run-file', {study: given[0]})", STUDY)
     assert found["cases"] == 1
     wrong = {**STUDY, "conditions": {**STUDY["conditions"], "load": "25 mm"}}
-    caught = "try { await api.runJob('check', {study: given[0]}) } catch (e) { return [e.name, e.message, e.field] }"
+    caught = "try { await api.runJob('curve', {study: given[0]}) } catch (e) { return [e.name, e.message, e.field] }"
     name, message, field = script(tab, caught, wrong)
     assert (name, field) == ("JobError", "conditions.load")
     assert "25 mm" in message
 
 
 def test_more_jobs_than_places_are_all_answered(tab: Page) -> None:
-    jobs = "return Promise.all(Array.from({length: 9}, () => api.runJob('check', {study: given[0]})))"
+    jobs = "return Promise.all(Array.from({length: 9}, () => api.runJob('export-run-file', {study: given[0]})))"
     assert [one["cases"] for one in script(tab, jobs, STUDY)] == [1] * 9
 
 
@@ -70,7 +70,7 @@ def test_cancelled_jobs_free_their_processes(tab: Page, server: Server) -> None:
             assert time.monotonic() - begun < 30.0  # two seconds, and more for a busy machine; the study takes longer
             time.sleep(0.02)
     assert script(tab, "return window.stopped") == ["AbortError"] * 6
-    assert script(tab, "return api.runJob('check', {study: given[0]})", STUDY)["cases"] == 1
+    assert script(tab, "return api.runJob('export-run-file', {study: given[0]})", STUDY)["cases"] == 1
 
 
 @pytest.mark.apart

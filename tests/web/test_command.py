@@ -34,7 +34,7 @@ def test_interrupt_ends_it_at_once_with_nothing_left(tmp_path: Path, kind: signa
         assert len(children) == 1
         answers: list[str] = []
         solving = threading.Thread(
-            target=lambda: answers.append(client.post("/api/jobs/check", json={"study": STUDY}).text)
+            target=lambda: answers.append(client.post("/api/jobs/export-run-file", json={"study": STUDY}).text)
         )
         solving.start()
         deadline = time.monotonic() + 60.0
@@ -141,7 +141,9 @@ def test_run_file_is_what_the_page_opens_with(tmp_path: Path) -> None:
         assert study["title"] == load_study(folder / "study.toml").title
         assert [one["name"] for one in client.get("/api/files").json()] == ["dma.csv", "mtm.csv"]
         client.delete("/api/files/dma.csv")
-        assert '"code":"no-file"' in client.post("/api/jobs/check", json={"study": study}).text.replace(": ", ":")
+        reply = client.post("/api/jobs/export-run-file", json={"study": study}).text.replace(": ", ":")
+        assert '"result"' in reply
+        assert '"problems":[]' not in reply
     assert (folder / "dma.csv").exists()
 
 

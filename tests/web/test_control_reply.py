@@ -36,7 +36,7 @@ def test_server_answers_at_once_while_three_studies_are_solved(server: Server) -
             # 10 ms on a machine with nothing else to do, and the processes that solve are nicer than the server; asked
             # after them, it would take seconds.  A machine that is busy otherwise makes each of the two wait
             assert np.median(taken) < 0.5
-            assert client.post("/api/jobs/check", json={"study": LONG}).text.count('"event":"result"') == 1
+            assert client.post("/api/jobs/export-run-file", json={"study": LONG}).text.count('"event":"result"') == 1
     finally:
         for connection in connections:
             connection.close()

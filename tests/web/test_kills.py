@@ -89,7 +89,7 @@ def settle(served: Server) -> None:
         while client.get("/api/status").json()["running"]:
             assert time.monotonic() < end
             time.sleep(0.05)
-        assert '"result"' in client.post("/api/jobs/check", json={"study": STUDY}).text
+        assert '"result"' in client.post("/api/jobs/export-run-file", json={"study": STUDY}).text
 
 
 def test_killed_server_leaves_no_process(tmp_path: Path) -> None:

@@ -21,8 +21,6 @@ class Kind:
 
 #: By the name in the address, ``/api/jobs/<name>``.
 KINDS: dict[str, Kind] = {
-    # the study
-    "check": Kind("viscofric.web.jobs.check", seconds=60.0, memory=2 * _GB),
     # sweeps and what is made of them
     "recognise": Kind("viscofric.web.jobs.recognise", seconds=60.0, memory=2 * _GB),
     "sweeps": Kind("viscofric.web.jobs.sweeps", seconds=60.0, memory=2 * _GB),
