@@ -39,12 +39,13 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         )
     half = round(options.reach / options.step)
     moved = options.step * np.arange(-half, half + 1)
-    return {
-        "temperature": plain(float(temperatures[place])),
-        "log10_shift": plain(float(fit.shift_factors.log10_values[place])),
-        "moved": plain(moved),
-        "misfit": plain([_misfit(fit, place, float(by)) for by in moved]),
+    found = {
+        "temperature": float(temperatures[place]),
+        "log10_shift": float(fit.shift_factors.log10_values[place]),
+        "moved": moved,
+        "misfit": [_misfit(fit, place, float(by)) for by in moved],
     }
+    return dict(plain(found))
 
 
 def _misfit(fit: Superposition, place: int, moved: float) -> float:

@@ -35,15 +35,16 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     alpha = float(material.shift(at))
     omega = frequencies(rubber) / alpha
     samples = friction_bands(study, context).samples if options.bands else None
-    found = {
-        "temperature": plain(at),
-        "log10_shift": plain(float(np.log10(alpha))),
+    numbers = {
+        "temperature": at,
+        "log10_shift": float(np.log10(alpha)),
         "extrapolated": bool(material.shift.extrapolates(at)),
         "modulus": moduli(omega, material.complex_modulus(omega, at)),
         "band": None if samples is None else band_numbers(samples, omega, at),
         "moved": _moved(rubber, at, alpha),
         "isotherm": _isotherm(rubber, at),
     }
+    found: dict[str, Any] = plain(numbers)
     fitted = getattr(material.spectrum, "fit", None) is not None
     return found | {"figures": moduli_figures(found, at, fitted=fitted, moved="moved" if found["moved"] else "")}
 
@@ -64,4 +65,4 @@ def _isotherm(rubber: Rubber, at: float) -> dict[str, Any] | None:
     if abs(nearest.temperature - at) > _NEAR:
         return None
     measured = nearest.storage_modulus + 1j * nearest.loss_modulus
-    return moduli(nearest.angular_frequency, measured) | {"temperature": plain(nearest.temperature)}
+    return moduli(nearest.angular_frequency, measured) | {"temperature": nearest.temperature}

@@ -46,7 +46,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     drawn = friction_bands(study, context)
     if drawn.samples is None:
         return reply | {"band": None, "no_band": " ".join(drawn.notes)}
-    found |= {"band": band_numbers(drawn.samples, frequencies(rubber)), "no_band": ""}
+    found |= {"band": plain(band_numbers(drawn.samples, frequencies(rubber))), "no_band": ""}
     return found | _view(found)
 
 
@@ -93,17 +93,17 @@ def _without_bands(rubber: Rubber, held: dict[float, float]) -> dict[str, Any]:
     # notes on reading are those of the job `sweeps`
     tests = (rubber.sweeps, rubber.step_tests, None if rubber.ramps is None else rubber.ramps.ramps)
     read = [note for one in tests if one is not None for note in one.notes]
-    return {
+    found = {
         "name": rubber.material.name,
         "source": rubber.source,
         "citation": rubber.material.citation,
         "synthetic": rubber.synthetic,
         "deformation": None if rubber.sweeps is None else rubber.sweeps.deformation,
-        **listed("notes", [one for one in rubber.notes if one not in read]),
         "shift": shift_numbers(rubber, held),
         "check": _check(rubber),
         "spectrum": spectrum_numbers(rubber),
     }
+    return dict(plain(found)) | listed("notes", [one for one in rubber.notes if one not in read])
 
 
 def _check(rubber: Rubber) -> dict[str, Any] | None:
@@ -111,7 +111,7 @@ def _check(rubber: Rubber) -> dict[str, Any] | None:
         return check_numbers(rubber.fit)
     if rubber.step_fit is not None:
         check = rubber.step_fit.check
-        return _verdict(check.verdict, list(check.sentences)) | {"figure_of_merit": plain(check.figure_of_merit)}
+        return _verdict(check.verdict, list(check.sentences)) | {"figure_of_merit": check.figure_of_merit}
     if rubber.ramps is not None and rubber.ramps.check is not None:
         return _verdict("holds" if rubber.ramps.check.holds else "fails", [rubber.ramps.check.sentence])
     return None
@@ -141,14 +141,10 @@ def check_numbers(fit: Superposition) -> dict[str, Any]:
     check, found = fit.check, fit.check.kramers_kronig
     return {
         **_verdict(check.verdict, list(check.sentences)),
-        "figure_of_merit": plain(check.figure_of_merit),
+        "figure_of_merit": check.figure_of_merit,
         "neighbours": [
-            {
-                "colder": plain(pair.colder),
-                "warmer": plain(pair.warmer),
-                "distance": plain(pair.distance),
-                "error95": plain(LEVEL_95 * pair.standard_error),
-            }
+            {name: getattr(pair, name) for name in ("colder", "warmer", "distance")}
+            | {"error95": LEVEL_95 * pair.standard_error}
             for pair in check.neighbours
         ],
         "kramers_kronig": None if found is None else record(found.to_dataset(), 6) | {"allowed": LARGEST_RMS},

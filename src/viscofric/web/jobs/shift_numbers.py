@@ -47,7 +47,7 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
     measured = None if factors is None else factors.temperatures
     laws = () if rubber.laws is None else rubber.laws.rows
     return {
-        "reference": plain(float(law.reference)),
+        "reference": float(law.reference),
         "used": rubber.shift_used,
         "origin": rubber.shift_origin,
         "factors": None
@@ -64,7 +64,7 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
         "joint": rubber.joint is not None,
         "not_correctable": _not_correctable(rubber),
         "steps": _steps(rubber),
-        "misfit": None if quality is None else plain({"joint": quality.joint, "points": quality.points}),
+        "misfit": None if quality is None else {"joint": quality.joint, "points": quality.points},
     }
 
 
@@ -78,18 +78,18 @@ def _steps(rubber: Rubber) -> dict[str, Any] | None:
     kelvin = fit.shift_factors.temperatures
     place = np.abs(curve.temperature[:, None] - kelvin).argmin(axis=1)
     curves = [
-        {"temperature": plain(float(one)), "time": plain(curve.time[rows]), "response": plain(curve.response[rows])}
+        {"temperature": float(one), "time": curve.time[rows], "response": curve.response[rows]}
         for at, one in enumerate(kelvin)
         if (rows := place == at).any()
     ]
-    return {"kind": curve.kind, "curves": curves, "fit": {"time": plain(curve.time), "response": plain(fitted)}}
+    return {"kind": curve.kind, "curves": curves, "fit": {"time": curve.time, "response": fitted}}
 
 
 def with_bars(factors: Dataset) -> dict[str, Any]:
     """Return a data set of shift factors as JSON, with ``error95``, half of each 95 % interval, where it is known."""
     found = record(factors, _DIGITS)
     if "standard_error" in found:
-        found["error95"] = plain(LEVEL_95 * factors["standard_error"].values)
+        found["error95"] = LEVEL_95 * factors["standard_error"].values
     return found
 
 
@@ -114,7 +114,7 @@ _OF_A_LAW = ("kind", "title", "constants", "chi2", "freedom", "scatter", "aic", 
 
 def _law(row: LawRow[ParametricLaw], rubber: Rubber, factors: ShiftFactors) -> dict[str, Any]:
     chosen = rubber.laws is not None and row is rubber.laws.chosen
-    found: dict[str, Any] = plain({name: getattr(row, name) for name in _OF_A_LAW})
+    found: dict[str, Any] = {name: getattr(row, name) for name in _OF_A_LAW}
     found |= {"chosen": chosen, "used": rubber.shift_used == row.kind or (rubber.shift_used == "best" and chosen)}
     if row.law is None:
         return found | {"words": ""}
@@ -133,19 +133,19 @@ def _drawn(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:
         ends = [usual if end is None else end for end, usual in zip(limits["valid"], (low, high), strict=True)]
         low, high = (ends[0], ends[1]) if limits["fitted"] is not None else (max(low, ends[0]), min(high, ends[1]))
     low = max(low, 1.0)
-    return {"limits": limits, "ends": plain([low, high]), "line": with_bars(law_line(law, low, high, _LINE))}
+    return {"limits": limits, "ends": [low, high], "line": with_bars(law_line(law, low, high, _LINE))}
 
 
 def _limits(law: ShiftLaw) -> dict[str, Any] | None:
     """Return the temperatures between which a law is valid, and those that it was fitted on; K."""
     if isinstance(law, ShiftFactors):
         ends = [float(law.temperatures[0]), float(law.temperatures[-1])]
-        return {"valid": plain(ends), "fitted": plain(ends)}
+        return {"valid": ends, "fitted": ends}
     limits = getattr(law, "extrapolation_limits", None)
     fitted = getattr(law, "fitted_range", None)
     if limits is None:
         return None
-    return {"valid": plain(list(limits)), "fitted": None if fitted is None else plain(list(fitted))}
+    return {"valid": plain(list(limits)), "fitted": None if fitted is None else list(fitted)}
 
 
 def _vertical(shift: VerticalShift | None, measured: Array | None) -> dict[str, Any] | None:
@@ -159,8 +159,8 @@ def _vertical(shift: VerticalShift | None, measured: Array | None) -> dict[str, 
     b = 10.0 ** data["log10_vertical_shift"]
     upper = None
     if "vertical_standard_error" in data:
-        upper = plain((b * 10.0 ** (LEVEL_95 * data["vertical_standard_error"])).values)
-    return {"temperature": plain(data["temperature"].values), "b": plain(b.values), "upper": upper}
+        upper = (b * 10.0 ** (LEVEL_95 * data["vertical_standard_error"])).values
+    return {"temperature": data["temperature"].values, "b": b.values, "upper": upper}
 
 
 def _shifted(fit: Superposition, held: Mapping[float, float]) -> list[dict[str, Any]]:
@@ -169,9 +169,9 @@ def _shifted(fit: Superposition, held: Mapping[float, float]) -> list[dict[str, 
     return [
         record(one.to_dataset(), _DIGITS)
         | {
-            "dynamic_modulus": plain(np.hypot(one.storage_modulus, one.loss_modulus)),
-            "loss_angle": plain(np.arctan2(one.loss_modulus, one.storage_modulus)),
-            "log10_shift": plain(float(shift)),
+            "dynamic_modulus": np.hypot(one.storage_modulus, one.loss_modulus),
+            "loss_angle": np.arctan2(one.loss_modulus, one.storage_modulus),
+            "log10_shift": float(shift),
             "held": is_held,
             "is_reference": abs(one.temperature - factors.reference) < 1e-6 * one.temperature,
         }

@@ -8,7 +8,7 @@ import numpy as np
 
 from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
-from viscofric.datasets import plain, record
+from viscofric.datasets import record
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
@@ -33,11 +33,11 @@ def spectrum_numbers(rubber: Rubber) -> dict[str, Any]:
     curve = _curve(rubber)
     at = frequencies(rubber)
     return {
-        "reference": None if material.reference is None else plain(material.reference),
-        "poisson_ratio": plain(material.poisson_ratio),
+        "reference": material.reference,
+        "poisson_ratio": material.poisson_ratio,
         "modes": None if modes is None else record(modes.to_dataset(), _DIGITS),
         "relaxation": None if modes is None else record(modes.to_relaxation().to_dataset(), _DIGITS),
-        "fit": None if fit is None else plain({name: getattr(fit, name) for name in _OF_A_FIT}),
+        "fit": None if fit is None else {name: getattr(fit, name) for name in _OF_A_FIT},
         "notes": list(why),
         "modulus": moduli(at, material.complex_modulus(at)),
         "measured": None if curve is None else moduli(curve.angular_frequency, curve.complex_modulus),
@@ -93,10 +93,10 @@ def frequencies(rubber: Rubber) -> Array:
 def moduli(angular_frequency: Array, complex_modulus: ComplexArray) -> dict[str, Any]:
     """Return moduli and loss tangent over frequency, named as in data sets."""
     return {
-        "angular_frequency": plain(angular_frequency),
-        "storage_modulus": plain(complex_modulus.real),
-        "loss_modulus": plain(complex_modulus.imag),
-        "loss_tangent": plain(complex_modulus.imag / complex_modulus.real),
+        "angular_frequency": angular_frequency,
+        "storage_modulus": complex_modulus.real,
+        "loss_modulus": complex_modulus.imag,
+        "loss_tangent": complex_modulus.imag / complex_modulus.real,
     }
 
 
@@ -104,7 +104,7 @@ def _residual(curve: MasterCurve, material: Material) -> dict[str, Any] | None:
     """Return log10 of measured over fitted moduli at the points of the master curve."""
     fitted = material.complex_modulus(curve.angular_frequency)
     storage, loss = np.log10(curve.storage_modulus / fitted.real), np.log10(curve.loss_modulus / fitted.imag)
-    return {"storage_modulus": plain(storage), "loss_modulus": plain(loss)}
+    return {"storage_modulus": storage, "loss_modulus": loss}
 
 
 def band_numbers(
@@ -122,12 +122,10 @@ def band_numbers(
     error = samples.standard_errors
     return record(samples.to_dataset(angular_frequency, temperature), _DIGITS) | {
         "draws": len(samples),
-        "loss_tangent_lower": plain(lossy.lower),
-        "loss_tangent_upper": plain(lossy.upper),
-        "modes": {"retardation_time": plain(samples.tau[0]), "lower": plain(modes.lower), "upper": plain(modes.upper)}
-        if alike
-        else None,
-        "E0_error95": plain(LEVEL_95 * error.E0),
-        "E_inf_error95": plain(LEVEL_95 * error.E_inf),
+        "loss_tangent_lower": lossy.lower,
+        "loss_tangent_upper": lossy.upper,
+        "modes": {"retardation_time": samples.tau[0], "lower": modes.lower, "upper": modes.upper} if alike else None,
+        "E0_error95": LEVEL_95 * error.E0,
+        "E_inf_error95": LEVEL_95 * error.E_inf,
         "notes": list(samples.notes),
     }
