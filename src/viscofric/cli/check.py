@@ -94,11 +94,12 @@ def _check_results(folder: Path, as_json: bool) -> None:
 def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
     """Return what was found, in plain types."""
     study, sweep = found.study, found.sweep
+    made = zip(found.rubbers, study.materials, strict=True)
     extra = [form for form in ("csv", "excel", "zarr") if form in study.outputs.formats]
     return {
         "study": str(path),
         "title": study.title,
-        "materials": [_of_rubber(rubber, material.name) for rubber, material in _pairs(found)],
+        "materials": [_of_rubber(rubber, material.name) for rubber, material in made],
         "indenter": study.body.shape,
         "axes": {axis.name: {name: list(values) for name, values in axis.columns.items()} for axis in sweep.axes},
         "cases": len(sweep.cases),
@@ -114,10 +115,6 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
         "outputs": ["netcdf", "figures", "report", *extra],
         **listed("notes", found.notes),
     }
-
-
-def _pairs(found: CheckedStudy) -> list[tuple[Rubber, Any]]:
-    return list(zip(found.rubbers, found.study.materials, strict=True))
 
 
 def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:

@@ -179,7 +179,6 @@ def _named(name: str) -> NamedRubber:
         return NamedRubber(
             rubber.material, rubber.material.name or f"the rubber of {Path(name).name}", synthetic, rubber
         )
-    from viscofric.cli.rubber_options import find_rubber
     from viscofric.rheology.catalogue import catalogue
 
     material = find_rubber(name)

@@ -147,19 +147,15 @@ def command(
                 click.echo(_line(outcome))
                 if details:
                     _print_details(outcome)
-    _write_table(out, outcomes)
+    if out is not None:
+        checks_of = _record(outcomes)["checks"]
+        write_rows(out, [{"check": each["name"], **one} for each in checks_of for one in each["comparisons"]])
     if as_json:
         print_json({"backend": backend} | _record(outcomes))
     elif out != DASH:
         _print_verdict(outcomes)
     if not all(outcome.passed for outcome in outcomes):
         sys.exit(1)
-
-
-def _write_table(out: Path | None, outcomes: list[Outcome]) -> None:
-    if out is not None:
-        checks_of = _record(outcomes)["checks"]
-        write_rows(out, [{"check": each["name"], **one} for each in checks_of for one in each["comparisons"]])
 
 
 def _list(checks: tuple[Check, ...]) -> None:

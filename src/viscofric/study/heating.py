@@ -115,7 +115,7 @@ class Heatings(Singles):
             "average": table.average,
             "branch": table.branch,
             "passes": table.passes,
-            "heat_of": self._heat_of,
+            "heat_of": "interface" if self._interface is not None else "given" if max(table.coulomb) > 0.0 else "none",
         }
         found = xarray.Dataset(variables, coordinates, attributes)
         if self._interface is not None or max(table.coulomb) > 0.0:
@@ -126,7 +126,8 @@ class Heatings(Singles):
     def columns_of_cases(self) -> dict[str, Array]:
         """Return each number (cases, Coulomb frictions, slips), NaN without a solution; none if all failed."""
         size = len(self._sweep.cases), len(self._table.coulomb), len(self._slips)
-        names = [name for name in COLUMNS if any(name in one.columns for one in self._curves)]
+        curves = [one for one in self.outcomes[: len(self._members)] if isinstance(one, HistoryRecord)]
+        names = [name for name in COLUMNS if any(name in one.columns for one in curves)]
         values = {name: np.full(size, math.nan) for name in names}
         for (cases, first, second), outcome in zip(self._members, self.outcomes, strict=False):
             if not isinstance(outcome, HistoryRecord):
@@ -137,15 +138,6 @@ class Heatings(Singles):
                 for name in names if row >= 0 else ():
                     values[name][number, first, second] = outcome.columns[name].values[row]
         return values
-
-    @property
-    def _heat_of(self) -> str:
-        """What makes the Coulomb heat: "interface", "given" or "none"."""
-        return "interface" if self._interface is not None else "given" if max(self._table.coulomb) > 0.0 else "none"
-
-    @property
-    def _curves(self) -> list[HistoryRecord]:
-        return [one for one in self.outcomes[: len(self._members)] if isinstance(one, HistoryRecord)]
 
     def _task(self, cases: list[int], first: int, second: int) -> Task | Failure:
         case: Any = self._sweep.cases[cases[0]]

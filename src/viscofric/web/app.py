@@ -256,7 +256,7 @@ _known: dict[tuple[Path, int, int], StaticFile] = {}
 
 def static_file(name: str) -> StaticFile | None:
     """Return a file of the folder ``static`` if a listing of the folder gives its name; else None."""
-    path = _listing().get(name)
+    path = {file.relative_to(ROOT).as_posix(): file for file in ROOT.rglob("*") if file.is_file()}.get(name)
     if path is None:
         return None
     status = path.stat()
@@ -270,10 +270,6 @@ def static_file(name: str) -> StaticFile | None:
         tag = f'"{hashlib.sha256(content).hexdigest()[:24]}"'
         _known[key] = StaticFile(content, gzip.compress(content, 6) if packs else b"", media_type, tag)
     return _known[key]
-
-
-def _listing() -> dict[str, Path]:
-    return {path.relative_to(ROOT).as_posix(): path for path in ROOT.rglob("*") if path.is_file()}
 
 
 NDJSON = "application/x-ndjson"

@@ -251,17 +251,13 @@ def look_after(cache: Path) -> None:
 def make_room(cache: Path, most: int = _MOST_BYTES, young: float = _YOUNG) -> None:
     """Remove the oldest rubbers and solved contacts beyond so many bytes, but none younger than so many seconds."""
     stays, before = 0, time.time() - young
-    files = [entry for folder in _folders(cache) for entry in _kept_files(folder)]
+    folders = [cache, *cache.glob("*cases"), *cache.glob("study/*.results/cases")]  # rubbers, contacts, whole studies
+    files = [entry for folder in folders for entry in _kept_files(folder)]
     for modified, size, path in sorted(files, reverse=True):
         stays += size
         if stays > most and modified < before:
             with contextlib.suppress(OSError):
                 path.unlink()
-
-
-def _folders(cache: Path) -> list[Path]:
-    """Return the folders of rubbers and of contacts, those of whole studies too."""
-    return [cache, *(folder for folder in cache.glob("*cases")), *cache.glob("study/*.results/cases")]
 
 
 def _kept_files(folder: Path) -> list[tuple[float, int, Path]]:

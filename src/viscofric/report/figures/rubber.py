@@ -118,7 +118,7 @@ def plot_master_curve(
     """
     measured = moduli_of_master_curve(master_curve)
     frequency = measured.angular_frequency
-    wide = _wide(frequency)
+    wide = np.geomspace(frequency.min() / _BEYOND, frequency.max() * _BEYOND, 300)
     fitted = _fitted(master_curve, spectrum_curve, wide)
     bounds = None if band is None else modulus_band(band, wide)
     handles: list[Any] = []
@@ -185,10 +185,6 @@ def plot_residuals(
 def _reduced_label(measured: Moduli, reference: float | None) -> str:
     at = measured.reference if reference is None else reference
     return r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + style.at_temperature(at)
-
-
-def _wide(frequency: Array) -> Array:
-    return np.geomspace(frequency.min() / _BEYOND, frequency.max() * _BEYOND, 300)
 
 
 def _fitted(master_curve: Master, spectrum: Fitted | None, frequency: Array) -> Moduli | None:

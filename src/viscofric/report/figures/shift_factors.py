@@ -199,14 +199,11 @@ def _limits_of_residuals(every: list[Array], doubt: Array) -> tuple[float, float
     usual = min(float(np.median(doubt)), 1.0)
     largest = [float(np.max(np.abs(left), initial=0.0)) for left in every]
     scale = max(usual, *sorted(largest)[:2], 1e-3)
-    shown = np.concatenate([np.array([-usual, usual]), *(left for left in every if _not_far(left, scale))])
+    near = [left for left, most in zip(every, largest, strict=True) if most <= 3.0 * scale]
+    shown = np.concatenate([np.array([-usual, usual]), *near])
     low, high = float(shown.min()), float(shown.max())
     room = 0.08 * max(high - low, 1e-3)
     return low - room, high + room
-
-
-def _not_far(left: Array, scale: float) -> bool:
-    return float(np.max(np.abs(left), initial=0.0)) <= 3.0 * scale
 
 
 def bars(log10: Array, error: Array) -> Array:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from viscofric.contact.solution import ERRORS, ContactSolution, Diagnostics
+from viscofric.contact.solution import ERRORS, ContactSolution
 from viscofric.datasets import plain
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import length, prefixed, short, significant, with_error
@@ -35,7 +35,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
     if not diagnostics.peak_resolved:
         peak = f"at least {prefixed(solution.max_pressure, None, 'Pa')} (not resolved by this grid)"
     cells = " × ".join(str(count) for count in diagnostics.shape if count > 1)
-    edge = diagnostics.edge_error
+    edge, closed = diagnostics.edge_error, f"gap closed to {diagnostics.complementarity:.0e} of the indentation"
     lines = [
         ("friction coefficient", _friction(solution)),
         ("  from the pressure", _five(solution.pressure_friction_coefficient)),
@@ -60,7 +60,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
         ("mean pressure", prefixed(solution.mean_pressure, None, "Pa")),
         ("centre of pressure", _centre(solution)),
         ("grid", f"{cells} cells of {length(diagnostics.spacing)}, {len(diagnostics.levels)} nested grids"),
-        ("solver", _work(diagnostics)),
+        ("solver", f"{diagnostics.linear_iterations} iterations, {diagnostics.products} products, {closed}"),
         ("time", f"{seconds:.2f} s"),
         ("after ±", "errors of the numerical solution, not of the material"),
     ]
@@ -106,13 +106,6 @@ def _lateral(solution: ContactSolution) -> list[tuple[str, str]]:
         return [("lateral friction", "0 (no lateral force)")] if oblique else []
     side = "left" if value > 0.0 else "right"
     return [("lateral friction", f"{short(abs(value))} (a force to the {side} is needed to keep the direction)")]
-
-
-def _work(diagnostics: Diagnostics) -> str:
-    return (
-        f"{diagnostics.linear_iterations} iterations, {diagnostics.products} products, gap closed to "
-        f"{diagnostics.complementarity:.0e} of the indentation"
-    )
 
 
 def _five(friction: float) -> str:

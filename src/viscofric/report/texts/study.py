@@ -60,14 +60,15 @@ def scope(tree: DataTree) -> list[str]:
     found, sweeps = group(tree, "prediction"), group(tree, "isotherms")
     if found is not None:
         prediction = cases_of(found)
-        steps = _temperatures(prediction)
+        steps, speed = _temperatures(prediction), values(prediction, "speed")
+        moves = unbroken(speeds(float(np.nanmin(speed)), float(np.nanmax(speed))))
         at = several(steps) if len(steps) <= 6 else f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}"
         accuracy = number(attrs, "accuracy")
         known = math.isfinite(accuracy)
         to = f", to a relative accuracy of {unbroken(f'{short(100 * accuracy)} %')}" if known else ""
         said.append(
             f"Viscoelastic friction of a material against a {attrs.get('indenter', 'rigid indenter')}"
-            f"{_under(prediction, number(attrs, 'load'))}, at {_speeds(values(prediction, 'speed'))} and {at}{to}."
+            f"{_under(prediction, number(attrs, 'load'))}, at {moves} and {at}{to}."
         )
         also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load", "pressure")]
         if also:
@@ -210,10 +211,6 @@ def _points(axis: SweepAxis) -> str:
 
 def _temperatures(data: Dataset) -> list[str]:
     return [unbroken(degrees(float(kelvin))) for kelvin in nominal_temperatures(values(data, "temperature"))]
-
-
-def _speeds(metres_per_second: Array) -> str:
-    return unbroken(speeds(float(np.nanmin(metres_per_second)), float(np.nanmax(metres_per_second))))
 
 
 def _under(prediction: Dataset, load: float) -> str:

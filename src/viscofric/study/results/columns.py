@@ -136,17 +136,14 @@ def columns_of(dataset: Dataset) -> tuple[list[str], list[str], list[list[Any]]]
         if unit == "K" and name.startswith("temperature") and "rise" not in name:  # a difference stays as it is
             unit, values = "degC", np.round(values - CELSIUS_ZERO, _DECIMALS)
         units.append(unit)
-        columns.append([_plain(value) for value in values.ravel().tolist()])
+        plain = values.ravel().tolist()
+        columns.append([None if isinstance(one, float) and not np.isfinite(one) else one for one in plain])
     return names, units, columns
 
 
 def over_all_dimensions(dataset: Dataset, name: str) -> Any:
     """Return the values of a variable over all dimensions of its data set, in their order."""
     return dataset[name].broadcast_like(dataset).transpose(*dataset.sizes).values
-
-
-def _plain(value: Any) -> Any:
-    return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
 def written(value: Any) -> str:

@@ -45,7 +45,8 @@ def place(parts: Iterable[str | int], values: object) -> str:
             path += f"[{part}]"
             here = here[part] if part < len(here) else None
         elif not _is_branch(part):
-            shown = part if _is_bare(part) else brief(part)
+            bare = 0 < len(part) <= 60 and part.isascii() and part.replace("_", "").replace("-", "").isalnum()
+            shown = part if bare else brief(part)
             path += f".{shown}" if path else shown
             here = here.get(part) if isinstance(here, dict) else None
     return path
@@ -68,10 +69,6 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 def _is_branch(part: str) -> bool:
     return part.startswith("<") and part.endswith(">")
-
-
-def _is_bare(part: str) -> bool:
-    return 0 < len(part) <= 60 and part.isascii() and part.replace("_", "").replace("-", "").isalnum()
 
 
 def _problem(problem: Any, values: object, tables: Mapping[str, type[BaseModel]]) -> Note:

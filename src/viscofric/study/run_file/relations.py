@@ -20,7 +20,9 @@ def relations(tables: Tables) -> Iterator[Problem]:
     yield from _names_of_materials(tables)
     yield from _body(tables)
     yield from _loads(tables)
-    yield from _thickness(tables)
+    if tables.get("layer") is not None and getattr(tables.get("conditions"), "thickness", None) is not None:
+        words = "checks the half-space assumption, which does not apply with [layer]; leave it out"
+        yield "conditions.thickness", words
     wrong = list(_sweep(tables))
     yield from wrong
     if not wrong:
@@ -80,12 +82,6 @@ def _loads(tables: Tables) -> Iterator[Problem]:
         else:
             words = f"{load:.6g} N/m is a load per length; the load of a {indenter.shape} is a force, such as '25 N'"
         yield "conditions.load" if len(wrong) == len(loads) else f"conditions.load.{place}", words
-
-
-def _thickness(tables: Tables) -> Iterator[Problem]:
-    if tables.get("layer") is not None and getattr(tables.get("conditions"), "thickness", None) is not None:
-        words = "checks the half-space assumption, which does not apply with [layer]; leave it out"
-        yield "conditions.thickness", words
 
 
 def _together(tables: Tables, known: dict[str, tuple[Any, ...]]) -> list[list[str]]:

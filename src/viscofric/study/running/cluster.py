@@ -17,9 +17,9 @@ from types import ModuleType
 from typing import Any, Self
 
 from viscofric.errors import InputError, ViscofricError, not_imported
-from viscofric.friction.cases.solving import solver_fingerprint
+from viscofric.friction.cases.solving import Task, solver_fingerprint
 from viscofric.study.run_file.settings import ClusterTable
-from viscofric.study.running.executors import Answers, Executor, Lost, Outcome, Solve, Task, Waiting, take_on_cluster
+from viscofric.study.running.executors import Answers, Executor, Lost, Outcome, Solve, Waiting, take_on_cluster
 
 _PATIENCE = 30.0  # s
 _POLLING = 1.0  # s

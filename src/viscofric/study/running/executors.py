@@ -6,11 +6,11 @@ import contextlib
 import functools
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol, Self, TypeAlias
+from typing import Any, Self, TypeAlias
 
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
 from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.cases.solving import solver_fingerprint
+from viscofric.friction.cases.solving import Task, solver_fingerprint
 from viscofric.processes import Workers, as_they_come
 from viscofric.threads import one_blas_thread
 
@@ -89,22 +89,6 @@ class Processes(Executor):
 
 Outcome: TypeAlias = Record | Failure
 Solve: TypeAlias = Callable[[Any], Record]
-
-
-class Task(Protocol):
-    """A task as running uses it; it can be pickled."""
-
-    @property
-    def key(self) -> str:
-        """A hash of everything that determines the result."""
-
-    @property
-    def label(self) -> str:
-        """The task in words."""
-
-    @property
-    def fields(self) -> bool:
-        """Whether its record has fields."""
 
 
 class Lost(Failure):

@@ -9,8 +9,8 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Protocol
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.friction.cases.solving import solve
-from viscofric.study.running.executors import Executor, Lost, NoSolver, Outcome, Processes, Serial, Solve, Task, Waiting
+from viscofric.friction.cases.solving import Task, solve
+from viscofric.study.running.executors import Executor, Lost, NoSolver, Outcome, Processes, Serial, Solve, Waiting
 from viscofric.study.running.store import CaseStore, Damaged
 
 if TYPE_CHECKING:

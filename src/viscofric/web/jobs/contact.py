@@ -18,7 +18,7 @@ from viscofric.datasets import plain
 from viscofric.friction.cases.case import Case, Rubbers, moved
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.surface_case import SurfaceCase
-from viscofric.notes import Note, listed
+from viscofric.notes import listed
 from viscofric.study.study_rubber import StudyRubber
 from viscofric.web.figures.contact import contact_view
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
@@ -165,24 +165,19 @@ def pictures(
     Each of ``numbers`` has ``value`` and ``error``; ``within`` is 1 where the rubber was measured at the contact's
     frequencies, 0 where it is extrapolated, null where that is not known.
     """
-    within = rubber.is_within(case, case.record(solution))
+    within, doubts = rubber.is_within(case, case.record(solution)), rubber.doubts([case.temperature])
     shared: dict[str, Any] = {
         "stage": "sharp" if sharp else "coarse",
         "speed": case.speed,
         "temperature": case.temperature,
-        **listed("warnings", [*solution.warnings, *_extrapolated(rubber, case)]),
+        # Warnings on the material itself belong to other steps.
+        **listed("warnings", [*solution.warnings, *(note for note in doubts if note.code == "extrapolated")]),
     }
     drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
     found: dict[str, Any] = drawn(rubber, case, solution)
     found["numbers"]["within"] = _with_error(None if within is None else float(within))
     found |= shared
     return found | contact_view(found, case)
-
-
-def _extrapolated(rubber: StudyRubber, case: Case) -> list[Note]:
-    """Return notes on a temperature at which the shift factor is extrapolated."""
-    # Warnings on the material itself belong to other steps.
-    return [note for note in rubber.doubts([case.temperature]) if note.code == "extrapolated"]
 
 
 def _of_indenter(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:

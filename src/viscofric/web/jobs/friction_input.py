@@ -44,7 +44,8 @@ class Measured:
 def measured(study: Mapping[str, Any], context: Context) -> Measured:
     """Return what the files of [measurement] hold, read here or found where an earlier job left it."""
     table = measurement_table(study, context)
-    return kept("measured", [table], table.inputs, context, lambda: _measured(table, context))
+    make = _of_runs if table.curves is None else _of_curves
+    return kept("measured", [table], table.inputs, context, lambda: make(table, context))
 
 
 def friction_curves(study: Mapping[str, Any], context: Context) -> FrictionCurves:
@@ -55,12 +56,8 @@ def friction_curves(study: Mapping[str, Any], context: Context) -> FrictionCurve
     return found.curves
 
 
-def _measured(table: MeasurementTable, context: Context) -> Measured:
-    return _of_curves(table, table.curves, context) if table.curves is not None else _of_runs(table, context)
-
-
-def _of_curves(table: MeasurementTable, path: Path, context: Context) -> Measured:
-    curves = _named(read_measurement(table), context)
+def _of_curves(table: MeasurementTable, context: Context) -> Measured:
+    curves, (path,) = _named(read_measurement(table), context), table.inputs
     lines = [("file", path.name), ("recognised as", "a table of friction curves, separated already")]
     return Measured(False, lines, [], _is_made_up(path), curves, _NOTHING, tuple(map(note_of, curves.notes)))
 
@@ -68,7 +65,8 @@ def _of_curves(table: MeasurementTable, path: Path, context: Context) -> Measure
 def _of_runs(table: MeasurementTable, context: Context) -> Measured:
     runs = read_mtm(*table.mtm, columns=table.columns, sheet=table.sheet)
     lines = [("files" if len(table.mtm) > 1 else "file", ", ".join(path.name for path in table.mtm))]
-    lines += [("recognised as", _kinds(table.mtm)), *runs_lines(runs)]
+    kinds = dict.fromkeys(format_name(Source(str(path), read_bytes(path))) for path in table.mtm)
+    lines += [("recognised as", "; ".join(kinds)), *runs_lines(runs)]
     steps = [(step.number, str(step)) for step in runs.steps]
     made_up = any(_is_made_up(path) for path in table.mtm)
     try:
@@ -76,10 +74,6 @@ def _of_runs(table: MeasurementTable, context: Context) -> Measured:
     except InputError as error:
         return Measured(True, lines, steps, made_up, None, error.note, tuple(map(note_of, runs.notes)))
     return Measured(True, lines, steps, made_up, curves, _NOTHING, tuple(map(note_of, curves.notes)))
-
-
-def _kinds(paths: Sequence[Path]) -> str:
-    return "; ".join(dict.fromkeys(format_name(Source(str(path), read_bytes(path))) for path in paths))
 
 
 def _named(curves: FrictionCurves, context: Context) -> FrictionCurves:

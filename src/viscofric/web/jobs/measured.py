@@ -8,7 +8,6 @@ from pydantic import Field
 
 from viscofric.datasets import plain
 from viscofric.friction.curve_files import write_friction_curves
-from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import listed
 from viscofric.report.texts.checks import consistency_shown
 from viscofric.report.texts.friction import friction_lines
@@ -49,14 +48,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         result |= {
             "curves": measured_points(found.curves),
             "points": len(found.curves),
-            "lines": pairs(_lines(found.curves)),
+            "lines": pairs(line for line in friction_lines(found.curves) if line[0] not in ("assumed", "residual")),
             "checks": [] if check is None else [consistency_shown(check).record("page")],
             "download": _DOWNLOAD,
         }
     numbers: dict[str, Any] = plain(result)
     return numbers | {"figures": measured_figures(numbers) if numbers["curves"] else {}}
-
-
-def _lines(curves: FrictionCurves) -> list[tuple[str, str]]:
-    """Return a summary of the friction as a whole, without notes and checks."""
-    return [(name, value) for name, value in friction_lines(curves) if name not in ("assumed", "residual")]

@@ -71,17 +71,14 @@ class Rows(JobOptions):
         return History(time=[row.time for row in self.rows], **values, **path, before=self.before, **more)
 
 
-def _temperature(value: object) -> object:
-    """Return a temperature in K, of text with a unit too."""
-    return kelvin(value) if isinstance(value, str) else value
-
-
 class Options(Rows):
     """What the study's first indenter or surface does."""
 
     impact: Impact | None = None  # instead of a history
     #: K, or text with its unit; instead of the study's first one
-    temperature: Annotated[float | None, BeforeValidator(_temperature)] = Field(None, gt=0.0, lt=1e5)
+    temperature: Annotated[
+        float | None, BeforeValidator(lambda value: kelvin(value) if isinstance(value, str) else value)
+    ] = Field(None, gt=0.0, lt=1e5)
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:

@@ -59,11 +59,12 @@ def _read(table: MaterialTable, study: dict[str, Any], context: Context) -> dict
     try:
         if table.dma is None:
             return _read_other(table)
+        given = table.temperature
         beside = {"steps": _step_curves(read_steps_of(table))} if table.steps else {}
         traced = trace_dma(
             *table.dma,
             deformation=table.deformation,
-            temperature=None if table.temperature is None else _one_or_each(table.temperature),
+            temperature=given[0] if given is not None and len(given) == 1 else given and list(given),
             modulus_unit=table.modulus_unit,
             columns=table.columns,
             sheet=table.sheet,
@@ -78,10 +79,6 @@ def _with_reference(study: dict[str, Any]) -> dict[str, Any]:
     if isinstance(material, dict) and _TESTS & material.keys():
         return {**study, "material": {"reference_temperature": _ANY_REFERENCE, **material}}
     return study
-
-
-def _one_or_each(temperatures: tuple[float, ...]) -> float | list[float | None]:
-    return temperatures[0] if len(temperatures) == 1 else list(temperatures)
 
 
 def _of_sweeps(table: MaterialTable, traced: TracedSweeps) -> dict[str, Any]:
@@ -256,8 +253,10 @@ def _given(table: MaterialTable) -> list[str]:
 
 def _ramps(ramps: TemperatureRamps) -> list[dict[str, Any]]:
     return [
-        moduli(one.temperature, one.storage_modulus + 1j * one.loss_modulus)
-        | {"temperature": plain(one.temperature), "angular_frequency": plain(one.angular_frequency)}
+        plain(
+            moduli(one.temperature, one.storage_modulus + 1j * one.loss_modulus)
+            | {"temperature": one.temperature, "angular_frequency": one.angular_frequency}
+        )
         for one in ramps.ramps
     ]
 
