@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import viscofric as vf
 from refusals import refused
@@ -13,6 +14,7 @@ from viscofric.errors import InputError
 from viscofric.units import (
     angular_frequency,
     conversion,
+    in_either,
     in_si,
     kelvin_hint,
     positive,
@@ -193,6 +195,25 @@ def test_a_hertz_is_two_pi_radians_per_second_whoever_says_it(as_text: bool) -> 
 @pytest.mark.parametrize("values", [["1 Hz", "10 Hz"], ("1 Hz", 20.0 * math.pi), np.array(["1 Hz", "10 Hz"])])
 def test_a_column_takes_text_with_units_among_numbers(values: object) -> None:
     np.testing.assert_allclose(in_si(values, "rad/s", "omega"), [2.0 * math.pi, 20.0 * math.pi])
+
+
+def test_an_array_of_xarray_is_read_in_the_unit_that_it_states() -> None:
+    speeds = xr.DataArray([10.0, 100.0], attrs={"units": "mm/s"})
+    assert to_si_array(speeds, "m/s") == pytest.approx([0.01, 0.1], rel=1e-15)  # one rounding
+    assert to_si(speeds[1], "m/s") == pytest.approx(0.1, rel=1e-15)
+    assert in_si(speeds, "m/s", "speeds") == pytest.approx([0.01, 0.1], rel=1e-15)
+    assert in_either(speeds, ("Pa", "m/s"), "speeds")[1] == "m/s"
+    with refused("wrong-unit", naming="speeds"):
+        in_si(speeds, "Pa", "speeds")
+    with refused("unknown-unit", naming="speeds"):
+        to_si_array(speeds.assign_attrs(units="banana"), "m/s", "speeds")
+
+
+def test_an_array_of_xarray_without_a_unit_holds_plain_numbers() -> None:
+    for attributes in ({}, {"units": "1"}, {"units": ""}):
+        assert to_si_array(xr.DataArray([0.5], attrs=attributes), "m/s") == [0.5]
+    missing = xr.DataArray([0.5, np.nan], attrs={"units": "m/s"})
+    assert np.isnan(in_si(missing, "m/s", "slip", missing=True)[1])
 
 
 def test_plain_columns_stay_as_they_are_and_wrong_units_are_refused() -> None:

@@ -1,8 +1,9 @@
 """Units at the interfaces: text, numbers or pint quantities in, SI floats and arrays out.
 
 Plain numbers are SI (temperatures in kelvin).  Text is one plain number and one unit, such as ``"100 mm/s"`` or
-``"30 degC"``; it is never evaluated.  pint quantities carry their own unit.  pint itself receives only the text of the
-unit, and is imported only when a unit has to be interpreted.
+``"30 degC"``; it is never evaluated.  pint quantities carry their own unit, as do arrays of xarray
+(``attrs["units"]``).  pint itself receives only the text of the unit, and is imported only when a unit has to be
+interpreted.
 """
 
 from __future__ import annotations
@@ -140,8 +141,25 @@ def _meant(shown: str, text: str, unit: str) -> str:
     return f"write {shown[: len(shown) - len(text)] + near[0]!r}"
 
 
+def _stated_unit(values: object) -> str:
+    """Return the unit that an array of xarray or pandas states in its attributes; "" where there is none, or 1."""
+    attributes = getattr(values, "attrs", None)
+    unit = attributes.get("units", "") if isinstance(attributes, dict) else ""
+    return str(unit) if unit not in ("", "1", 1) else ""
+
+
+def _unlabelled(values: Any, unit: str, name: str) -> Any:
+    """Return an array that states its unit as plain numbers in SI, and anything else as it is."""
+    stated = _stated_unit(values)
+    if not stated or np.asarray(values).dtype.kind not in "fiu":
+        return values
+    factor, zero = conversion(stated, unit, name)
+    return np.asarray(factor * np.asarray(values, dtype=float) + zero)
+
+
 def to_si(value: Quantity, unit: str, name: str = "value") -> float:
     """Convert one value to a float in an SI unit; plain numbers are in `unit` already."""
+    value = _unlabelled(value, unit, name)
     if isinstance(value, str):
         number = _parse(value, unit, name)
     elif hasattr(value, "to") and hasattr(value, "magnitude"):
@@ -246,6 +264,7 @@ def _turns(units: list[str], unit: str, shown: str, name: str) -> float:
 
 def to_si_array(values: Quantities, unit: str, name: str = "value") -> Array:
     """Convert one or many values to a 1-D float array in an SI unit; see `to_si`."""
+    values = _unlabelled(values, unit, name)
     if isinstance(values, str) or np.isscalar(values):
         return np.array([to_si(values, unit, name)])  # type: ignore[arg-type]
     if hasattr(values, "to") and hasattr(values, "magnitude"):
@@ -263,6 +282,7 @@ def to_si_array(values: Quantities, unit: str, name: str = "value") -> Array:
 
 def to_si_in_shape(values: Quantities, unit: str, name: str) -> Array:
     """Convert one or many values to floats in an SI unit, in the shape in which they are given; see `to_si`."""
+    values = _unlabelled(values, unit, name)
     if isinstance(values, np.ndarray) and values.dtype.kind in "fiu":
         return numbers(values, name)
     if isinstance(values, (list, tuple)) or np.ndim(values) > 0:
@@ -278,6 +298,7 @@ def in_si(values: object, unit: str, name: str, *, infinite: bool = False, missi
 
     `infinite` and `missing` allow infinite numbers and NaN among plain ones; see `viscofric.arguments.numbers`.
     """
+    values = _unlabelled(values, unit, name)
     if _has_units(values):
         return to_si_in_shape(cast("Quantities", values), unit, name)
     return numbers(values, name, infinite=infinite, missing=missing)
@@ -304,7 +325,8 @@ def _has_units(values: object) -> bool:
         return values.dtype.kind == "U" or (values.dtype.kind == "O" and any(map(_has_units, values.flat)))
     if isinstance(values, (list, tuple)):
         return any(map(_has_units, values))
-    return isinstance(values, str) or (hasattr(values, "to") and hasattr(values, "magnitude"))
+    is_quantity = hasattr(values, "to") and hasattr(values, "magnitude")
+    return is_quantity or isinstance(values, str) or bool(_stated_unit(values))
 
 
 def positive(value: Quantity, unit: str, name: str) -> float:
