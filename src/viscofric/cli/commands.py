@@ -28,6 +28,17 @@ class Command(click.Command):
         super().__init__(*args, **extra)
         self.reader: Reader = reader
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the words of the command line; an option with one value that is given twice is an error."""
+        if not ctx.resilient_parsing:
+            _, _, order = self.make_parser(ctx).parse_args(args=list(args))
+            for one in self.params:
+                single = isinstance(one, click.Option) and not (one.is_flag or one.multiple)
+                if single and (times := order.count(one)) > 1:
+                    several = "several values as one list, where --help says so"
+                    raise click.UsageError(f"{one.opts[0]} is given {times} times; give it once ({several}).", ctx)
+        return super().parse_args(ctx, args)
+
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; what viscofric raises on purpose becomes a message, and exit status 1."""
         from viscofric.errors import ViscofricError

@@ -17,7 +17,7 @@ from viscofric.cli.files import FILE
 if TYPE_CHECKING:
     from viscofric.roughness.topography import Topography
 
-indenter_options = together(
+_SMOOTH = (
     click.option("--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'."),
     click.option(
         "--cylinder",
@@ -30,9 +30,11 @@ indenter_options = together(
         help="Ellipsoid: radii of curvature along x (the default direction of motion) and y.",
     ),
     click.option("--cone", metavar="ANGLE", help="Cone: angle between flank and surface, e.g. '5 deg'."),
-    click.option(
-        "--punch", metavar="RADIUS", help="Radius of a flat circular punch with a sharp edge; zero speed only."
-    ),
+)
+_PUNCH = click.option(
+    "--punch", metavar="RADIUS", help="Radius of a flat circular punch with a sharp edge; not for sliding."
+)
+_HEIGHTS = (
     click.option(
         "--height-map",
         type=FILE,
@@ -50,8 +52,10 @@ indenter_options = together(
     click.option(
         "--height-unit", metavar="UNIT", help="Unit of the heights if the file does not state it [default: m]."
     ),
-    heading="Indenter",
 )
+indenter_options = together(*_SMOOTH, _PUNCH, *_HEIGHTS, heading="Indenter")
+#: Of contacts in motion, for which a sharp edge is refused.
+sliding_indenter_options = together(*_SMOOTH, *_HEIGHTS, heading="Indenter")
 #: Options, one of which says what shape it is.
 SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")
 surface_options = together(
@@ -87,10 +91,11 @@ class NamedIndenter(NamedTuple):
 
 def chosen_indenter(parameters: dict[str, Any]) -> NamedIndenter:
     """Return the indenter that the options name."""
-    given = [name for name in SHAPES if parameters[name] is not None]
+    offered = [name for name in SHAPES if name in parameters]
+    given = [name for name in offered if parameters[name] is not None]
     if len(given) != 1:
         if not given:
-            raise click.UsageError(f"no indenter is given; give {', '.join(map(option, SHAPES))}.")
+            raise click.UsageError(f"no indenter is given; give {', '.join(map(option, offered))}.")
         raise click.UsageError(f"{' and '.join(map(option, given))} are both given; there is one indenter.")
     (shape,) = given
     if shape in ("height_map", "profile"):
@@ -109,7 +114,7 @@ def chosen_body(parameters: dict[str, Any]) -> NamedIndenter:
         if parameters["prepare"]:
             raise click.UsageError("--prepare is for --surface only.")
         return chosen_indenter(parameters)
-    given = [option(name) for name in SHAPES if parameters[name] is not None]
+    given = [option(name) for name in SHAPES if parameters.get(name) is not None]
     if given:
         raise click.UsageError(f"--surface and {given[0]} are both given; the contact has one of them.")
     from viscofric.friction.cases.surfaces import step_of

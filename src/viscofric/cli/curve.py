@@ -13,8 +13,8 @@ from viscofric.cli.contact_options import (
     chosen_indenter,
     contact_options,
     contact_settings,
-    indenter_options,
     inputs_of,
+    sliding_indenter_options,
 )
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, refuse_to_overwrite
@@ -41,7 +41,7 @@ Example:
 
 @as_command("curve", epilog=_EXAMPLE)
 @rubber_options
-@indenter_options
+@sliding_indenter_options
 @together(
     speed_options("Speed"),
     click.option(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import as_command, together
-from viscofric.cli.contact_options import chosen_indenter, indenter_options
+from viscofric.cli.contact_options import chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import FILE, JSON, Source, plainly, refuse_to_overwrite
 from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
@@ -137,7 +137,7 @@ _shared_options = together(
 
 @as_command("identify", epilog=_EXAMPLE)
 @click.argument("sources", nargs=-1, required=True, type=Source())
-@indenter_options
+@sliding_indenter_options
 @click.option("--load", metavar="F", help="Normal load of all points, e.g. '25 N' [default: each point's own].")
 @click.option(
     "--shift",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.contact_options import chosen_indenter, indenter_options
+from viscofric.cli.contact_options import chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import FILE, Source, refuse_to_overwrite
 from viscofric.cli.output import (
@@ -44,7 +44,7 @@ _PERCENT = click.FloatRange(0.0, 1000.0)
     metavar="%",
     help="Tensile strain amplitude of the frequency sweeps [default: small].",
 )
-@indenter_options
+@sliding_indenter_options
 @click.option(
     "--load", metavar="F", help="Load of a contact, e.g. '25 N': scale --material to the strain of the contact."
 )

@@ -110,10 +110,14 @@ def insist_on_round_edges(indenter: Indenter) -> None:
     if indenter.has_walls:
         raise InputError(
             f"indenter: a {indenter.noun} has a sharp edge; in motion its friction depends on the actual edge radius, "
-            "at any speed; give the rounded face as a HeightMap, or a speed of zero or infinity, at which the solid "
-            "is elastic.",
+            "at any speed; ",
             field="indenter",
             code="sharp-edge",
+            remedy=Remedy(
+                "give the rounded face as a HeightMap, or a speed of zero or infinity, at which the solid is elastic.",
+                "give the rounded face by --height-map, or a speed of zero or infinity, at which the solid is elastic.",
+                "give the rounded face as heights, or a speed of zero or infinity, at which the solid is elastic.",
+            ),
         )
 
 
