@@ -234,6 +234,7 @@ def test_an_interruption_keeps_what_was_found(
         ((*RUBBER, *BALL, "--load", "1 N"), 2, ""),  # no duration
         ((*RUBBER, *BALL, "--dwell", "1 s"), 2, ""),  # no load
         ((*PRESS, "--indentation", "1 mm"), 2, ""),
+        ((*PRESS, "--load", "2 N"), 2, ""),  # given twice
         ((*PRESS, "--slide", "1 mm"), 2, ""),  # no speed
         ((*PRESS, "--strokes", 2), 2, ""),
         ((*PRESS, "--times", "1 ms", "--points", 3), 2, ""),
@@ -241,8 +242,8 @@ def test_an_interruption_keeps_what_was_found(
         ((*PRESS, "--animation", "a.mp4"), 2, ""),
         ((*PRESS, "--times", "1 s"), 1, "out-of-range"),
         ((*PRESS, "--times", "1"), 1, "no-unit"),
-        ((*PRESS, "--dwell", "-1 s"), 1, "not-positive"),
-        ((*PRESS, "--load", "1 N/m"), 1, "wrong-unit"),
+        ((*RUBBER, *BALL, "--load", "1 N", "--dwell", "-1 s"), 1, "not-positive"),
+        ((*RUBBER, *BALL, "--load", "1 N/m", "--dwell", "1 s"), 1, "wrong-unit"),
         ((*PRESS, "--temperature", "60 degC"), 1, "no-shift"),
         ((*PRESS, "--before", "sliding"), 1, "not-sliding"),
         ((*PRESS, "--accuracy", 2), 1, "out-of-range"),
