@@ -276,6 +276,12 @@ def test_ansys_units_command_states_the_units(tmp_path):
         opened(tmp_path, "/UNITS,BIN\n" + ANSYS.replace("60.0e6", "60.0"))
 
 
+@pytest.mark.parametrize(("unit", "noted"), [("Pa", True), ("kPa", True), ("MPa", False), ("N/mm**2", False)])
+def test_other_units_than_those_of_the_ansys_units_command_are_noted(tmp_path, unit, noted):
+    card = opened(tmp_path, "/UNITS,MPA\n" + ANSYS, modulus_unit=unit, time_unit="s", temperature_unit="K")
+    assert any(note.code == "unit-contradicted" for note in card.notes) == noted
+
+
 def test_ansys_materials_may_be_parameters_and_others_may_depend_on_temperature(tmp_path):
     units = {"modulus_unit": "MPa", "time_unit": "s", "temperature_unit": "degC"}
     plain = opened(tmp_path, ANSYS, **units)

@@ -128,6 +128,9 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     if reading.modulus_unit is None and stated_unit:
         reading = replace(reading, modulus_unit=stated_unit, time_unit=reading.time_unit or "s")
     notes: list[str] = [] if content else reading.unit_note()
+    if stated_unit and reading.pascal != Reading(stated_unit).pascal:
+        said = f"/UNITS of the card states {stated_unit}; its moduli were read in {reading.modulus_unit}, as given."
+        notes.append(Note("unit-contradicted", said, values={"stated": stated_unit, "given": reading.modulus_unit}))
     materials = list(dict.fromkeys(table.material for table in tables if table.name == "PRONY"))
     first = materials[0] if materials else ""
     others = [table for table in tables if table.material != first and table.name == "SHIFT"]
