@@ -35,6 +35,12 @@ def test_half_a_replicate_is_refused() -> None:
             ),
             ("out-of-range",),
         ),
+        (
+            lambda: vf.solve_steady(
+                vf.synthetic_fluoroelastomer(), vf.Ball("1 cm"), speed=0.1, temperature=60.0, load=5.0
+            ),
+            ("out-of-range", "'60 degC'"),
+        ),
     ],
 )
 def test_what_was_meant_is_reported(call: Callable[[], object], refusal: tuple[str, ...]) -> None:

@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from readers.refusal import noted, refused
 from readers.samples import SAMPLES
@@ -94,8 +95,10 @@ def test_a_folder_and_no_file_at_all_are_refused_with_advice(tmp_path):
     for nothing in ((), ([],)):
         with refused("no-files"):
             read_dma(*nothing)
-    with refused("not-a-name", None, "3"):
-        read_dma(3)
+    tables_in_memory = {"T": [20.0]}, xr.DataArray([[20.0]]), xr.Dataset({"T": 20.0})
+    for no_name in (3, [3], *tables_in_memory):
+        with refused("not-a-name"):
+            read_dma(no_name)
 
 
 @pytest.mark.slow

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import cast
@@ -24,13 +24,17 @@ def files_of(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]
     """Return the names of files given one by one or as lists."""
     files: list[str] = []
     for path in paths:
-        if isinstance(path, (str, Path)) or hasattr(path, "__fspath__"):
-            files.append(str(path))
-            continue
-        try:
-            files += [str(one) for one in path]
-        except TypeError:
-            raise InputError(f"{path!r} is not the name of a file or a list of names.", code="not-a-name") from None
+        # names of columns are what iterates over a table in memory
+        many = isinstance(path, Iterable) and not isinstance(path, (str, Mapping)) and getattr(path, "ndim", 1) == 1
+        names = list(path) if many else [path]
+        wrong = [one for one in names if not isinstance(one, (str, PathLike))]
+        if wrong:
+            raise InputError(
+                f"{reader} needs the name of a file or a list of names, got {type(wrong[0]).__name__}; write data in "
+                "memory to a file (CSV).",
+                code="not-a-name",
+            )
+        files += map(str, names)
     if not files:
         raise InputError(f"{reader} needs at least one file.", code="no-files")
     return files

@@ -10,7 +10,7 @@ from typing import Any, Self, TypeAlias, overload
 
 import numpy as np
 
-from viscofric.arguments import numbers
+from viscofric.arguments import LARGEST, numbers
 from viscofric.arrays import Array, Mask
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
@@ -43,8 +43,7 @@ def kept_arguments(one: type) -> tuple[str, ...]:
 
 GAS_CONSTANT = 8.31446261815324  # J/(mol K)
 LN10 = math.log(10.0)
-#: As floats go.
-_MOST_DECADES = 300
+_MOST_DECADES = round(math.log10(LARGEST))  # beyond, no time of a spectrum can be shifted
 #: Temperatures are nominal, and measured to a few tenths of a kelvin: factors measured at 59.98 °C are valid at 60 °C
 #: too.
 NOMINAL = 0.5  # K
