@@ -10,7 +10,7 @@ import pytest
 import viscofric as vf
 from rheology.planted import planted_sweeps, synthetic_polymer
 from viscofric.data import Isotherm, IsothermalSweeps
-from viscofric.notes import codes
+from viscofric.notes import READERS, codes
 from viscofric.rheology.superposition.result import check_superposition
 from viscofric.rheology.superposition.van_gurp_palmen import NeighbourDistance, drift, neighbour_distances
 
@@ -108,6 +108,8 @@ def test_isotherms_that_drift_to_one_side_make_superposition_doubtful():
     assert max(abs(one.distance) for one in check.neighbours) < 0.02
     assert (check.verdict, check.holds, check.roughly) == ("doubtful", False, False)
     assert codes(check.sentences) == {"superposition-doubtful"}
+    remedy = check.sentences[0].remedy
+    assert len({remedy.words(reader) for reader in READERS}) == len(READERS)
     assert abs(check.drift.distance) > 6.0 * check.drift.standard_error
     # The errors of α hold what the vertical shift would change: the two models do not contradict each other, …
     mended = vf.superpose(measured, "30 degC", vertical="free")

@@ -13,7 +13,7 @@ from viscofric.arrays import Array
 from viscofric.data import Isotherm, MasterCurve
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
@@ -39,6 +39,13 @@ ROUGH_FIGURE = 2.0
 #: A single pair may differ by this many times more: one faulty sweep is no failure of superposition (the worst pair of
 #: the acrylic has 2.4, that of the foam 1.5, of the EVA 7).
 ONE_PAIR = 3.0
+_FEWER = Remedy(" Superpose fewer temperatures.")
+_FREE_OR_FEWER = Remedy(
+    ' Superpose with vertical="free", or fewer temperatures.',
+    " Superpose with --vertical-shift free, or fewer temperatures.",
+    ' Superpose with vertical_shift = "free" under [material], or fewer temperatures.',
+    " Set “Vertical shift b(T)” to “fitted”, or superpose fewer temperatures.",
+)
 #: Number of the worst pairs that are named in the sentences.
 _NAMED = 3
 
@@ -194,10 +201,12 @@ def check(
     drifting = drift(neighbours)
     verdict = _verdict(neighbours, figure, drifting, unidentified, own)
     headline, *others = _words(verdict, neighbours, figure, ratio, own, drifting, unidentified, vertical_shift)
+    free = isinstance(vertical_shift, VerticalShiftFactors)
     sentences = (
         Note(
             f"superposition-{verdict.replace(' ', '-')}",
             headline,
+            remedy=(_FEWER if free else _FREE_OR_FEWER) if verdict == "doubtful" else None,
             values={"figure_of_merit": float(figure), "vertical_shift": vertical_shift is not None},
         ),
         *others,
@@ -281,7 +290,6 @@ def _words(
     between, noise = _rms(distance), _median(np.array([pair.standard_error for pair in neighbours]))
     apart = f"neighbouring isotherms lie {_decades(between)} apart (rms) in tan δ against |E*|"
     merit = f"figure of merit {figure:.2g}, good if ≤ {LARGEST_FIGURE:g}"
-    free = isinstance(vertical_shift, VerticalShiftFactors)
     drifts = () if drifting is None else (f"F{_drift(drifting)[1:]}.",)
     if verdict in ("roughly", "fails"):
         worst = [neighbours[place] for place in np.argsort(-ratio)[:_NAMED] if ratio[place] > LARGEST_FIGURE]
@@ -294,9 +302,7 @@ def _words(
         )
         return sentence, *drifts, *wrong
     if drifting is not None:
-        cure = "Superpose fewer temperatures" if free else 'Superpose with vertical="free", or fewer temperatures'
-        sentence = f"Superposition is doubtful: {_drift(drifting)}, although {apart} ({merit}). {cure}."
-        return sentence, *wrong
+        return f"Superposition is doubtful: {_drift(drifting)}, although {apart} ({merit}).", *wrong
     beyond = "" if between <= LEVEL_95 * noise else f"; the noise is {noise:.1g} decades, so that some of it is real"
     if verdict == "not identified":
         where = ranges(unidentified)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from viscofric.datasets import plain, record
-from viscofric.notes import listed
+from viscofric.notes import listed, note_of
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
 from viscofric.rheology.superposition.result import Superposition
@@ -121,7 +121,8 @@ def _verdict(verdict: str, sentences: list[str]) -> dict[str, Any]:
     short = _VERDICTS[verdict]
     kind = {"holds": "good", "fails": "error"}.get(verdict, "warning")
     headline = f"Superposition {short}"
-    return {"verdict": verdict, "kind": kind, "short": short, "headline": headline, "sentences": sentences}
+    said = [note_of(one).words("page") for one in sentences]
+    return {"verdict": verdict, "kind": kind, "short": short, "headline": headline, "sentences": said}
 
 
 # What superposition does, in the words of the page.
