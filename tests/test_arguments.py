@@ -631,7 +631,7 @@ CALLS: dict[str, Any] = {
     "friction_by_wavelength": lambda: {"solution": rough_contact(), "edges": [1e-5, 4e-5, 1e-4], "per_decade": 6},
     "LineSpectrum": lambda: {"wave_number": Q, "density": 1e-10 * Q**-1.6},
     "LineSpectrum.moment": lambda: (vf.roughness.LineSpectrum(Q, 1e-10 * Q**-1.6), {"order": 2.0}),
-    "PowerSpectrum": lambda: {"wave_number": Q, "density": 1e-10 * Q**-3.6},
+    "PowerSpectrum": lambda: {"wave_number": Q, "density": 1e-10 * Q**-3.6, "anisotropy": 0.2},
     "PowerSpectrum.moment": lambda: (spectrum(), {"order": 2.0}),
     "PowerSpectrum.limited": lambda: (spectrum(), {"shortest": 2e-5, "longest": 5e-4}),
     "PowerSpectrum.rms_slope": lambda: (spectrum(), {"shortest": 2e-5}),

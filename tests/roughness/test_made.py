@@ -81,6 +81,17 @@ def test_measured_spectrum_is_the_one_the_surface_was_made_of():
     assert wide.density[-1] == pytest.approx(float(spectrum(wide.wave_number[-1])), rel=0.2)
 
 
+@pytest.mark.parametrize("aspect", [1.0, 2.0, 8.0])
+def test_directions_without_waves_are_a_part_of_the_mean(aspect):
+    surface = vf.self_affine(
+        0.8, shape=(128, 128), spacing="8 um", shortest="64 um", rms_slope=0.2, aspect=aspect, angle=0.5, seed=1
+    )
+    spectrum = vf.roughness.power_spectrum(surface)
+    # Rings are steps of a twelfth of a decade; as between the longest waves of isotropic surfaces.
+    assert spectrum.rms_slope() == pytest.approx(0.2, rel=0.04)
+    assert spectrum.rms_height() == pytest.approx(surface.rms_height, rel=0.1)
+
+
 def test_few_points_a_decade_give_the_same_slope_and_friction():
     rubber, conditions = vf.synthetic_fluoroelastomer(), {"speeds": [0.01, 1.0], "pressure": 2e5, "temperatures": 303.0}
     # A whole surface without a bend, and a scan of one with it, whose points could hold shorter waves than there are.

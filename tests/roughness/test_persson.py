@@ -54,6 +54,30 @@ def test_all_is_in_contact_under_a_high_pressure_and_friction_is_that_of_the_sol
         assert theory.friction_coefficient[0, 0] * scale == pytest.approx(solved.friction_coefficient, rel=0.02)
 
 
+def test_on_an_anisotropic_surface_the_theory_is_the_mean_of_all_directions_and_says_so():
+    period, aspect = 1e-3, 2.0
+    surface = vf.self_affine(
+        0.8, shape=(96, 96), spacing=period / 96, shortest=period / 16, rms_slope=0.02, aspect=aspect, seed=1
+    )
+    spectrum = vf.roughness.power_spectrum(surface)
+    # The lay stretches waves by the root of the aspect along itself, and compresses those across.
+    anisotropy = (aspect**2 - 1.0) / (aspect**2 + 1.0)
+    assert spectrum.anisotropy == pytest.approx(anisotropy, abs=0.02)  # of the sum over waves
+    assert spectrum.scaled(rms_slope=0.01).limited(shortest=1e-4).anisotropy == spectrum.anisotropy
+    along, across = (
+        vf.solve_periodic(RUBBER, surface.to_surface(), speed=0.01, pressure="60 MPa", direction=way)
+        for way in ((1.0, 0.0), (0.0, 1.0))
+    )
+    assert all(one.diagnostics.full_contact for one in (along, across))
+    theory = vf.persson_theory(RUBBER, spectrum, speeds=0.01, pressure="60 MPa")
+    assert codes(theory.notes) == {"anisotropic-surface"}
+    mean = 0.5 * (along.friction_coefficient + across.friction_coefficient)
+    # Harmonics beyond the second are left out of the mean of two directions, and a power law lies between points.
+    assert theory.friction_coefficient[0, 0] == pytest.approx(mean, rel=0.05)
+    # E'' grows with frequency here, and short waves, which count more than for the slope, are the ones across the lay.
+    assert 0.5 * (across.friction_coefficient - along.friction_coefficient) / mean == pytest.approx(anisotropy, rel=0.2)
+
+
 SPEED, PRESSURE = 0.02, 2e5  # of the quadrature below
 
 

@@ -159,13 +159,18 @@ def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpec
         raise InputError("power_spectrum needs a map of heights; line_spectrum takes line scans.", code="line-scan")
     shape = topography.shape
     waves = scipy.fft.rfft2(_windowed(topography, (0, 1))) / (shape[0] * shape[1])
-    q = np.hypot(*wave_number(shape, topography.spacing))
+    qx, qy = wave_number(shape, topography.spacing)
+    q = np.hypot(qx, qy)
     counts = np.broadcast_to(hermitian_factor(shape[1]), q.shape)
     area = topography.size[0] * topography.size[1]
     density = np.square(np.abs(waves)) * (area / (4.0 * np.pi**2))
     # All waves but the mean, which leaves a disc of the area of one wave's cell.
     limits = 2.0 * np.sqrt(np.pi / area), 2.0 * np.pi / max(topography.size), np.pi / max(topography.spacing)
-    return PowerSpectrum(*_rings(q.ravel(), density.ravel(), counts.ravel(), limits, per_decade))
+    rings = _rings(q.ravel(), density.ravel(), counts.ravel(), limits, per_decade)
+    # Mean square slopes, of which (qx + i qy)² is what turns twice as the direction turns once.
+    weight = counts * density * (q <= limits[-1])
+    anisotropy = abs(complex((weight * np.square(qx + 1j * qy)).sum())) / float((weight * np.square(q)).sum())
+    return PowerSpectrum(*rings, min(anisotropy, 1.0))
 
 
 def line_spectrum(topography: Topography, *, axis: Literal["x", "y"] = "x", per_decade: int = 12) -> LineSpectrum:
@@ -252,14 +257,18 @@ def _rings(
             "several: give more points.",
             code="too-few-points",
         )
-    q, density, counts = q[loud], density[loud], counts[loud]
+    place = np.floor(_FINE * np.log10(q[loud] / first) + 1e-6).astype(int)
     # What a window spreads beyond the shortest waves of a surface has no curvature, and is no roughness.
-    curvature = np.bincount(np.floor(_FINE * np.log10(q / first) + 1e-6).astype(int), counts * density * q**4)
+    curvature = np.bincount(place, (counts * density * q**4)[loud])
     last = first * 10.0 ** ((np.flatnonzero(np.cumsum(curvature[::-1])[::-1] > 1e-6 * curvature.sum())[-1] + 1) / _FINE)
-    loud = q <= last
-    q, density, counts = q[loud], density[loud], counts[loud]
+    # Waves of directions in which an anisotropic surface has none are a part of the mean.
+    seen = q[loud & (q <= last)]
+    within = (q >= seen.min()) & (q <= seen.max())
+    q, density, counts = q[within], density[within], counts[within]
     start = max(start, float(q.min()) - 0.5 * first)
     ring = np.floor(per_decade * np.log10(q / first) + 1e-6).astype(int)
+    kept = np.bincount(ring, loud[within]) > 0.0
+    q, density, counts, ring = (one[kept[ring]] for one in (q, density, counts, ring))
     ring = np.unique(ring, return_inverse=True)[1]
     mean_density = np.bincount(ring, counts * density) / np.bincount(ring, counts)
     # Where a power law has its mean over a ring, up to the fourth power of the ring's width, for any exponent.

@@ -39,7 +39,7 @@ from viscofric.contact.heated_result import INTERFACE, beyond
 from viscofric.errors import InputError
 from viscofric.heat.heating import Heating
 from viscofric.heat.interface import SlidingInterface
-from viscofric.notes import Note, counted
+from viscofric.notes import Note, Remedy, counted
 from viscofric.rheology.interface.friction import check_interface_heat, friction_on_area, insist_on_interface
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material, insist_on_material
@@ -56,6 +56,8 @@ _CLOSEST, _LOOSEST = 1e-8, 0.1
 _HOT = (300.0, 200.0, 150.0, 100.0, 70.0, 50.0, 30.0, 20.0, 10.0, 5.0)
 #: Two states are one where their rises differ by less than this, K, plus the same share of it.
 _SAME = 1e-2
+#: Anisotropy that is noted; that of isotropic surfaces of some ten waves' length is below this by chance.
+_ANISOTROPIC = 0.25
 
 
 def persson_theory(
@@ -179,7 +181,24 @@ def persson_theory(
     )
     surface = SurfaceCoupling(spectrum.rms_slope(), half_space_coupling(material.poisson_ratio))
     finished = _with_coulomb(result, surface, heating, interface)
-    return replace(finished, notes=(*finished.notes, *_beyond_measured(material, finished)))
+    notes = *finished.notes, *_beyond_measured(material, finished), *_one_way(spectrum)
+    return replace(finished, notes=notes)
+
+
+def _one_way(spectrum: PowerSpectrum) -> tuple[Note, ...]:
+    """Return a note where friction depends on the direction of sliding, over which the theory takes the mean."""
+    # A wave at an angle φ to the motion contributes to friction in full contact as |cos φ|ⁿ, n = 2 where E'' grows with
+    # frequency, which makes the change equal to the anisotropy; 2n/(n + 2) of it for other n.
+    share = spectrum.anisotropy
+    if share <= _ANISOTROPIC:
+        return ()
+    said = (
+        f"The surface is anisotropic: in one direction its mean square slope is {100.0 * share:.0f} % above the mean "
+        "of all directions, across it as much below. The theory takes this mean; in full contact friction along these "
+        "two directions differs from it by up to about as much; "
+    )
+    remedy = Remedy("solve the surface with direction= (predict_rough_friction).")
+    return (Note("anisotropic-surface", said, remedy=remedy, values={"anisotropy": share}),)
 
 
 def _beyond_measured(material: Material, found: PerssonTheory) -> tuple[Note, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 from viscofric.arguments import exactly_one
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.showing import Plotted, Rows
-from viscofric.units import Quantity, in_si, positive, to_si
+from viscofric.units import Quantity, in_si, number, positive, to_si
 
 #: Nodes of the quadrature in each segment.
 NODES = 12
@@ -66,11 +66,15 @@ class PowerSpectrum(Density):
         q = 2π/wavelength, rad/m, increasing.
     density : (n,) array
         C(q), m⁴, above zero.
+    anisotropy : float
+        Of a measured surface, how much its mean square slope depends on the direction: half the difference between the
+        steepest direction and the one across, over their mean; 0 if isotropic, 1 for ridges.
 
     Raises
     ------
     InputError
-        If these are not two rows of equal length, positive and finite, with increasing wave numbers.
+        If these are not two rows of equal length, positive and finite, with increasing wave numbers, or the anisotropy
+        is not between 0 and 1.
 
     References
     ----------
@@ -89,9 +93,16 @@ class PowerSpectrum(Density):
 
     _unit: ClassVar[str] = "m**4"
     _name: ClassVar[str] = "power spectral density of the surface"
+    anisotropy: float = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not 0.0 <= number(self.anisotropy, "anisotropy") <= 1.0:
+            raise wrong_argument("anisotropy", self.anisotropy, "must be a number from 0 to 1.", "out-of-range")
 
     def _shown(self) -> Rows:
-        return *super()._shown(), ("rms height", self.rms_height(), "m"), ("rms slope", self.rms_slope())
+        rms = ("rms height", self.rms_height(), "m"), ("rms slope", self.rms_slope())
+        return *super()._shown(), *rms, ("anisotropy", self.anisotropy or None)
 
     @classmethod
     def self_affine(
@@ -177,7 +188,8 @@ class PowerSpectrum(Density):
         """
         first = 0.0 if longest is None else 2.0 * math.pi / positive(longest, "m", "longest")
         last = math.inf if shortest is None else 2.0 * math.pi / positive(shortest, "m", "shortest")
-        return PowerSpectrum(*_cut_out(self.wave_number, self.density, first, last))
+        q, density = _cut_out(self.wave_number, self.density, first, last)
+        return replace(self, wave_number=q, density=density)
 
     def rms_height(self, shortest: Quantity | None = None) -> float:
         """Return the rms height, m.
@@ -228,7 +240,7 @@ class PowerSpectrum(Density):
             If not just one of them is given, or it is not above zero.
         """
         wanted, order = wanted_rms(rms_height, rms_slope)
-        return PowerSpectrum(self.wave_number, self.density * (wanted**2 / self.moment(order)))
+        return replace(self, density=self.density * (wanted**2 / self.moment(order)))
 
 
 def hurst_exponent(hurst: float) -> float:
