@@ -158,13 +158,34 @@ def test_outliers_count_less(stated: float, replicates: int) -> None:
 
 
 def test_an_outlier_does_not_lose_temperatures() -> None:
-    """Single points off by half lost 92 of 280 temperatures; those at the ends of their curves still lose some."""
+    """Single points off by half lost 92 of 280 temperatures, and at the ends of their curves 39."""
     for seed in range(10):
         curves = shifted_curves(np.arange(305.15, 342.0, 6.0), noise=0.02, seed=seed)
-        off = np.where(np.arange(len(curves)) == 10 * (seed % 7) + 4, 2.0, 1.0)
+        off = np.where(np.arange(len(curves)) == 10 * (seed % 7) + (4, 0, 9)[seed % 3], 2.0, 1.0)
         master = shift_friction(replace(curves, viscoelastic=off * curves.viscoelastic))
         assert len(master.shift_factors.temperatures) == 7
         assert "outlying-points" in codes(master.notes)
+
+
+@pytest.mark.parametrize(("speeds", "size", "least"), [(10, 0.08, 0.68), (10, 0.2, 0.73), (6, 0.2, 0.55)])
+def test_few_points_off_by_four_to_ten_errors_leave_intervals_right(speeds: int, size: float, least: float) -> None:
+    """Three of 48 or 90: where they lie, 32, 81 and 0 % of the intervals of friction held."""
+    celsius = np.linspace(10.0, 70.0, 9 if speeds == 10 else 8)
+    speed = np.tile(np.geomspace(0.01, 1.0 if speeds == 10 else 0.6, speeds), len(celsius))
+    law, kelvin = WLF(9.0, 110.0, 313.15), np.repeat(celsius + 273.15, speeds)
+    exact = 0.02 + 0.25 * np.exp(-0.5 * ((np.log10(law(kelvin) * speed) + 1.5) / 1.3) ** 2)
+    there = []
+    for seed in range(16):
+        random = np.random.default_rng(seed)
+        coefficient = exact * (1.0 + 0.02 * random.standard_normal(len(speed)))
+        off = random.choice(len(speed), 3, replace=False)
+        coefficient[off] *= 1.0 + size * random.choice([-1.0, 1.0], 3)
+        curves = friction_curves(speed, kelvin, coefficient, error=0.02 * exact)
+        master = shift_friction(curves, shift=law)
+        at = law(kelvin[off]) * speed[off]
+        there += (np.abs(master(at) - exact[off]) < 1.96 * master.standard_error(at)).tolist()
+    # Of 48 places 77, 87 and 71 % hold in longer trials; less 1.5 standard deviations.
+    assert np.mean(there) > least
 
 
 @pytest.mark.parametrize(("place", "off"), [(1, 0.5), (1, 1.5), (-2, 0.5), (-2, 1.5)])
@@ -291,7 +312,7 @@ def test_distances_of_many_points_are_found_once(places: list[int]) -> None:
     assert places == [500, 1, 1, 1]
 
 
-def test_many_outliers_of_many_points_are_found_in_few_rounds(places: list[int]) -> None:
+def test_many_outliers_of_many_points_are_found_without_smoothing_again(places: list[int]) -> None:
     """Of 250 points per decade 8 % are off by 50 %; one round for each in half a decade smoothed 25,000 places."""
     random, speed = np.random.default_rng(1), np.geomspace(1e-3, 10.0, 1000)
     off = random.permutation(1000) < 80
@@ -300,19 +321,7 @@ def test_many_outliers_of_many_points_are_found_in_few_rounds(places: list[int])
     [note] = [one for one in map(note_of, master.notes) if one.code == "outlying-points"]
     # Off by 25 errors; of the others one may be, in one set in a hundred.
     np.testing.assert_array_equal(note.values["speed"], speed[off])
-    assert sum(places) < 10 * len(master)
-
-
-def test_outliers_far_from_each_other_are_smoothed_about_again_alone(places: list[int]) -> None:
-    """One outlier in 4 decades moves the curve only within reach of the kernel, half a decade."""
-    random, speed = np.random.default_rng(1), np.geomspace(1e-3, 10.0, 1000)
-    noisy = peak(speed) * (1.0 + 0.02 * random.standard_normal(1000))
-    noisy[400] *= 1.5
-    master = shift_friction(friction_curves(speed, np.full(1000, 323.15), noisy, error=0.02 * noisy), shift=LAW)
-    [note] = [one for one in map(note_of, master.notes) if one.code == "outlying-points"]
-    assert note.values["speed"] == [speed[400]]
-    assert places[0] == 1000
-    assert sum(places[1:]) == pytest.approx(125, abs=1)  # half a decade of 250 points each
+    assert places == [1000]
 
 
 def test_overlap_is_exact_without_noise_and_shows_noise() -> None:

@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import InputError, SuperpositionError
-from viscofric.friction.shifting.isotherms import FrictionIsotherm, scatter_scale
+from viscofric.friction.curve_checks import MEAN_SQUARE, ROUNDS, TAILS_COST, counted_less, settled
+from viscofric.friction.shifting.isotherms import FrictionIsotherm, distances, scatter_scale
 from viscofric.friction.shifting.placement import (
     CONTRADICTION,
     FEWEST_POINTS,
@@ -29,6 +30,7 @@ from viscofric.friction.shifting.placement import (
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.shift_law import NOMINAL
+from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.overlap import Join
@@ -113,7 +115,7 @@ def found_shifts(
         members = _group([members], doubts)
         chosen = [isotherms[place] for place in members]
         kelvin = chosen[len(chosen) // 2].temperature if reference is None else reference
-        values, covariance = _fit(chosen, np.array([positions[place] for place in members]), kelvin)
+        chosen, values, covariance = _fit(chosen, np.array([positions[place] for place in members]), kelvin)
         if level_error > 0.0:
             covariance = covariance + _of_levels(chosen, values, kelvin, level_error)
         sure = [(members[one], members[other]) for one, other in _overlaps(chosen, values, covariance)]
@@ -160,14 +162,35 @@ def _may_be_constant(chosen: Sequence[FrictionIsotherm], isotherms: Sequence[Fri
     from scipy.special import fdtrc
 
     friction = np.concatenate([isotherm.friction for isotherm in chosen])
-    weight = 1.0 / (scale * np.concatenate([isotherm.variance for isotherm in chosen]))
+    weight = 1.0 / (scale * np.concatenate([isotherm.larger * isotherm.variance for isotherm in chosen]))
     ratio = np.sum(weight * (friction - np.average(friction, weights=weight)) ** 2) / (friction.size - 1)
     freedom = sum(isotherm.curves.freedom for isotherm in isotherms if len(isotherm) > 3)
     return bool(fdtrc(friction.size - 1, freedom, ratio) > CONSTANT)
 
 
-def _fit(chosen: Sequence[FrictionIsotherm], start: Array, reference: float) -> tuple[Array, Array]:
-    """Fit log10 α (n,) of all isotherms from a start, and its covariance."""
+def _fit(
+    chosen: Sequence[FrictionIsotherm], start: Array, reference: float
+) -> tuple[list[FrictionIsotherm], Array, Array]:
+    """Fit log10 α (n,) of all isotherms from a start, and its covariance; points far from the curve count less."""
+    ends = np.cumsum([len(isotherm) for isotherm in chosen])[:-1]
+    larger = np.ones(sum(len(isotherm) for isotherm in chosen))
+    values = start
+    for _ in range(ROUNDS):
+        counted = [replace(one, larger=own) for one, own in zip(chosen, np.split(larger, ends), strict=True)]
+        values, covariance = _fit_as_counted(counted, values, reference)
+        places = np.concatenate([isotherm.speed + value for isotherm, value in zip(counted, values, strict=True)])
+        friction = np.concatenate([isotherm.friction for isotherm in counted])[:, None]
+        weight = 1.0 / (larger * np.concatenate([isotherm.variance for isotherm in counted]))
+        curves = Smoother.fitted(places, friction, weight).curves(places, friction, weight)
+        freedom = max(curves.freedom - len(chosen) + 1.0, 1.0)
+        scale = float(np.sum(curves.residual**2)) / (MEAN_SQUARE * freedom)
+        before, larger = larger, counted_less(distances(curves, larger) / scale)
+        if np.all(settled(before, larger)):
+            break
+    return counted, values, TAILS_COST / MEAN_SQUARE * covariance
+
+
+def _fit_as_counted(chosen: Sequence[FrictionIsotherm], start: Array, reference: float) -> tuple[Array, Array]:
     temperatures, weights = _at_reference(chosen, reference)
     gauge = Gauge(1.0 / temperatures, weights, weights, {})
     joins = [Join(float(step), 0.0, 0.0) for step in -np.diff(start)]
@@ -203,7 +226,7 @@ def _of_levels(chosen: Sequence[FrictionIsotherm], values: Array, reference: flo
     moves = []
     for place, isotherm in enumerate(chosen):
         moved = [*chosen[:place], isotherm.raised(level_error), *chosen[place + 1 :]]
-        moves.append(_fit(moved, values, reference)[0] - values)
+        moves.append(_fit_as_counted(moved, values, reference)[0] - values)
     return np.asarray(np.transpose(moves) @ np.array(moves))
 
 

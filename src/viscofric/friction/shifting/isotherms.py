@@ -1,4 +1,7 @@
-"""Friction at one temperature for the search for shift factors: logarithms, variances, a smooth curve."""
+"""Friction at one temperature for the search for shift factors: logarithms, variances, a smooth curve.
+
+Scatter is taken to have heavy tails: points far from the others count less (`curve_checks.counted_less`).
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from viscofric.arrays import Array, Indices, Integers
-from viscofric.friction.curve_checks import error_freedom
+from viscofric.friction.curve_checks import MEAN_SQUARE, ROUNDS, counted_less, error_freedom, settled
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import nominal_rows
 from viscofric.rheology.superposition.common_curve import Curves, Smoother
@@ -26,6 +29,12 @@ SMALLEST_ERROR = 0.1
 UNKNOWN_ERROR = 0.004
 #: Degrees of freedom of an error that is not that of replicates.
 EXACT = 1e6
+#: Points that a curve goes through have at least this part of their variance in their distance from it.
+_LEAST_LEFT = 1e-6
+#: Curves of fewer points, or as many, have no scatter.
+_FEWEST_FOR_SCATTER = 3
+#: Factor of the variance of a point that is left out.
+_LEFT_OUT = 1e4
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +49,7 @@ class FrictionIsotherm:
     variance: Array  # (n,), of `friction`, up to a factor common to all isotherms
     range: tuple[float, float]  # smallest and largest friction coefficient
     logarithmic: bool  # whether `friction` is the logarithm
+    larger: Array  # (n,), factors of the variance of points that lie off the others; 1 for the others
 
     def __len__(self) -> int:
         return len(self.speed)
@@ -47,8 +57,16 @@ class FrictionIsotherm:
     @cached_property
     def curves(self) -> Curves:
         """The curve through the points of this temperature alone."""
-        columns = self.speed, self.friction[:, None], 1.0 / self.variance
+        columns = self.speed, self.friction[:, None], 1.0 / (self.larger * self.variance)
         return Smoother.fitted(*columns).curves(*columns)
+
+    @cached_property
+    def without_an_end(self) -> tuple[FrictionIsotherm, ...]:
+        """The same without its first or its last point, where the others determine a curve."""
+        if len(self) <= _FEWEST_FOR_SCATTER:
+            return ()
+        apart = 1.0 + (_LEFT_OUT - 1.0) * np.eye(len(self))[[0, -1]]
+        return tuple(replace(self, larger=self.larger * end) for end in apart)
 
     def read(self, speed: Array) -> tuple[Array, Array]:
         """Return the curve at log10 speeds (k, m) within the range, and the covariance of each m values (k, m, m)."""
@@ -67,7 +85,7 @@ class FrictionIsotherm:
 
     def sweep(self, unit: float) -> LogSweep:
         """Return the points in the form of superposition, weights in units of an inverse variance."""
-        return LogSweep(self.speed, self.friction[:, None], 1.0 / (unit * self.variance))
+        return LogSweep(self.speed, self.friction[:, None], 1.0 / (unit * self.larger * self.variance))
 
 
 def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
@@ -82,10 +100,72 @@ def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
     rows = nominal_rows(curves.temperature)
     variance = _variances(decades, curves.replicates, error_freedom(curves)[0], rows)
     speed, kelvin = np.log10(curves.speed), curves.temperature
-    return [
-        _merged(float(kelvin[row].mean()), speed[row], ordinate[row], variance[row], friction[row], logarithmic)
-        for row in rows
-    ]
+    return _with_tails(
+        [
+            _merged(float(kelvin[row].mean()), speed[row], ordinate[row], variance[row], friction[row], logarithmic)
+            for row in rows
+        ]
+    )
+
+
+def _with_tails(isotherms: list[FrictionIsotherm]) -> list[FrictionIsotherm]:
+    """Find the points that lie off the curve of their own temperature, with the scatter of all, and count them less."""
+    for _ in range(ROUNDS):
+        scale, before = scatter_scale(isotherms), isotherms
+        if scale is None:
+            break
+        isotherms = [
+            replace(one, larger=counted_less(distances(one.curves, one.larger) / scale))
+            if len(one) > _FEWEST_FOR_SCATTER
+            else one
+            for one in isotherms
+        ]
+        if all(settled(old.larger, new.larger).all() for old, new in zip(before, isotherms, strict=True)):
+            break
+    return isotherms
+
+
+def distances(curves: Curves, larger: Array) -> Array:
+    """Return squared distances (n,) of points from the curve of the others, over their expectation.
+
+    `larger` (n,) are the factors of the variances with which the curve was drawn; the point itself has its own
+    variance, times the scale of all.
+    """
+    return np.asarray(larger * curves.residual[:, 0] ** 2 / _expected(curves, larger))
+
+
+def _expected(curves: Curves, larger: Array) -> Array:
+    """Return the expected squared residuals (n,) of points in units of their own variances."""
+    pull = np.minimum(np.einsum("ni,ij,nj->n", curves.basis, curves.inverse[0], curves.basis), 1.0 - _LEAST_LEFT)
+    return np.asarray((1.0 - pull) * (1.0 - pull + pull * larger))
+
+
+def with_tails(
+    place: Array, value: Array, variance: Array, sharing: Array, least: float, least_distance: Array
+) -> tuple[Array, Array, float]:
+    """Return factors (n,) of the variances of points about one curve, squared distances, and degrees of freedom.
+
+    `sharing` (k, n) are errors that points share, `least` is the least factor of all variances. Distances up to
+    `least_distance` (n,) are zero.
+    """
+    larger, squares = np.ones(len(place)), np.zeros(len(place))
+    if len(place) <= _FEWEST_FOR_SCATTER:
+        return larger, squares, 0.0
+    for _ in range(ROUNDS):
+        weight = 1.0 / (larger * variance)
+        curves = Smoother.fitted(place, value[:, None], weight).curves(place, value[:, None], weight)
+        shared = sharing.T * curves.root
+        shared = np.sum((shared - curves.basis @ (curves.inverse[0] @ (curves.basis.T @ shared))) ** 2, axis=1)
+        left, freedom = curves.residual[:, 0] ** 2, curves.freedom
+        if freedom < 1.0:
+            break
+        scale = max(least, float(np.sum(left - shared)) / (MEAN_SQUARE * freedom))
+        expected = scale * _expected(curves, larger) + larger * shared
+        squares = np.where(left > weight * least_distance**2, larger * left / expected, 0.0)
+        before, larger = larger, counted_less(squares)
+        if np.all(settled(before, larger)):
+            break
+    return larger, squares, freedom
 
 
 def nominal_temperatures(temperature: Array) -> Array:
@@ -98,11 +178,11 @@ def nominal_temperatures(temperature: Array) -> Array:
 
 def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
     """Return the factor of the variances, from the scatter about own curves; None without a degree of freedom."""
-    several = [isotherm.curves for isotherm in isotherms if len(isotherm) > 3]
+    several = [isotherm.curves for isotherm in isotherms if len(isotherm) > _FEWEST_FOR_SCATTER]
     freedom = sum(curves.freedom for curves in several)
     if freedom < 1.0:
         return None
-    return float(sum(np.sum(curves.residual**2) for curves in several) / freedom)
+    return float(sum(np.sum(curves.residual**2) for curves in several) / (MEAN_SQUARE * freedom))
 
 
 def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[Indices]) -> Array:
@@ -152,4 +232,5 @@ def _merged(
         1.0 / total,
         (float(friction.min()), float(friction.max())),
         logarithmic,
+        np.ones(len(total)),
     )

@@ -14,6 +14,7 @@ from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import (
     LEAST_FREEDOM,
+    MEAN_SQUARE,
     MOST_OUTLYING,
     error_freedom,
     outliers,
@@ -23,9 +24,9 @@ from viscofric.friction.curve_checks import (
 from viscofric.friction.curve_words import LABELS
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.collapse import Collapse
-from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, nominal_temperatures
+from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, nominal_temperatures, with_tails
 from viscofric.friction.shifting.load_rule import LoadRule
-from viscofric.nominal import SAME_LOAD, nominal_rows
+from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -43,16 +44,8 @@ _ROUNDING = 1e-9
 _NEIGHBOURS = 5
 # Abscissae closer than this part of the bandwidth count as one.
 _COINCIDENT = 1e-6
-# Squared distances from the curve count up to this many times what four in five do not exceed, so that outliers do not
-# stand for all, but a third of the points that scatter more than the others do.  Of normal scatter that leaves the part
-# E[min(z², 2.49 q)] = 0.924, q = 1.642.  Few points, whose distances depend on each other, are cut less: their errors
-# are up to 4 % too large.
-_MOST, _CLIPPED, _UNCLIPPED = 0.8, 2.49, 0.924
-# Largest relative distance of the parabola of a point from a smooth curve, also at its ends.
+# Largest relative distance of the spline of a point from a smooth curve, also at its ends.
 _BIAS = 0.03
-# Outliers are found together if those that lie farther off pull the curve towards them by less than this part of their
-# own distance.
-_PULL = 0.1
 # Places smoothed at a time, near each other: few numbers at once stay in the cache.
 _TOGETHER = 32
 
@@ -136,126 +129,64 @@ class SmoothedPoints:
 
     @cached_property
     def _judged(self) -> _Judged:
-        """Weights and variances of the points, with outliers that count less."""
+        """Weights and variances of the points; those far from the others count less."""
         # Variances are larger by one factor where points scatter about the curve by more than these.  The scatter that
         # errors which points share explain is not counted.
         finite = np.isfinite(self.error)
         # Without stated errors, the scatter is taken to be a part of friction.
         stated = self.error if self.stated else np.where(finite, np.abs(self.friction), np.inf)
-        plain, variance = _weights(self.error), np.where(finite, np.square(stated), 0.0)
-        trusted, outlying = _weights(stated), np.zeros(len(self.decades))
-        about = _About.none(len(self.decades))
-        changed = np.arange(len(self.decades))
-        while True:
-            larger = np.maximum(outlying, 1.0)
-            self._find_distances(about, about.reached(changed), plain / larger, variance * larger)
-            factor, away = self._compared(about, variance * larger, trusted / larger)
-            changed = self._apart(about, away)
-            some = np.count_nonzero(outlying) + len(changed)
-            if not changed.size or some > MOST_OUTLYING * len(away):
-                variance = np.where(finite, variance * larger * factor, np.inf)
-                return _Judged(plain / larger, variance, outlying, about.curve)
-            outlying[changed] = larger[changed] * away[changed]
-
-    def _find_distances(self, about: _About, rows: Indices, weight: Array, variance: Array) -> None:
-        """Fill in how points in `rows` lie about the curve of points with weights and variances (n,)."""
-        for places, window, weights in self._smoothers(self.decades[rows], weight):
-            mine, at = rows[places], np.arange(len(places))
-            about.largest[mine] = weights.max(axis=1)
-            there = weights != 0.0
-            about.first[mine] = window.start + there.argmax(axis=1)
-            about.last[mine] = window.stop - 1 - there[:, ::-1].argmax(axis=1)
-            about.curve[mine] = weights @ self.friction[window]
-            left = np.negative(weights, out=weights)
-            left[at, mine - window.start] += 1.0
-            about.shared[mine] = self._shared(window, left)
-            squares = np.square(left, out=left)
-            about.own[mine] = squares @ variance[window]
-            about.freedom[mine] = squares.sum(axis=1)
-
-    def _compared(self, about: _About, variance: Array, trusted: Array) -> tuple[float, Array]:
-        """Return a factor of the variances (n,), and squared distances (n,) of outliers, in variances; else zero."""
-        # Not where points are too sparse for a parabola to be near them.
-        judged = self.decades[about.last] - self.decades[about.first] <= 2.0 * BANDWIDTH + _ROUNDING
+        plain, trusted, variance = _weights(self.error), _weights(stated), np.where(finite, np.square(stated), 0.0)
+        larger, away = self._found_to_lie_off(stated)
+        about = self._about(plain / larger, variance * larger)
         # Where the curve goes through the points, what is left is rounding.
-        counted = np.isfinite(self.error) & (about.freedom > LEAST_FREEDOM) & (about.own > 0.0)
-        factor, away = 1.0 if self.stated else 0.0, np.zeros(len(counted))
+        counted = finite & (about.freedom > LEAST_FREEDOM) & (about.own > 0.0)
+        factor = 1.0 if self.stated else 0.0
         if np.any(counted):
-            curve, own, shared, freedom = (
-                each[counted] for each in (about.curve, about.own, about.shared, about.freedom)
-            )
-            squares, weight, expected = (self.friction[counted] - curve) ** 2, trusted[counted], own + shared
-            most = float(np.quantile(squares / expected, _MOST))
-            # A single error may be too small: half of them are larger, or a larger part of friction.
-            square = np.maximum(np.square(self.friction[counted]), np.finfo(float).tiny)
-            part = np.median(variance[counted] / square) * np.square(curve)
-            usual = freedom * np.minimum(part, np.median(variance[counted]))
-            far = squares > np.square(_BIAS * curve)
-            found, some = outliers(squares / np.maximum(expected, usual), float(np.sum(about.freedom)), factor)
-            away[counted] = found * (some & far & judged[counted])
-            # So that outliers, and their neighbours, do not stand for all.
-            squares = np.minimum(squares, _CLIPPED * most * expected) / _UNCLIPPED
-            factor = max(factor, float(weight @ (squares - shared) / (weight @ own)))
-        return factor, away
+            weight = (trusted / larger)[counted]
+            squares = (self.friction - about.curve)[counted] ** 2 - about.shared[counted]
+            factor = max(factor, float(weight @ squares) / (MEAN_SQUARE * float(weight @ about.own[counted])))
+        return _Judged(plain / larger, np.where(finite, variance * larger * factor, np.inf), away, about.curve)
 
-    def _apart(self, about: _About, away: Array) -> Indices:
-        """Return which outliers are such whatever the others are: the farthest ones within reach may pull the curve."""
-        order = np.argsort(-away)[: np.count_nonzero(away)]
-        off, places = np.abs(self.friction - about.curve)[order], self.decades[order]
-        # How much a point pulls the curve at another is the weight that it has there.
-        allowed = _PULL * off / about.largest[order]
-        pulls = (
-            float(off[:rank] @ (np.abs(places[:rank] - places[rank]) <= 2.0 * BANDWIDTH)) for rank in range(len(order))
-        )
-        return order[[pull <= most for pull, most in zip(pulls, allowed, strict=True)]]
+    def _found_to_lie_off(self, stated: Array) -> tuple[Array, Array]:
+        """Return factors (n,) of the variances of points, and squared distances (n,) of outliers; else zero."""
+        # They are distances from one smooth curve of each stretch, of logarithms if all friction is clear of zero.
+        known = np.isfinite(stated) & (stated > 0.0)
+        larger, squares, freedom = np.ones(len(stated)), np.zeros(len(stated)), 0.0
+        logarithmic = bool(np.all(self.friction[known] > CLEAR_OF_ZERO * self.error[known]))
+        for low, high in self.stretches:
+            rows = np.flatnonzero(known & (self.decades >= low) & (self.decades <= high))
+            unit = self.friction[rows] if logarithmic else np.ones(len(rows))
+            value = np.log(unit) if logarithmic else self.friction[rows]
+            columns = self.decades[rows], value, (stated[rows] / unit) ** 2
+            shared = self.sharing[:, rows] * self.friction[rows] / unit
+            near = _BIAS * np.abs(self.friction[rows] / unit)
+            larger[rows], squares[rows], more = with_tails(*columns, shared, 1.0 if self.stated else 0.0, near)
+            freedom += more
+        over, outlying = outliers(squares, freedom, 1.0)
+        few = np.count_nonzero(outlying) <= MOST_OUTLYING * len(outlying)
+        return larger, np.where(outlying & few, over, 0.0)
+
+    def _about(self, weight: Array, variance: Array) -> _About:
+        """Return how points lie about the curve of points with weights and variances (n,)."""
+        about = _About(*np.zeros((4, len(self.decades))))
+        for places, window, weights in self._smoothers(self.decades, weight):
+            about.curve[places] = weights @ self.friction[window]
+            left = np.negative(weights, out=weights)
+            left[np.arange(len(places)), places - window.start] += 1.0
+            about.shared[places] = self._shared(window, left)
+            squares = np.square(left, out=left)
+            about.own[places] = squares @ variance[window]
+            about.freedom[places] = squares.sum(axis=1)
+        return about
 
 
 class _About(NamedTuple):
-    """How points (n,) lie about the curve: its value, and of their distances the variances and the part of their own.
-
-    Also the largest weight of a point there, and the first and the last point on which the curve there depends.
-    """
+    """How points (n,) lie about the curve: its value; variances of their distances, and the part of their own."""
 
     curve: Array
     own: Array
     shared: Array
     freedom: Array
-    largest: Array
-    first: Indices
-    last: Indices
-
-    @classmethod
-    def none(cls, count: int) -> _About:
-        """Return that of points of which nothing is known yet, so that all depend on all."""
-        curve, own, shared, freedom, largest = np.zeros((5, count))
-        ends = np.zeros(count, dtype=np.intp), np.full(count, count - 1, dtype=np.intp)
-        return cls(curve, own, shared, freedom, largest, *ends)
-
-    def reached(self, changed: Indices) -> Indices:
-        """Return the points where the curve depends on one of those that changed."""
-        among = np.sort(changed)
-        return np.flatnonzero(np.searchsorted(among, self.first) < np.searchsorted(among, self.last, "right"))
-
-
-def outliers_of_own(points: FrictionCurves) -> Mask:
-    """Return which points (n,) lie off the curve of their own temperature, or beside such: they move its shift."""
-    found, error = np.zeros(len(points), dtype=bool), points.viscoelastic_error
-    rows = nominal_rows(points.temperature)
-    # Temperatures are so far apart that no curve reaches another, but have one scatter.
-    apart = np.ptp(np.log10(points.speed)) + 2.0 * WIDEST_GAP
-    decades = np.log10(points.speed)
-    for number, row in enumerate(rows):
-        decades[row] += number * apart
-    order = np.argsort(decades, kind="stable")
-    own = SmoothedPoints(decades[order], points.viscoelastic[order], error[order], np.zeros((1, len(points))))
-    found[order] = own.outlying > 0.0
-    for row in rows:
-        ascending = row[np.argsort(decades[row], kind="stable")]
-        off = found[ascending]
-        # The curve hardly leaves a point at its end, so that this may seem off and the outlier beside it not.
-        beside = off | np.append(off[1:], False) | np.insert(off[:-1], 0, False)
-        found[ascending] = beside & ~np.all(beside)
-    return found
 
 
 class _Judged(NamedTuple):
@@ -345,8 +276,8 @@ class FrictionMasterCurve(Plotted):
     Called with a speed and a temperature it gives μ(v, T).  The value is that of a local quadratic regression
     in log10(αv): tricube kernel of half-width 0.25 decades, wider where points are sparse so that it reaches
     the five nearest; every point weighs 1/(s² + m²), s its own standard error, that of few replicates averaged with
-    its neighbours', m the median of all.  Points off the curve by more than chance explains, a tenth at most, weigh
-    less by the square of their distance, with a note.  From 10
+    its neighbours', m the median of all.  Points more than two standard errors off the others weigh less by the
+    square of their distance; those off by more than chance explains, if they are a tenth at most, have a note.  From 10
     points without noise per decade it is accurate to 0.5 % around a maximum where the slope of log μ over log v
     changes by 1 per decade, and to 1 % at the sharpest there is, that of one retardation time.  Stretches
     wider than half a decade without points are not bridged, and nothing is extrapolated; use `predict_friction`

@@ -30,6 +30,9 @@ READING = 0.004
 LARGEST_MISFIT = 25.0
 #: Increase of χ², from a step where curves coincide, that contradicts another step: three standard deviations.
 CONTRADICTION = 9.0
+#: Increase of χ² for which an end of one of two curves may be an outlier, and is left out: −2 ln of a probability of 1
+#: in 10,000.
+ONE_OUTLIER = 18.0
 #: α falls as temperature rises; a rise by this much is tolerated.
 WRONG_WAY = 0.05  # decades
 #: If more than this part of all steps is possible, the curves are too flat.
@@ -94,6 +97,15 @@ def _steps(colder: FrictionIsotherm, warmer: FrictionIsotherm) -> Array:
 
 
 def _chi2(colder: FrictionIsotherm, warmer: FrictionIsotherm, steps: Array, scale: float) -> Array:
+    """Compare two curves at steps, with all points, or without an end: its own curve does not show one that is off."""
+    chi2 = _chi2_of_all(colder, warmer, steps, scale)
+    others = [(one, warmer) for one in colder.without_an_end] + [(colder, one) for one in warmer.without_an_end]
+    for one, other in others:
+        chi2 = np.minimum(chi2, _chi2_of_all(one, other, steps, scale) + ONE_OUTLIER)
+    return chi2
+
+
+def _chi2_of_all(colder: FrictionIsotherm, warmer: FrictionIsotherm, steps: Array, scale: float) -> Array:
     low = np.maximum(colder.speed[0] + steps, warmer.speed[0])
     high = np.minimum(colder.speed[-1] + steps, warmer.speed[-1])
     places = low[:, None] + (high - low)[:, None] * PLACES
