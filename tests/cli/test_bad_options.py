@@ -21,6 +21,7 @@ from click.testing import CliRunner
 import viscofric as vf
 from cli.friction_files import curves, runs
 from cli.refusals import refusal_of
+from rheology.planted import write_amplitudes, write_moduli
 from viscofric.cli import main
 
 pytestmark = pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a timer of the system")
@@ -326,18 +327,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     curves(folder / "curves.csv")
     shutil.copy(str(files("viscofric") / "example" / "dma.csv"), folder)
     rubber = vf.synthetic_fluoroelastomer()
-    rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
-    for celsius in range(-15, 91, 2):
-        for hertz in (1.0, 10.0):
-            modulus = complex(rubber.complex_modulus(2 * np.pi * hertz, celsius + 273.15)) / 1e6
-            rows.append(f"{celsius},{hertz},{modulus.real:.9g},{modulus.imag:.9g}")
-    write(folder / "ramps.csv", *rows)
+    write_moduli(folder / "ramps.csv", rubber.complex_modulus, range(-15, 91, 2), (1.0, 10.0))
     law = vf.rheology.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 62.8, 333.15, "shear")
-    rows = ["temperature (degC),frequency (Hz),strain amplitude (%),G' (MPa),G'' (MPa)"]
-    for strain in np.geomspace(1e-4, 0.5, 20):
-        modulus = complex(law.complex_modulus(strain)) / 1e6
-        rows.append(f"60,10,{100 * strain:.6g},{modulus.real:.6g},{modulus.imag:.6g}")
-    write(folder / "payne.csv", *rows)
+    write_amplitudes(folder / "payne.csv", law, np.geomspace(1e-4, 0.5, 20))
     time = np.geomspace(0.05, 20.0, 12)
     depth = (0.75 * rubber.at("30 degC").creep_compliance(time) * 0.75 / 0.1) ** (2.0 / 3.0)
     rows = [f"{t:.8g},1,{1e6 * d:.8g}" for t, d in zip(time, depth, strict=True)]

@@ -111,41 +111,18 @@ def test_run_names_the_files_it_wrote(run: tuple[Result, Path]) -> None:
         assert all(Path(path).stat().st_size > 0 for path in paths)
 
 
-@pytest.mark.slow
-def test_report_is_written_again(finished: Path) -> None:
-    again = call("report", finished)
-    assert again.exit_code == 0, again.output
-
-
-def test_new_writes_a_study_that_runs_and_overwrites_nothing(tmp_path: Path) -> None:
-    result = call("new", tmp_path / "mine")
-    assert result.exit_code == 0, result.output
-    assert {path.name for path in (tmp_path / "mine").iterdir()} == {"study.toml", "dma.csv", "mtm.csv"}
-    assert refusal("new", tmp_path / "mine")[:2] == (1, "not-empty")
-
-
 def sweeps(*rows: str) -> str:
     return "\n".join(["temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)", *rows])
-
-
-TWO_ISOTHERMS = (
-    "20,0.1,10,2", "20,1,14,3", "20,10,20,5", "30,0.1,7,1.2", "30,1,10,2", "30,10,14,3",
-)  # fmt: skip
 
 
 @pytest.mark.parametrize(
     ("dma", "code"),
     [
         (sweeps("30,1,-1,0.1", "30,10,-1,0.1", "20,1,14,3"), "not-positive"),
-        (sweeps("30,1,nan,0.1", "30,10,nan,0.1", "20,1,14,3"), "not-a-number"),
-        (sweeps("30,1,,0.1", "30,10,,0.1", "20,1,14,3"), "empty-cell"),
-        (sweeps(*TWO_ISOTHERMS).replace("(MPa)", "(mm)"), "wrong-unit"),
-        (sweeps(*TWO_ISOTHERMS[:3]), "too-few-isotherms"),
-        (sweeps("20,0.1,1000,20", "20,1,1010,20", "90,0.1,2,0.02", "90,1,2.02,0.02"), "no-overlap"),
+        (sweeps("20,0.1,10,2", "20,1,14,3", "20,10,20,5"), "too-few-isotherms"),
         ("", "empty"),
-        ("\x00\x01\x02", "unknown-format"),
     ],
-    ids=["negative", "nan", "empty cell", "wrong unit", "one isotherm", "no overlap", "empty", "binary"],
+    ids=["negative", "one isotherm", "empty"],
 )
 def test_bad_data_is_refused_with_its_file(tmp_path: Path, dma: str, code: str) -> None:
     found = refusal("run", write(tmp_path, dma=dma))
@@ -156,11 +133,8 @@ def test_bad_data_is_refused_with_its_file(tmp_path: Path, dma: str, code: str) 
 @pytest.mark.parametrize(
     ("good", "bad", "code", "field"),
     [
-        ('"25 N"', '"0 N"', "not-positive", "conditions.load"),
-        ('"100 mm/s"', '"0 mm/s"', "not-positive", "conditions.speed"),
         ('speed = "100 mm/s"', 'sped = "100 mm/s"', "unknown-key", "conditions.sped"),
         ('"90 degC"', '"400 degC"', "outside-measured", "conditions.temperature"),
-        ('dma = "dma.csv"', 'dma = "other.csv"', "no-file", ""),
     ],
 )
 @pytest.mark.slow
@@ -168,10 +142,6 @@ def test_bad_run_files_are_refused_with_their_field(tmp_path: Path, good: str, b
     assert good in STUDY
     found = refusal("run", write(tmp_path, study=STUDY.replace(good, bad)))
     assert found[:3] == (1, code, field)
-
-
-def test_missing_run_file_is_reported(tmp_path: Path) -> None:
-    assert refusal("run", tmp_path / "study.toml")[:2] == (1, "no-file")
 
 
 @pytest.mark.slow

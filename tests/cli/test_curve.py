@@ -11,7 +11,6 @@ import pytest
 from click.testing import CliRunner, Result
 
 import viscofric as vf
-from cli.refusals import refusal
 from viscofric.cli import main
 from viscofric.cli.speed_options import chosen_speeds
 
@@ -110,20 +109,6 @@ def test_curves_go_into_a_pipe_without_the_table() -> None:
     assert done.exit_code == 0, done.output
     assert done.stdout.startswith("# viscofric friction curves")
     assert len(done.stdout.splitlines()) == 4
-
-
-@pytest.mark.parametrize(
-    ("words", "code"),
-    [
-        ([*RUBBER, *BALL, "--speed", "1 m"], "wrong-unit"),
-        ([*RUBBER, *BALL, "--speed", "0 m/s"], "not-positive"),
-    ],
-    ids=lambda value: str(value)[:40],
-)
-def test_mistakes_are_refused(words: list[object], code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-
-    found = refusal("curve", *words)
-    assert (found.status, found.code) == (1, code), found
 
 
 @pytest.mark.parametrize(

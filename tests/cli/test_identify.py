@@ -11,7 +11,6 @@ import pytest
 from click.testing import CliRunner, Result
 
 import viscofric as vf
-from cli.refusals import refusal
 from viscofric.cli import main
 from viscofric.notes import note_of
 
@@ -140,22 +139,3 @@ def test_tables_show_what_is_identified_and_what_not() -> None:
     assert "× 0.5" in family_lines(made)[1]
     made.family = ()
     assert family_lines(made) == []
-
-
-@pytest.mark.parametrize(
-    ("words", "code"),
-    [
-        (["nothing.csv", "--ball", "10 mm"], "no-file"),
-        (["curves.csv", "--ball", "10 mm", "--modes", "3"], "not-a-whole-number"),
-        (["curves.csv", "--ball", "10 mm", *ANCHOR[:2], "--anchor-frequency", "5", *ANCHOR[4:]], "no-unit"),
-        (["curves.csv", "--ball", "10 mm", "--prior", "no rubber"], "unknown-material"),
-    ],
-    ids=lambda value: str(value)[:40],
-)
-def test_mistakes_are_refused(words: list[object], code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    same = np.ones(2)
-    measured = vf.FrictionCurves(SPEEDS[:2], 300.0 * same, same, 0.01 * same, 1e-4 * same, 1e-4 * same, [1, 1])  # type: ignore[arg-type]
-    vf.write_friction_curves(measured, tmp_path / "curves.csv")
-    found = refusal("identify", *words)
-    assert (found.status, found.code) == (1, code), found

@@ -146,34 +146,6 @@ def test_a_table_is_printed_by_out_dash(name: str, folder: Path, monkeypatch: py
 
 
 @pytest.mark.parametrize(
-    ("words", "option"),
-    [
-        (["solve", *SOLID, "--ball", "abc", "--speed", "1 m/s", "--load", "1 N"], "--ball"),
-        (["solve", *SOLID, "--cone", "95 deg", "--speed", "1 m/s", "--load", "1 N"], "--cone"),
-        (["solve", *SOLID, "--cylinder", "1 mm", "--speed", "1 m/s", "--load", "1 N"], "--load"),
-        (["solve", *SOLID, *BALL, "--layer", "-1 mm"], "--layer"),
-        (["solve", *SOLID, *BALL, "--indenter-modulus", "-1 GPa"], "--indenter-modulus"),
-        (["solve", *SOLID, *BALL, "--poisson-ratio", "3"], "--poisson-ratio"),
-        (["solve", *SOLID, *BALL, "--backend", "none"], "--backend"),
-        (["solve", *SOLID, *BALL, "--grid", "1"], "--grid"),
-        (["solve", *SOLID, *BALL, "--coulomb", "1e9"], "--coulomb"),
-        (["solve", *SOLID, *BALL, "--temperature", "warm"], "--temperature"),
-        (["solve", "--E0", "soft", "--E-inf", "1 MPa", "--tau", "1 s", *BALL], "--E0"),
-        (["curve", *CATALOGUE, *BALL, "--workers", "-1"], "--workers"),
-        (["impact", *SOLID, "--ball", "5 mm", "--mass", "light", "--speed", "1 m/s"], "--mass"),
-        (["impact", *SOLID, "--ball", "5 mm", "--mass", "1 g", "--speed", "1 m/s", "--accuracy", "9"], "--accuracy"),
-        (["transient", *SOLID, "--ball", "10 mm", "--load", "1 N", "--dwell", "-1 s"], "--dwell"),
-        (["material", "fit", "dma.csv", "--reference", "warm"], "--reference"),
-    ],
-)
-def test_an_error_names_the_option_that_was_given(
-    words: list[str], option: str, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(folder)
-    assert refusal(*words).sentence.startswith((f"{option} = ", f"{option}: "))
-
-
-@pytest.mark.parametrize(
     "words",
     [
         ["solve", "--dma", "odd.csv", "--reference", "20 degC", *BALL],

@@ -24,7 +24,6 @@ from viscofric.report.figures.saving import save_picture
 from viscofric.rheology.spectra.quality import SpectrumFit
 
 RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
-DMA = str(files("viscofric") / "example" / "dma.csv")
 BALL = ("--ball", "10 mm", "--speed", "1 m/s", "--load", "1 N")
 
 
@@ -349,41 +348,6 @@ def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
     table = np.loadtxt(tmp_path / "fields.csv", delimiter=",", skiprows=1)
     assert table[:, 2].sum() * cell == pytest.approx(1.0, rel=1e-8)  # ten digits
     assert math.isclose(table[:, 3].max(), expected().indentation, rel_tol=1e-2)  # beside the axis by half a cell
-
-
-@pytest.mark.parametrize(
-    ("arguments", "code"),
-    [
-        ((*RUBBER, "--ball", "10 mm", "--speed", "1", "--load", "1 N"), "no-unit"),
-        ((*RUBBER, "--ball", "10", "--speed", "1 m/s", "--load", "1 N"), "no-unit"),
-        ((*RUBBER, *BALL, "--temperature", "60 degC"), "no-shift"),
-        ((*RUBBER, *BALL, "--accuracy", "2"), "out-of-range"),
-        ((*RUBBER, *BALL, "--accuracy", "1e-6", "--tolerance", "1e-10", "--finest", "128"), "accuracy-not-reached"),
-        ((*RUBBER, "--ball", "10 mm", "--speed", "1 m/s", "--load", "1 MN"), "beyond-indenter"),
-        (("--material", "VHB 491", *BALL), "unknown-material"),
-        (("--material", "none.json", *BALL), "no-file"),
-        ((*RUBBER, *BALL, "--layer", "1"), "no-unit"),
-        (("--material", DMA, *BALL), "unknown-card"),
-        ((*RUBBER, "--cone", "0.1", *BALL[2:]), "no-unit"),
-        ((*RUBBER, *BALL, "--window", "1 mm,1 mm"), "not-a-window"),
-        ((*RUBBER, *BALL, "--direction", "north"), "no-number"),
-        ((*RUBBER, *BALL, "--direction", "30"), "no-unit"),
-        ((*RUBBER, *BALL, "--direction", "0,0"), "wrong-count"),
-        (
-            (*RUBBER, "--cylinder", "1 cm", "--speed", "1 m/s", "--load", "1 N/m", "--direction", "0,1"),
-            "line-direction",
-        ),
-        ((*RUBBER, "--ball", "1 cm", "--speed", "inf", "--load", "1 N", "--derivatives"), "elastic-limit"),
-        ((*RUBBER, "--profile", "none.txt", "--spacing", "1 um", *BALL[2:]), "no-file"),
-    ],
-    ids=lambda value: str(value)[:40],
-)
-def test_mistakes_are_refused(
-    arguments: tuple[str, ...], code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    found = refusal("solve", *arguments)
-    assert (found.status, found.code) == (1, code), found
 
 
 def test_too_small_a_map_is_reported_with_its_file(tmp_path: Path) -> None:

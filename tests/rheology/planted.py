@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -201,3 +204,32 @@ def planted_steps(seed: int, noise: float = 0.01, *, name="fluoroelastomer", kin
         scatter = (1.0 + noise * random.standard_normal(time.size)) * np.exp(offset * levels.standard_normal())
         tests.append(StepTest(kelvin, time, scatter * true))
     return StepTests(tuple(tests), kind), material, reference
+
+
+def liquid_modulus(omega: float, kelvin: float) -> complex:
+    """Return the modulus, Pa, of a SYNTHETIC liquid of three relaxation times with a WLF shift."""
+    liquid = vf.RelaxationSpectrum(0.0, [1e9, 1e7, 1e6], [1e-4, 1e-2, 1.0])
+    return complex(liquid.complex_modulus(omega * vf.WLF(8.0, 120.0, "30 degC")(kelvin)))
+
+
+def write_moduli(path: Path, modulus: Callable[..., Any], celsius: Iterable[float], hertz: Iterable[float]) -> Path:
+    """Write moduli in tension, Pa, a function of angular frequency and temperature in kelvin, as a table of sweeps."""
+    rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
+    for one, frequency in product(celsius, hertz):
+        E = 1e-6 * complex(modulus(2.0 * np.pi * frequency, one + 273.15))
+        rows.append(f"{one},{frequency:.12g},{E.real:.12g},{E.imag:.12g}")
+    path.write_text("\n".join(rows), encoding="utf-8")
+    return path
+
+
+def write_amplitudes(path: Path, law: vf.rheology.KrausLaw, strains: Iterable[float]) -> Path:
+    """Write the moduli of a law at some strains as a table of an amplitude sweep."""
+    letter = "G" if law.deformation == "shear" else "E"
+    rows = [f"temperature (degC),frequency (Hz),strain amplitude (%),{letter}' (MPa),{letter}'' (MPa)"]
+    for strain in strains:
+        modulus = 1e-6 * complex(law.complex_modulus(strain))
+        hertz = law.angular_frequency / (2.0 * np.pi)
+        place = f"{law.temperature - 273.15:.12g},{hertz:.12g},{100.0 * strain:.12g}"
+        rows.append(f"{place},{modulus.real:.12g},{modulus.imag:.12g}")
+    path.write_text("\n".join(rows), encoding="utf-8")
+    return path

@@ -9,6 +9,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from rheology.planted import write_amplitudes
 from viscofric.notes import codes
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber_datasets import rubber_groups
@@ -22,13 +23,7 @@ LAW = vf.rheology.KrausLaw(6e6, 1.5e6, 0.02, 0.6, 9e5, 2e5, 62.8, 333.15, "tensi
 @pytest.fixture
 def sweep(tmp_path: Path) -> str:
     """Write a synthetic amplitude sweep without noise."""
-    rows = ["T (degC),f (Hz),strain (%),E' (MPa),E'' (MPa)"]
-    for strain in np.geomspace(5e-4, 0.5, 25):
-        E = 1e-6 * LAW.complex_modulus(strain)
-        rows.append(f"60,{62.8 / (2.0 * np.pi):.16g},{100 * strain:.16g},{E.real:.16g},{E.imag:.16g}")
-    path = tmp_path / "payne.csv"
-    path.write_text("\n".join(rows) + "\n", encoding="utf-8")
-    return str(path)
+    return str(write_amplitudes(tmp_path / "payne.csv", LAW, np.geomspace(5e-4, 0.5, 25)))
 
 
 CATALOGUE = {"catalogue": "synthetic fluoroelastomer"}

@@ -11,6 +11,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from rheology.planted import liquid_modulus, write_moduli
 from viscofric.errors import DataFileError, InputError, LiquidError
 from viscofric.friction.identification.result import with_origin
 from viscofric.notes import codes
@@ -30,13 +31,7 @@ def sweeps(tmp_path_factory: pytest.TempPathFactory) -> Path:
     rubber = vf.Material(
         vf.Material.standard_linear_solid("2 MPa", "200 MPa", "1 ms").spectrum, vf.WLF(8.0, 120.0, "30 degC")
     )
-    rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
-    for celsius in range(-10, 61, 5):
-        for hertz in np.geomspace(0.1, 100.0, 13):
-            modulus = complex(rubber.complex_modulus(2 * np.pi * hertz, celsius + 273.15)) / 1e6
-            rows.append(f"{celsius},{hertz:.12g},{modulus.real:.12g},{modulus.imag:.12g}")
-    path.write_text("\n".join(rows), encoding="utf-8")
-    return path
+    return write_moduli(path, rubber.complex_modulus, range(-10, 61, 5), np.geomspace(0.1, 100.0, 13))
 
 
 def rubber(**asked: Any) -> Any:
@@ -75,14 +70,7 @@ def test_headings_and_sheet_are_keys_of_the_run_file(sweeps: Path, tmp_path: Pat
 def ramps(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Write synthetic ramps at two frequencies; return the file."""
     path = tmp_path_factory.mktemp("ramps") / "ramps.csv"
-    made = vf.synthetic_fluoroelastomer()
-    rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
-    for celsius in range(-5, 91, 2):
-        for hertz in (1.0, 10.0):
-            modulus = complex(made.complex_modulus(2 * np.pi * hertz, celsius + 273.15)) / 1e6
-            rows.append(f"{celsius},{hertz},{modulus.real:.9g},{modulus.imag:.9g}")
-    path.write_text("\n".join(rows), encoding="utf-8")
-    return path
+    return write_moduli(path, vf.synthetic_fluoroelastomer().complex_modulus, range(-5, 91, 2), (1.0, 10.0))
 
 
 def test_a_material_is_made_of_ramps(ramps: Path) -> None:
@@ -210,16 +198,8 @@ def test_failed_superposition_goes_with_the_rubber(real_data: Path, tmp_path: Pa
 
 @pytest.fixture
 def melt(tmp_path: Path) -> Path:
-    """Write sweeps of a SYNTHETIC liquid of three relaxation times with a WLF shift, free of noise; return the file."""
-    path, shift = tmp_path / "melt.csv", vf.WLF(8.0, 120.0, "30 degC")
-    liquid = vf.RelaxationSpectrum(0.0, [1e9, 1e7, 1e6], [1e-4, 1e-2, 1.0])
-    rows = ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
-    for celsius in range(10, 51, 10):
-        for hertz in np.geomspace(0.1, 10.0, 13):
-            modulus = complex(liquid.complex_modulus(2 * np.pi * hertz * shift(celsius + 273.15))) / 1e6
-            rows.append(f"{celsius},{hertz:.12g},{modulus.real:.12g},{modulus.imag:.12g}")
-    path.write_text("\n".join(rows), encoding="utf-8")
-    return path
+    """Write sweeps of a SYNTHETIC liquid, free of noise; return the file."""
+    return write_moduli(tmp_path / "melt.csv", liquid_modulus, range(10, 51, 10), np.geomspace(0.1, 10.0, 13))
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ from click.testing import CliRunner
 
 import viscofric as vf
 from refusals import refused
+from rheology.planted import write_moduli
 from viscofric.cli import main
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber_datasets import rubber_groups
@@ -125,13 +126,10 @@ def test_kinds_on_the_command_line_exclude_each_other(tmp_path):
 @pytest.mark.slow
 def test_sweeps_and_creep_make_one_material(tmp_path):
     """Sweeps reach 0.6 rad/s at the warmest temperature; creep continues three decades below."""
-    true, omega = vf.synthetic_fluoroelastomer(), 2.0 * np.pi * np.logspace(-1.0, 1.0, 13)
-    rows = ["T (degC);f (Hz);E' (MPa);E'' (MPa)"]
-    for one in (-5.0, 0.0, 5.0, 10.0):
-        E = 1e-6 * true.complex_modulus(omega, one + 273.15)
-        rows += [f"{one};{w / (2.0 * np.pi):.8g};{e.real:.8g};{e.imag:.8g}" for w, e in zip(omega, E, strict=True)]
-    sweeps = tmp_path / "sweeps.csv"
-    sweeps.write_text("\n".join(rows) + "\n")
+    true = vf.synthetic_fluoroelastomer()
+    sweeps = write_moduli(
+        tmp_path / "sweeps.csv", true.complex_modulus, (-5.0, 0.0, 5.0, 10.0), np.logspace(-1.0, 1.0, 13)
+    )
     chosen = {"dma": str(sweeps), "creep": str(written(tmp_path)), "reference_temperature": "10 degC"}
     made = make_rubber(validated(MaterialTable, chosen | {"deformation": "tension"}))
     groups = rubber_groups(made)

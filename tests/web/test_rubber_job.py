@@ -11,6 +11,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from rheology.planted import liquid_modulus, write_moduli
 from viscofric.rheology.catalogue import catalogue_material
 from viscofric.web.jobs.context import Context, JobError
 from web.figure_columns import value_at
@@ -229,14 +230,7 @@ def test_rubber_of_a_real_instrument(real_data: Path, tmp_path: Path) -> None:
 
 
 def test_a_liquid_has_shift_factors_and_moduli_and_no_modes(tmp_path: Path) -> None:
-    """SYNTHETIC sweeps of three relaxation times; a contact with it is refused in the same words."""
-    shift, rows = vf.WLF(8.0, 120.0, "30 degC"), ["temperature (degC),frequency (Hz),E' (MPa),E'' (MPa)"]
-    liquid = vf.RelaxationSpectrum(0.0, [1e9, 1e7, 1e6], [1e-4, 1e-2, 1.0])
-    for celsius in (10.0, 20.0, 30.0, 40.0):
-        for hertz in np.geomspace(0.1, 10.0, 9):
-            modulus = complex(liquid.complex_modulus(2.0 * np.pi * hertz * shift(celsius + 273.15))) / 1e6
-            rows.append(f"{celsius},{hertz},{modulus.real},{modulus.imag}")
-    (tmp_path / "melt.csv").write_text("\n".join(rows), encoding="utf-8")
+    write_moduli(tmp_path / "melt.csv", liquid_modulus, (10.0, 20.0, 30.0, 40.0), np.geomspace(0.1, 10.0, 9))
     (tmp_path / "tab").mkdir()
     context = workspace_with(tmp_path / "tab", tmp_path / "melt.csv")
     asked = {"dma": "melt.csv", "deformation": "tension", "reference_temperature": "30 degC"}
