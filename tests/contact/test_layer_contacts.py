@@ -14,7 +14,6 @@ from viscofric.contact.fields import surface_displacement
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.reference.foundation import rolling_foundation_ball, rolling_foundation_line
-from viscofric.contact.reference.hertz import hertz_ball
 from viscofric.contact.reference.layers import (
     foundation_modulus,
     incompressible_ball,
@@ -128,32 +127,12 @@ def test_balls_far_apart_on_a_layer_are_single(poisson_ratio: float, bonded: boo
         assert many.indentation == pytest.approx(single.indentation, rel=2e-3)
 
 
-@pytest.mark.parametrize("line", [*slow(False), True])
-def test_given_indentation_is_the_inverse_of_a_given_load_on_a_layer(line: bool) -> None:
-    layer = vf.Layer(5e-4, bonded=not line)
-    first = vf.solve_steady(rubber(0.45), indenter(line), speed=1.0, load=3.0, layer=layer)
-    back = vf.solve_steady(rubber(0.45), indenter(line), speed=1.0, indentation=first.indentation, layer=layer)
+def test_given_indentation_of_a_cylinder_is_the_inverse_of_a_given_load_on_a_layer() -> None:
+    layer = vf.Layer(5e-4, bonded=False)
+    first = vf.solve_steady(rubber(0.45), indenter(True), speed=1.0, load=3.0, layer=layer)
+    back = vf.solve_steady(rubber(0.45), indenter(True), speed=1.0, indentation=first.indentation, layer=layer)
     assert back.load == pytest.approx(3.0, rel=1e-3)  # what is asked of the grids, which differ
     assert back.friction_coefficient == pytest.approx(first.friction_coefficient, rel=1e-3)
-
-
-@pytest.mark.slow
-def test_elastic_indenter_on_a_layer_that_hardly_yields_is_hertzian() -> None:
-    """The rubber then is only the coating of its rigid base."""
-    found = vf.solve_steady(
-        rubber(0.3),
-        vf.Ball(RADIUS),
-        speed=1.0,
-        load=1.0,
-        layer=vf.Layer(1e-4),
-        indenter_modulus=1e5,
-        indenter_poisson_ratio=0.3,
-        accuracy=1e-2,
-    )
-    exact = hertz_ball(1.0, RADIUS, 1e5, 0.3)
-    # The layer yields E_i H/(E a) = 4e-3 of what the indenter does; 64 cells across.
-    assert found.max_pressure == pytest.approx(exact.max_pressure, rel=5e-3)
-    assert found.indentation == pytest.approx(exact.indentation, rel=5e-3)
 
 
 def test_elastic_cylinder_on_a_layer_has_no_far_field() -> None:
@@ -189,15 +168,6 @@ def test_units_do_not_matter_on_a_layer() -> None:
     assert other.indentation == pytest.approx(1e-3 * one.indentation, rel=1e-9)
 
 
-def test_reversing_the_motion_mirrors_the_contact_on_a_layer() -> None:
-    ahead, back = (
-        vf.solve_steady(rubber(0.4), vf.Ball(RADIUS), speed=v, load=1.0, layer=vf.Layer(1e-3), accuracy=1e-2)
-        for v in (1.0, -1.0)
-    )
-    assert back.friction_coefficient == -ahead.friction_coefficient
-    np.testing.assert_array_equal(back.pressure, ahead.pressure[::-1, ::-1])
-
-
 @pytest.mark.parametrize("line", [False, True])
 def test_surface_of_a_layer_is_that_of_the_solution_and_at_rest_far_away(line: bool) -> None:
     layer = vf.Layer(4e-4)
@@ -218,11 +188,6 @@ def test_surface_of_a_layer_is_that_of_the_solution_and_at_rest_far_away(line: b
         surface.displacement[: len(solution.x)], solution.displacement, atol=1e-9 * solution.indentation
     )
     assert np.abs(surface.displacement[-1]).max() < 1e-6 * solution.indentation  # twenty-five thicknesses ahead
-
-
-def test_layer_too_thin_for_any_grid_is_refused() -> None:
-    with refused("layer-too-thin", vf.ConvergenceError):
-        vf.solve_steady(rubber(0.3), vf.Ball(RADIUS), speed=1.0, load=10.0, layer=vf.Layer(1e-8))
 
 
 def test_surface_of_a_layer_needs_cells_that_resolve_it() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from friction.made_runs import friction_curves, traction_runs
+from friction.made_runs import friction_curves
 from refusals import refused
 from viscofric.friction.agreement import compare
 
@@ -204,19 +204,6 @@ def test_master_curves_that_cannot_be_compared_are_refused() -> None:
             vf.shift_friction(curves.select(np.arange(1, len(curves) - 1)), shift=WLF),
             vf.shift_friction(sparse, shift=WLF),
         )
-
-
-@pytest.mark.parametrize("what", ["measured", "predicted", "shifted", "checked"])
-def test_runs_that_are_not_separated_yet_are_no_friction_curves(what: str) -> None:
-    curves, runs = friction_of(WLF), traction_runs(viscoelastic=lambda v, T: 0.03)
-    uses = {
-        "measured": lambda: compare(runs, curves),  # type: ignore[call-overload]
-        "predicted": lambda: compare(curves, runs),  # type: ignore[call-overload]
-        "shifted": lambda: vf.shift_friction(runs),  # type: ignore[arg-type]
-        "checked": lambda: vf.check_assumptions(vf.synthetic_fluoroelastomer(), vf.Ball(radius=0.01), runs),  # type: ignore[arg-type]
-    }
-    with refused("wrong-type"):
-        uses[what]()
 
 
 def test_errors_that_are_not_known_show_no_share() -> None:

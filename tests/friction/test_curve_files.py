@@ -175,17 +175,8 @@ def test_standard_error_and_scatter_follow_from_each_other(
 @pytest.mark.parametrize(
     ("old", "new", "refusal"),
     [
-        ("load (N);", "", ("row-length", "line 2")),
-        ("viscoelastic friction (%)", "value", ("missing-columns", "'viscoelastic friction'", "'speed (mm/s)'")),
         ("speed (mm/s)", "pace (mm/s)", ("missing-columns", "'speed (mm/s)'")),
-        ("temperature (degC)", "temperature", ("no-unit", "'temperature'", "'temperature (degC)'")),
-        ("load (N)", "load (Pa)", ("wrong-unit", "'load (Pa)'", "'Pa'", "'N'")),
-        ("friction (%)", "friction (N)", ("wrong-unit", "'N'")),
-        ("20;30", "-20;30", ("out-of-range", "line 2", "'-20'", "'speed (mm/s)'")),
-        ("200;60", "200;-300", ("out-of-range", "line 3", "'-300'", "'temperature (degC)'")),
         ("60;25", "60;0", ("out-of-range", "line 3", "'0'", "'load (N)'")),
-        ("2,5", "two", ("not-a-number", "line 3", "'two'", "'viscoelastic friction (%)'")),
-        ("2,5", "", ("empty-cell", "line 3", "'viscoelastic friction (%)'")),
     ],
 )
 def test_wrong_tables_are_refused_with_the_place(tmp_path: Path, old: str, new: str, refusal: tuple[str, ...]) -> None:

@@ -466,11 +466,6 @@ def test_senseless_places_are_refused(speed: object, temperature: object, code: 
         master(speed, temperature)  # type: ignore[arg-type]
 
 
-def test_a_shift_is_a_law() -> None:
-    with refused("wrong-type"):
-        shift_friction(shifted_curves(), shift="wlf")  # type: ignore[arg-type]
-
-
 def test_data_set_holds_the_points_along_the_reduced_speed() -> None:
     curves = shifted_curves(noise=0.01)
     master = shift_friction(curves, shift=LAW)

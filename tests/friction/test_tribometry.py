@@ -191,12 +191,6 @@ def test_two_reversed_slips_without_a_zero_are_refused() -> None:
     assert {"missing": [[-1, -1], [-1, 1]], "pure_rolling": False}.items() <= caught.value.note.values.items()
 
 
-def test_one_direction_of_slip_is_refused_even_with_a_zero() -> None:
-    runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[3:])
-    with refused("signs-missing"):
-        separate(runs, zero=0.0)
-
-
 def test_three_configurations_suffice_without_a_check() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, configurations=FOUR[:3])
     curves = separate(runs)

@@ -131,12 +131,6 @@ def test_isotherms_are_reported_by_gaps_in_measured_temperature(tmp_path):
     assert sweeps.temperatures - 273.15 == pytest.approx([20.05, 25.05])  # their means
 
 
-def test_a_temperature_ramp_is_refused(tmp_path):
-    ramp = [f"{temperature},1,5,0.5" for temperature in np.arange(0.0, 50.0, 0.5)]
-    with refused("temperature-ramp"):
-        read_dma(write(tmp_path, HEADER, *ramp))
-
-
 def test_a_loss_modulus_below_zero_is_left_out_and_named(tmp_path):
     sweeps = read_dma(write(tmp_path, HEADER, *ROWS, "30,20,7,-0.1"))
     assert_is_the_table(sweeps)
@@ -187,14 +181,10 @@ def test_without_a_word_in_the_file_the_deformation_is_asked_for(tmp_path):
         ([HEADER, "20,1,5,0.5", "20,inf,5,0.5"], ("not-a-number", 3, "'inf'")),
         ([HEADER, "20,1,,0.5"], ("empty-cell", 2)),
         ([HEADER, "20,1,1_000,0.5"], ("not-a-number", 2, "'1_000'")),
-        ([HEADER, "20,1,five,0.5"], ("not-a-number", 2, "'five'")),
-        ([HEADER, "20,1,0,0.5"], ("not-positive", 2, "0", "'storage modulus (MPa)'")),
         ([HEADER, "20,-1,5,0.5"], ("not-positive", 2, "-1")),
         ([HEADER, "-300,1,5,0.5"], ("not-positive", 2)),
         ([HEADER, "20,1,5,-0.5"], ("points-unusable",)),
-        ([HEADER, "20,1,5"], ("row-length", 2, "3 cells", "4 columns")),
         ([HEADER], ("no-points",)),
-        ([HEADER.replace("MPa", "mm"), *ROWS], ("wrong-unit", None, "'storage modulus (mm)'", "'mm'", "'MPa'")),
         (
             [HEADER.replace(" (MPa)", ""), *ROWS],
             ("no-unit", None, "'storage modulus'", "'storage modulus (MPa)'"),
@@ -207,7 +197,6 @@ def test_without_a_word_in_the_file_the_deformation_is_asked_for(tmp_path):
         ),
         ([HEADER.replace("loss", "storage"), *ROWS], ("ambiguous-columns", None, "storage modulus")),
         (["just text"], ("unknown-format",)),
-        ([""], ("empty",)),
     ],
 )
 def test_what_is_wrong_is_said_in_one_sentence(tmp_path, lines, refusal):

@@ -89,9 +89,7 @@ def test_files_given_twice_are_refused(tmp_path):
         read_dma(plain, tmp_path / "copy.csv")
 
 
-def test_a_folder_and_no_file_at_all_are_refused_with_advice(tmp_path):
-    with refused("folder"):
-        read_dma(tmp_path)
+def test_no_file_at_all_is_refused_with_advice():
     for nothing in ((), ([],)):
         with refused("no-files"):
             read_dma(*nothing)

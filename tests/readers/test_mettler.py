@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from readers.refusal import noted, refused
-from readers.samples.mettler import SAMPLES, block, line, text
+from readers.samples.mettler import SAMPLES, block, line
 from readers.samples.rubber import points
 from viscofric import read_dma
 from viscofric.readers.dma.instruments import mettler
@@ -145,13 +145,6 @@ def test_row_cut_short_is_reported():
         mettler.read(written(lines))
 
 
-def test_unit_of_another_kind_is_reported():
-    lines = block(10.0)
-    lines[1] = lines[1].replace("[Hz]", "[N] ")
-    with refused("wrong-unit", None, "'f'", "'N'"):
-        mettler.read(written(lines))
-
-
 def test_mixed_deformations_are_refused():
     with refused("deformation-contradicts"):
         mettler.read(written(block(10.0) + block(30.0, "G")))
@@ -160,13 +153,6 @@ def test_mixed_deformations_are_refused():
 def test_header_alone_is_refused():
     with refused("no-points"):
         mettler.read(written(block(10.0)[:2]))
-
-
-def test_other_text_is_not_taken_for_mettler():
-    assert mettler.recognises(Source("x", text().encode("iso-8859-1")))
-    assert not mettler.recognises(Source("x", b"T (degC),f (Hz),E' (MPa),E'' (MPa)\n1,2,3,4\n"))
-    assert not mettler.recognises(Source("x", b"Index Ts f\n[#] [C] [Hz]\n"))
-    assert not mettler.recognises(Source("x", b"\0\1\2"))
 
 
 @pytest.mark.parametrize(

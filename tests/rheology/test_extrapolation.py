@@ -165,8 +165,3 @@ def test_wlf_and_vft_turn_into_each_other_exactly():
     )
     with refused("no-law"):
         WLF(50.0, 400.0, 300.0).to_vft()
-
-
-def test_celsius_given_as_a_plain_number_is_met_with_help():
-    with refused("below-pole", naming="'60 degC'"):
-        fitted().log10(60.0)

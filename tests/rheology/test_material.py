@@ -48,18 +48,6 @@ def test_impossible_poisson_ratios_are_refused(ratio):
         vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1.0, poisson_ratio=ratio)
 
 
-def test_wrong_parts_are_refused():
-    solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1.0)
-    with refused("wrong-type"):
-        vf.Material(solid)
-    with refused("wrong-type"):
-        vf.Material(solid.spectrum, shift=1.0)
-    with refused("wrong-type"):
-        vf.Material(solid.spectrum, shift=LAW, vertical_shift=1.1)
-    with refused("no-shift"):
-        vf.Material(solid.spectrum, vertical_shift=DensityShift("30 degC"))
-
-
 def test_vertical_shift_multiplies_the_modulus():
     solid = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
     # Given about 100 °C, used about 30 °C, where the spectrum holds.

@@ -196,17 +196,6 @@ def test_standard_error_between_temperatures_is_carried_through_the_interpolatio
         table.standard_error("70 degC")
 
 
-def test_saved_factors_come_back_with_their_covariance(tmp_path):
-    from viscofric.rheology.shifts.shift_files import read_shift_factors
-
-    table = ShiftFactors(["0 degC", "30 degC", "60 degC"], [2.5, 0.0, -1.5], "30 degC", np.diag([0.04, 0.0, 0.09]))
-    table.save(tmp_path / "shifts.csv")
-    back = read_shift_factors(tmp_path / "shifts.csv")
-    assert np.array_equal(back.log10_values, table.log10_values)
-    assert np.array_equal(back.covariance, table.covariance)
-    assert back.reference == table.reference
-
-
 def test_laws_are_equal_if_their_constants_are():
     exact = LAWS[0].at_reference("30 degC")
     temperatures = np.arange(0.0, 121.0, 10.0) + 273.15

@@ -35,10 +35,8 @@ def curve(spectrum: vf.RetardationSpectrum, kind: str, noise: float = 0.0, time=
 @pytest.mark.parametrize(
     ("change", "code"),
     [
-        ({"time": TIMES[::-1]}, "not-ascending"),
         ({"time": np.append(TIMES[:-1], TIMES[-2])}, "not-ascending"),
         ({"time": TIMES - TIMES[0]}, "wrong-length"),
-        ({"response": -TIMES}, "wrong-length"),
         ({"response": TIMES[:-1]}, "wrong-length"),
         ({"response": ["3 MPa"] * 30 + ["1 1/MPa"]}, "wrong-unit"),
         ({"response": ["3 MPa"] * 31, "unit": "1/Pa"}, "wrong-unit"),
