@@ -11,7 +11,6 @@ import sys
 import tomllib
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import pytest
 from click.testing import CliRunner, Result
@@ -23,9 +22,6 @@ from viscofric.cli import main
 from viscofric.cli.run import NOT_ACCURATE, print_outcome
 from viscofric.notes import Note, codes
 from viscofric.study.results.file import save_results
-
-if TYPE_CHECKING:
-    import xarray
 
 EXAMPLE = Path(str(files("viscofric"))) / "example"
 STUDY = """
@@ -233,34 +229,8 @@ def test_check_of_results_names_what_is_damaged(finished: Path) -> None:
         assert call(*wrong).exit_code == 2
 
 
-@pytest.mark.slow
-@pytest.mark.skipif(os.name == "nt", reason="Windows keeps open files")
-def test_results_that_are_removed_before_the_end_are_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from viscofric.report import html
-
-    write_report = html.write_report
-
-    def removed(tree: xarray.DataTree, folder: Path, **images: Any) -> Path:
-        shutil.rmtree(folder)
-        return write_report(tree, folder, **images)
-
-    monkeypatch.setattr(html, "write_report", removed)
-    assert refusal("run", write(tmp_path))[:2] == (1, "removed")
-
-
 def test_errors_are_reported_without_an_empty_line_before_them(tmp_path: Path) -> None:
     assert call("run", tmp_path / "study.toml").stderr.startswith("Error: ")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["figures", "report.html"])
-def test_report_that_cannot_be_written_is_reported(finished: Path, name: str) -> None:
-    (finished / name).rename(finished / "old")
-    if name == "figures":
-        (finished / name).touch()
-    else:
-        (finished / name).mkdir()
-    assert refusal("report", finished)[:2] == (1, "not-written")
 
 
 def test_nothing_asked_is_answered_with_the_help() -> None:

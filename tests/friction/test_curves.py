@@ -254,6 +254,7 @@ def test_columns_are_checked_and_frozen() -> None:
         ("viscoelastic", [np.nan], "not-finite"),
         ("viscoelastic_error", [np.nan], "negative"),
         ("coulomb", [1.0, 2.0], "wrong-length"),
+        ("replicates", [1.5], "not-a-whole-number"),
     ):
         with refused(code):
             replace(curves, **{name: np.array(value)})
@@ -282,6 +283,10 @@ def test_one_load_or_several_must_be_given() -> None:
             vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, temperatures=300.0, **loads)
     with refused("empty-list"):
         vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, temperatures=300.0, loads=[])
+    with refused("out-of-range"):  # degrees taken for kelvin
+        vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, temperatures=5.0, load=500.0)
+    with refused("out-of-range", naming=("'60 degC'",)):
+        vf.solve_steady(FLUOROELASTOMER, vf.Ball("1 cm"), speed=0.1, temperature=60.0, load=5.0)
     with refused("wrong-unit"):
         vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, temperatures=300.0, loads=["5 N"])
 

@@ -80,12 +80,6 @@ def test_wlf_line_is_the_law_of_the_results(axes: Axes, tree: xr.DataTree) -> No
     np.testing.assert_allclose(np.log10(line.get_ydata()), -10.04 * above / (89.6 + above), atol=1e-9)
 
 
-def test_shift_factors_without_a_law_are_drawn_alone(axes: Axes, tree: xr.DataTree) -> None:
-    factors = group(tree, "shift_factors")
-    report.plot_shift_factors(axes, factors)
-    assert len(legend_texts(axes)) == 1
-
-
 def test_master_curve_shows_readings_and_spectrum(axes: Axes, tree: xr.DataTree) -> None:
     curve, fit = group(tree, "master_curve"), group(tree, "spectrum_curve")
     report.plot_master_curve(axes, curve, fit, reference_temperature=303.15)

@@ -14,12 +14,8 @@ from matplotlib.figure import Figure
 import viscofric as vf
 from refusals import refused
 from viscofric import report
-from viscofric.report.figures.friction import friction_figure
-from viscofric.report.figures.saving import save_picture
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     import xarray as xr
     from matplotlib.axes import Axes
 
@@ -156,13 +152,6 @@ def test_smooth_line_of_a_master_curve_bridges_no_gap(axes: Axes) -> None:
     assert np.isnan(friction).sum() == 1
     assert "at 30 °C" in axes.get_xlabel()
     assert legend_of(axes)[1] == ["smoothed", "its 95 % band", "60 °C", "30 °C"]
-
-
-@pytest.mark.slow
-def test_picture_is_the_same_bytes_every_time(tmp_path: Path) -> None:
-    for name in ("a.svg", "b.svg"):
-        save_picture(tmp_path / name, lambda: friction_figure(curves(coulomb=False)), name="friction", synthetic=True)
-    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
 
 
 def shift_factors(noise: float = 0.0) -> vf.ShiftFactors:

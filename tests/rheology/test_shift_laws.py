@@ -147,10 +147,6 @@ def test_what_no_law_describes_is_refused():
     for kind in ("wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"):
         with pytest.raises(InputError):
             rising.law(kind)
-    with refused("too-few-temperatures"):
-        ShiftFactors([290.0, 300.0], [1.0, 0.0], 300.0).law("wlf")
-    with refused("unknown-law"):
-        rising.law("power")
 
 
 def test_uncertainty_of_wlf_constants_follows_the_reference():

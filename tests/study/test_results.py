@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -113,17 +111,6 @@ def test_a_place_shows_all_that_varies(tmp_path: Path) -> None:
     assert grouped_failures([one.note for one in solved.failures], 5) == [
         "90 °C, 20 m/s, NBR, 10 N, radius 5 mm: accuracy not reached."
     ]
-
-
-@pytest.mark.parametrize("wrong", [1.5, None, [], {}, b"x", object(), True])
-def test_what_is_no_name_of_a_file_is_reported(tmp_path: Path, wrong: Any) -> None:
-    made = made_results(tmp_path, stored=False)
-    for verb in (vf.open_results, vf.load_study, vf.run_study, partial(vf.compare_results, made)):
-        with refused("not-a-name"):
-            verb(wrong)
-    if wrong not in (None, 1.5):
-        with refused("not-a-number", naming="tolerance"):
-            vf.compare_results(made, made, tolerance=wrong)
 
 
 def test_missing_results_are_reported_and_what_helps(tmp_path: Path) -> None:

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from refusals import refused
 from viscofric import open_results, run_study
 from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.record import Failure, Record
@@ -228,12 +227,6 @@ def test_check_shows_how_much_it_would_be(tmp_path: Path) -> None:
     assert 1.0 < found.expected.seconds < 6.0
     assert 1.1e8 < found.expected.memory_per_process < 3e8
     assert "no-bands" in codes(found.notes)
-
-
-def test_heights_without_a_spacing_are_not_taken_for_a_surface() -> None:
-    heights = surfaces()[0].heights
-    with refused("wrong-type", naming="surface"):
-        vf.solve_periodic(RUBBER, heights, speed=1.0, pressure=1e4, temperature=300.0)  # type: ignore[arg-type]
 
 
 @pytest.mark.slow

@@ -98,10 +98,3 @@ def messages_of(
     answer = client.post(f"/api/jobs/{kind}", json={"study": STUDY if study is None else study, "options": options})
     assert answer.status_code == 200, answer.text
     return [json.loads(line) for line in answer.text.splitlines()]
-
-
-def result_of(client: httpx.Client, kind: str, study: dict[str, Any] | None = None, **options: Any) -> Any:
-    """Have a job done; return its result."""
-    last = messages_of(client, kind, study, **options)[-1]
-    assert last["event"] == "result", last
-    return last["result"]

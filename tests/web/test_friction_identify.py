@@ -109,16 +109,3 @@ def test_what_is_missing_is_reported(context: Context) -> None:
     with refused("missing", JobError) as caught:
         done("identify", context, {"measurement": CURVES["measurement"]}, beside=False)
     assert caught.value.field == "indenter"
-
-
-@pytest.mark.slow
-@pytest.mark.exhaustive
-def test_friction_without_a_rubber_leaves_the_level_open(context: Context) -> None:
-    alone = {name: CURVES[name] for name in ("measurement", "indenter")}
-    found = done("identify", context, alone, beside=False, **QUICK)
-    assert found["known"] is None
-    assert not found["anchored"]
-    assert found["identified"]["relative"]
-    assert len(found["family"]) == 7
-    low, high = found["level_range"]
-    assert high > 3.0 * low

@@ -180,13 +180,6 @@ def test_modulus_at_another_temperature(workspace: Context, rubber: Any) -> None
     ]
 
 
-def test_temperature_without_a_shift_factor_is_refused_in_a_sentence(workspace: Context) -> None:
-    with refused("outside-measured", naming="300.0 °C"):
-        done("moduli", workspace, SWEEPS, options={"temperature": "300 degC"})
-    with refused("no-shift", JobError):
-        done("moduli", workspace, {"catalogue": "VHB 4910"}, options={"temperature": "60 degC"})
-
-
 @pytest.mark.parametrize("name", ["VHB 4910", "PVB interlayer", "synthetic fluoroelastomer"])
 def test_rubbers_of_the_catalogue_have_moduli_and_modes(workspace: Context, name: str) -> None:
     found = done("rubber", workspace, {"catalogue": name})

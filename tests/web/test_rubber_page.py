@@ -8,14 +8,12 @@ from typing import TYPE_CHECKING
 import pytest
 
 import viscofric as vf
-from web.browser_tab import Tab, tab
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from playwright.sync_api import Browser
+    from web.browser_tab import Tab
 
-    from web.served_page import Server
 
 _DROP = "#step-sweeps .panel:not([hidden]) input[type=file]"
 
@@ -199,66 +197,6 @@ def test_files_are_dropped_anywhere_and_removed(tab: Tab) -> None:
     tab.until("page.state.state.get('material.dma') === undefined")
     tab.until("!document.querySelector('#step-sweeps .figure[data-inputs]')")
     assert "Drop DMA sweeps above" in tab.text("#figure-isotherms-storage-modulus .plot-empty")
-
-
-@pytest.mark.slow  # a browser
-@pytest.mark.exhaustive
-def test_master_curve_without_a_unit(tab: Tab, tmp_path: Path) -> None:
-    rows = [f"{10.0**k},{2e6 * 10.0 ** (0.1 * k)},{2e5}" for k in range(-5, 6)]
-    curve = tmp_path / "master.csv"
-    curve.write_text("\n".join(["f (Hz),E',E''", *rows, ""]))
-    tab.step("sweeps")
-    tab.page.check("input[name=material-source][value=master_curve]")
-    tab.page.locator(_DROP).first.set_input_files(curve)
-    unit = tab.page.get_by_label("Unit of the moduli")
-    unit.wait_for()
-    assert tab.page.get_by_label("Column of the frequency").count() == 0
-    unit.fill("Pa")
-    unit.press("Tab")
-    tab.until("page.jobs.result('rubber')?.spectrum.measured?.storage_modulus.length === 11")
-    drawn(tab, "isotherms-storage-modulus", 1)
-    tab.step("shift")
-    tab.until("document.querySelector('#step-shift').textContent.includes('valid at one temperature only')")
-
-
-@pytest.mark.slow  # a browser
-@pytest.mark.exhaustive
-def test_rubbers_of_the_catalogue_and_laws(tab: Tab) -> None:
-    tab.step("sweeps")
-    tab.page.check("input[name=material-source][value=catalogue]")
-    tab.page.check("input[name=material-catalogue][value='PVB interlayer']")
-    tab.until("document.querySelector('#step-sweeps .notes.note').textContent.includes('Van Duser')")
-    drawn(tab, "isotherms-storage-modulus", 1)
-    assert tab.page.is_hidden("#synthetic")
-    tab.step("shift")
-    drawn(tab, "shift-factors", 1)
-    assert "Valid above" in tab.text("#step-shift")
-    example(tab)
-    assert tab.page.is_visible("#synthetic")
-    tab.step("shift")
-    tab.page.get_by_role("button", name="Use WLF", exact=True).click()
-    tab.until("page.jobs.result('rubber')?.shift.used === 'wlf'")
-    assert tab.value("page.state.state.get('material.shift')") == "wlf"
-
-
-@pytest.mark.slow  # a browser
-@pytest.mark.exhaustive
-def test_workbook_of_an_instrument_on_a_phone(browser: Browser, server: Server, real_data: Path) -> None:
-    with tab(
-        browser, server, "#sweeps", viewport={"width": 390, "height": 844}, has_touch=True, color_scheme="dark"
-    ) as opened:
-        opened.page.check("input[name=material-source][value=dma]")
-        opened.page.set_input_files(_DROP, real_data / "instruments" / "eplexor" / "freq_Eplexor_raw.xls")
-        drawn(opened, "isotherms-storage-modulus", 21)
-        assert "Eplexor" in opened.text("#step-sweeps .notes.note")
-        for step in ("sweeps", "shift", "spectrum"):
-            opened.step(step)
-            rubber_is_made(opened)
-            opened.page.wait_for_timeout(300)
-            wide = opened.value("document.documentElement.scrollWidth - document.documentElement.clientWidth")
-            assert wide <= 0
-            opened.screenshot(f"rubber-phone-{step}")
-        assert opened.findings() == []
 
 
 @pytest.mark.slow  # a browser

@@ -132,9 +132,6 @@ def test_ready_rubber_and_master_curve_are_taken_too(workspace: Context) -> None
 @pytest.mark.parametrize(
     ("pattern", "taken_for", "deformation", "isotherms", "left_open"),
     [
-        ("dma/acrylic_468mp.csv", "delimited text", "tension", 20, ["deformation"]),
-        ("instruments/trios/multi_technique_LIMS.txt", "TRIOS", "shear", 1, []),
-        ("instruments/eplexor/freq_Eplexor_raw.xls", "Eplexor", "tension", 21, []),
         ("instruments/mettler/glassy_network/*.txt", "Mettler", "tension", 22, []),
         ("instruments/rad_per_s_tsv/foam*.csv", "delimited text", "tension", 19, ["deformation", "modulus_unit"]),
     ],
