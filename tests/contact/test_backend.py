@@ -201,8 +201,6 @@ def test_solver_leaves_what_it_is_given(backend: Backend) -> None:
     [
         ("jax", "unknown-backend"),
         ("", "unknown-backend"),
-        (None, "unknown-backend"),
-        (3, "unknown-backend"),
         ("scipy:cuda", "no-device"),
         ("ducc0:", "no-device"),
     ],

@@ -172,7 +172,7 @@ def test_equal_moduli_make_hertz_at_any_speed() -> None:
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=8)
+@settings(deadline=None, max_examples=4)
 @given(ratio=st.floats(1.01, 1e4), log_memory=st.floats(-6.0, 6.0))
 def test_hunter_contact_leans_forward_between_its_two_elastic_limits(ratio: float, log_memory: float) -> None:
     contact = hunter(ratio, 10.0**log_memory)
@@ -225,9 +225,7 @@ def rolling(shape: str, ratio: float, memory: float) -> RollingFoundationContact
     return make(load, R, 1e-4, 5e6, ratio * 5e6, 2e-3, memory * a0 / 2e-3)
 
 
-@pytest.mark.parametrize(
-    ("ratio", "memory"), [(10.0, 0.1), *apart((1.01, 1.0), (50.0, 3.0), (1e3, 0.02)), *slow((1e3, 1e3))]
-)
+@pytest.mark.parametrize(("ratio", "memory"), [(10.0, 0.1), *apart((1.01, 1.0), (50.0, 3.0), (1e3, 0.02), (1e3, 1e3))])
 def test_rolling_foundation_follows_the_cylinder_and_recovers_behind_it(ratio: float, memory: float) -> None:
     contact = rolling("line", ratio, memory)
     a, b, length = contact.front, contact.rear, memory * contact.elastic_half_width

@@ -323,8 +323,6 @@ def test_coulomb_friction_that_changes_the_pressure_is_reported(
 def test_what_cannot_be_checked_is_refused() -> None:
     with refused("no-points"):
         vf.check_assumptions(RUBBER, BALL, curves().select(np.zeros(4, dtype=bool)))
-    with refused("wrong-type", naming="indenter"):
-        vf.check_assumptions(RUBBER, 9.5e-3, curves())
     with refused("no-shift"):
         vf.check_assumptions(replace(RUBBER, shift=None), BALL, curves())
     with refused("contact-radius"):

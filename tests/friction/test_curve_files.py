@@ -6,6 +6,7 @@ import json
 import math
 from dataclasses import fields, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -27,6 +28,13 @@ FOREIGN = "speed (mm/s);temperature (degC);load (N);viscoelastic friction (%)\n2
 #: Columns that a table has to have.
 BARE = {"speed", "temperature", "load", "viscoelastic friction"}
 WRITTEN = {"source", "notes", "load_unit", "assumption"}
+
+
+def read(folder: Path, text: str, **settings: Any) -> FrictionCurves:
+    """Write a table, and read it."""
+    path = folder / "curves.csv"
+    path.write_text(text, encoding="utf-8")
+    return vf.read_friction_curves(path, **settings)
 
 
 def same(one: FrictionCurves, other: FrictionCurves) -> None:
@@ -180,10 +188,8 @@ def test_standard_error_and_scatter_follow_from_each_other(
     ],
 )
 def test_wrong_tables_are_refused_with_the_place(tmp_path: Path, old: str, new: str, refusal: tuple[str, ...]) -> None:
-    path = tmp_path / "wrong.csv"
-    path.write_text(FOREIGN.replace(old, new), encoding="utf-8")
     with refused(refusal[0], DataFileError, naming=refusal[1:]):
-        vf.read_friction_curves(path)
+        read(tmp_path, FOREIGN.replace(old, new))
 
 
 @pytest.mark.parametrize("column", ["viscoelastic friction standard error", "viscoelastic friction scatter"])
@@ -207,10 +213,8 @@ def test_errors_in_per_cent_of_a_plain_coefficient_are_refused(tmp_path: Path, c
     ],
 )
 def test_wrong_optional_columns_are_refused(tmp_path: Path, column: str, cell: str, refusal: tuple[str, ...]) -> None:
-    path = tmp_path / "wrong.csv"
-    path.write_text(f"speed (m/s),T (K),load (N),viscoelastic,{column}\n1,300,1,0.1,{cell}\n", encoding="utf-8")
     with refused(refusal[0], DataFileError, naming=refusal[1:]):
-        vf.read_friction_curves(path)
+        read(tmp_path, f"speed (m/s),T (K),load (N),viscoelastic,{column}\n1,300,1,0.1,{cell}\n")
 
 
 def test_no_curves_and_no_folder_are_refused(tmp_path: Path) -> None:
@@ -320,10 +324,8 @@ def test_curves_of_a_workbook_are_read(tmp_path: Path) -> None:
 )
 def test_columns_of_other_tribometers_are_known(tmp_path: Path, header: str, log: bool) -> None:
     speeds = [math.log10(speed) if log else speed for speed in (20.0, 60.0, 200.0)]
-    path = tmp_path / "curves.csv"
     rows = [f"{T},{speed!r},0.0{3 + n},25" for T in (20, 40) for n, speed in enumerate(speeds)]
-    path.write_text("\n".join([header, *rows]), encoding="utf-8")
-    curves = vf.read_friction_curves(path)
+    curves = read(tmp_path, "\n".join([header, *rows]))
     assert curves.speed == pytest.approx([0.02, 0.06, 0.2] * 2)
     assert curves.viscoelastic == pytest.approx([0.03, 0.04, 0.05] * 2)
     assert {"total-friction", "errors-unknown"} <= codes(curves.notes)
@@ -340,12 +342,10 @@ def test_columns_of_other_tribometers_are_known(tmp_path: Path, header: str, log
     ids=["headings", "above", "below"],
 )
 def test_curves_of_several_temperatures_beside_or_below_each_other(tmp_path: Path, text: str) -> None:
-    path = tmp_path / "curves.csv"
-    path.write_text(text, encoding="utf-8")
     with refused("missing-columns") as caught:
-        vf.read_friction_curves(path)
+        read(tmp_path, text)
     assert caught.value.note.values["missing"] == ["load"]
-    curves = vf.read_friction_curves(path, columns={"load": "= 20,5 N"})
+    curves = read(tmp_path, text, columns={"load": "= 20,5 N"})
     assert curves.speed == pytest.approx([1e-3, 1e-2] * 2)
     assert curves.temperature == pytest.approx([298.15] * 2 + [313.15] * 2)
     assert curves.viscoelastic == pytest.approx([0.1, 0.15, 0.2, 0.25])
@@ -355,17 +355,13 @@ def test_curves_of_several_temperatures_beside_or_below_each_other(tmp_path: Pat
 
 @pytest.mark.parametrize(("said", "code"), [("= 20", "no-unit"), ("= ten N", "wrong-columns"), ("= 2 s", "wrong-unit")])
 def test_a_value_of_all_rows_is_a_number_with_its_unit(tmp_path: Path, said: str, code: str) -> None:
-    path = tmp_path / "curves.csv"
-    path.write_text("speed (mm/s),T (°C),mu\n1,25,0.1\n", encoding="utf-8")
     with refused(code):
-        vf.read_friction_curves(path, columns={"load": said})
+        read(tmp_path, "speed (mm/s),T (°C),mu\n1,25,0.1\n", columns={"load": said})
 
 
 def test_a_value_of_all_rows_does_not_replace_a_column(tmp_path: Path) -> None:
-    path = tmp_path / "curves.csv"
-    path.write_text(FOREIGN, encoding="utf-8")
     with refused("value-not-needed", naming="'load (N)'"):
-        vf.read_friction_curves(path, columns={"load": "= 0.03 kN"})
+        read(tmp_path, FOREIGN, columns={"load": "= 0.03 kN"})
 
 
 def test_gaps_and_named_columns_of_curves_beside_each_other(tmp_path: Path) -> None:
@@ -392,17 +388,13 @@ def test_curves_of_two_compounds_below_each_other_are_refused(tmp_path: Path) ->
 @pytest.mark.parametrize("name", ["mean speed (mm/s)", "average temperature (degC)"])
 def test_means_of_speeds_and_temperatures_are_not_those_of_a_point(tmp_path: Path, name: str) -> None:
     kind = "speed (mm/s)" if "speed" in name else "temperature (degC)"
-    path = tmp_path / "curves.csv"
-    path.write_text(FOREIGN.replace(kind, name), encoding="utf-8")
     with refused("missing-columns"):
-        vf.read_friction_curves(path)
+        read(tmp_path, FOREIGN.replace(kind, name))
 
 
 def test_unread_columns_of_curves_beside_each_other_are_noted(tmp_path: Path) -> None:
-    path = tmp_path / "curves.csv"
     rows = ";25 °C;;60 °C;", "speed (m/s);mu;sd;mu;sd", "0.01;0.1;0.01;0.2;0.03", "0.1;0.15;0.01;0.25;0.04"
-    path.write_text("\n".join(rows), encoding="utf-8")
-    curves = vf.read_friction_curves(path, columns={"load": "= 20 N"})
+    curves = read(tmp_path, "\n".join(rows), columns={"load": "= 20 N"})
     assert curves.viscoelastic == pytest.approx([0.1, 0.15, 0.2, 0.25])
     (unused,) = (note for note in map(note_of, curves.notes) if note.code == "unused-columns")
     assert unused.values["headings"] == ["sd"]

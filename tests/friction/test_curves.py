@@ -124,8 +124,6 @@ def test_curves_of_line_contacts_count_their_load_per_length(rubber: vf.Material
     )
     with refused("mixed-geometries"):
         FrictionCurves.from_solutions([line, point])
-    with refused("wrong-type", naming="indenter"):
-        predict_friction(rubber, "ball", speeds=0.1, temperatures=320.0, load=2.0)  # type: ignore[arg-type]
 
 
 def test_progress_is_reported(rubber: vf.Material) -> None:

@@ -164,7 +164,6 @@ def test_what_lies_outside_is_reported_beforehand() -> None:
         ({"indenter": Cylinder(radius=0.01)}, "load-unit"),
         ({"indenter": HeightMap(np.zeros((4, 4)), spacing=1e-3)}, "no-load-rule"),
         ({"indenter": "ball"}, "no-load-rule"),
-        ({"indenter": BALL, "vertical_shift": 1.0}, "wrong-type"),
         ({"indenter": BALL, "load": "-1 N"}, "not-positive"),
     ],
 )

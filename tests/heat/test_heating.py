@@ -95,7 +95,6 @@ def test_resistance_of_a_track_is_that_of_its_passes() -> None:
 @pytest.mark.parametrize(
     ("given", "code"),
     [
-        ({"rubber": 0.3}, "rubber"),
         ({"coulomb": -0.1}, "out-of-range"),
         ({"passes": 3}, "give-one"),
         ({"passes": 0.5, "track_radius": 0.02}, "out-of-range"),

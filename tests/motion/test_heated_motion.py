@@ -66,5 +66,3 @@ def test_what_cannot_be_heated_over_time_is_refused() -> None:
         vf.motion.solve_transient(material, BALL, pressed, heating=HEATING, layer=vf.Layer("1 mm"))
     with refused("not-with-heating"):
         vf.motion.solve_transient(material, BALL, vf.motion.History([0.0, 1.0], load=1.0), heating=HEATING)
-    with refused("heating"):
-        vf.motion.solve_transient(material, BALL, pressed, heating="steel")  # type: ignore[arg-type]

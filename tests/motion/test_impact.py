@@ -253,12 +253,8 @@ def test_the_curve_over_temperature_has_a_minimum_in_the_transition():
 
 
 def test_what_cannot_fall_is_refused():
-    with refused("not-available"):
-        vf.motion.solve_impact(rubber(1e-3), vf.Ellipsoid("1 mm", "2 mm"), mass=1.0, speed=1.0)
     with refused("negative"):
         vf.motion.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, gravity=-9.81)
-    with refused("beyond-indenter"):
-        vf.motion.solve_impact(rubber(1e-3), BALL, mass=100.0, speed=10.0)
     with refused("out-of-range"):
         vf.motion.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, accuracy=0.5)
 

@@ -263,7 +263,7 @@ CELLS = st.one_of(
 
 
 @pytest.mark.slow
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.lists(st.lists(CELLS, min_size=1, max_size=4), min_size=1, max_size=6),
     st.sampled_from([",", ";", "\t", " "]),
@@ -286,7 +286,7 @@ def test_any_table_is_read_or_refused_with_its_name(tmp_path, monkeypatch, rows,
         assert np.all(np.isfinite(found.spacing))
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.binary(max_size=120), st.sampled_from([b"", b"\x93NUMPY\x01\x00", b"\xff\xfe"]))
 def test_any_bytes_are_refused_in_one_sentence(tmp_path, monkeypatch, data, start):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)

@@ -114,7 +114,6 @@ def test_what_cannot_be_heated_is_refused() -> None:
         ({"temperatures": None}, "no-shift"),
         ({"speeds": [0.1, 0.0]}, "elastic-limit"),
         ({"layer": vf.Layer("5 mm")}, "not-with-heating"),
-        ({"heating": 0.5}, "wrong-type"),
     ):
         with refused(code):
             vf.predict_rough_friction(WARM, roads(), **ASKED | {"heating": HEATING} | given)

@@ -344,17 +344,14 @@ def test_flash_temperature_lowers_the_friction_of_fast_sliding_and_not_that_of_s
 @pytest.mark.parametrize(
     ("arguments", "about"),
     [
-        ({"spectrum": 1.0}, "spectrum"),
         ({"speeds": []}, "speeds"),
         ({"temperatures": []}, "temperatures"),
         ({"speeds": -1.0}, "speeds"),
         ({"pressure": 0.0}, "pressure"),
         ({"gamma": 1.5}, "gamma"),
         ({"accuracy": 1.0}, "accuracy"),
-        ({"thermal": 1.0}, "thermal"),
         ({"thermal": THERMAL}, "no-shift"),
         ({"temperatures": 300.0}, "temperature"),
-        ({"material": 1.0}, "material"),
     ],
 )
 def test_what_cannot_be_predicted_is_refused(arguments, about):

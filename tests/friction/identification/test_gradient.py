@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from marks import apart, slow
 from viscofric.arrays import Array
 from viscofric.contact.derivatives.adjoint import friction_adjoint, friction_way
 from viscofric.contact.free.nested import find_window, refine
@@ -61,7 +62,7 @@ def friction_on_its_cells(stage: Stage, way: str, scale: Scale, logarithms: Arra
     return scale.slope * (there.pressure_friction if way == "pressure" else there.energy_friction)
 
 
-@pytest.mark.parametrize("seed", [*range(5), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(5, 20))])
+@pytest.mark.parametrize("seed", [*range(5), *slow(*range(5, 10)), *apart(*range(10, 20))])
 def test_adjoint_is_the_gradient_of_the_friction_on_its_cells(seed: int) -> None:
     name, contact = ("cylinder" if seed % 4 == 3 else "ball"), random_contact(seed)
     indenter, spectrum = {"ball": BALL, "cylinder": CYLINDER}[name], contact.spectrum
@@ -94,7 +95,7 @@ def test_adjoint_is_the_gradient_of_the_friction_on_its_cells(seed: int) -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [0, 7])
+@pytest.mark.parametrize("seed", [0, *apart(7)])
 def test_gradient_is_that_of_the_friction_over_finite_steps(seed: int) -> None:
     spectrum, speed = random_contact(seed)
     step = 0.1

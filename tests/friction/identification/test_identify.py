@@ -441,10 +441,6 @@ def test_bad_input_is_refused_in_one_sentence() -> None:
         vf.identify_material(curves, reference="100 degC", **SETTINGS)
     with refused("outside-measured"):
         vf.identify_material(curves, anchor=vf.friction.ModulusAnchor(3e6, 1.0, "150 degC"), **SETTINGS)
-    with refused("wrong-type", naming="anchor"):
-        vf.identify_material(curves, anchor=3e6, **SETTINGS)
-    with refused("wrong-type", naming="shift"):
-        vf.identify_material(curves, shift=1.0, **SETTINGS)
     with refused("not-a-whole-number", naming="modes = 3"):
         vf.identify_material(curves, **(SETTINGS | {"modes": 3}))
     with refused("not-a-whole-number", naming="seed = -1"):

@@ -13,7 +13,6 @@ from viscofric.friction.identification.solving import FrictionResponse, friction
 
 BALL, CYLINDER = vf.Ball(radius=10e-3), vf.Cylinder(radius=10e-3)
 ACCURACY = 1e-2
-FIELDS = ("friction", "error", "C", "log_C", "log_E_inf", "log_speed", "log_load")
 
 
 def rubber(E0: float = 1e6, E_inf: float = 1e8, tau: tuple[float, ...] = (1e-5, 1e-4, 1e-3)) -> vf.RetardationSpectrum:
@@ -54,13 +53,6 @@ def test_stiffness_and_load_have_one_effect(response: FrictionResponse) -> None:
     # and the adjoint problem is solved to 1e-8.
     size = np.abs(response.log_C).sum(axis=1)
     assert np.all(np.abs(response.log_C.sum(axis=1) - response.log_E_inf - response.log_load) <= 1e-6 * size)
-
-
-@pytest.mark.slow
-def test_workers_give_the_same_digits(response: FrictionResponse) -> None:
-    shared = friction_response(rubber(), 0.5, BALL, [0.1, 1.0, 3.0], [1.0, 1.0, 2.0], accuracy=ACCURACY, workers=2)
-    for name in FIELDS:
-        assert np.array_equal(getattr(shared, name), getattr(response, name))
 
 
 def test_modes_without_compliance_have_a_derivative() -> None:
