@@ -21,11 +21,13 @@ from gallery import (
     standard_linear_solid,
 )
 from marks import slow
+from refusals import refused
 from viscofric.contact.complementarity import solve_complementarity
 from viscofric.contact.free.grids import Strip, Window
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.contact.reference import hunter_line
+from viscofric.errors import ConvergenceError
 
 MODES = st.lists(st.tuples(st.floats(0.05, 1.0), st.floats(-2.5, 0.0)), min_size=1, max_size=5)
 
@@ -143,6 +145,13 @@ def test_a_peak_that_is_not_resolved_is_known_to_its_own_size_at_best() -> None:
     hertz = 1.5 * LOAD / (math.pi * HERTZ_RADIUS**2)
     missed = 0.77 * math.sqrt(1000.0 * 0.3) * hertz - solution.max_pressure  # as of the line contact, see below
     assert solution.max_pressure < missed <= solution.diagnostics.max_pressure_error
+
+
+def test_an_accuracy_out_of_reach_is_refused_before_the_fine_grids() -> None:
+    """What cells leave out at the edges is known to 1.9e-4 at best on 2048 cells, which 256 predict."""
+    with refused("accuracy-not-reached", ConvergenceError) as caught:
+        standard_linear_solid(10.0, 1e-3).solve(accuracy=1e-4)
+    assert caught.value.note.values["cells"] in (128, 256)
 
 
 # --- orders of convergence ------------------------------------------------------------------------

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from study.wrong_run_files import BALL, MEASURED, NO_TOML, TWO, WRONG, Wrong
+from study.wrong_run_files import BALL, MEASURED, TWO
 from viscofric.errors import StudyError
 from viscofric.study.run_file.study import load_study, parse_study
 
@@ -69,22 +69,6 @@ def test_one_speed_or_temperature_needs_no_list() -> None:
     study = parse_study(text.replace('["30 degC", "60 degC"]', '"30 degC"'), Path("study.toml"))
     assert study.conditions.speed == (1.0,)
     assert study.conditions.temperature == pytest.approx((303.15,), rel=1e-15)
-
-
-@pytest.mark.parametrize("wrong", WRONG, ids=lambda wrong: f"{wrong.good} > {wrong.bad}"[:60])
-def test_each_mistake_has_its_place_and_code(wrong: Wrong) -> None:
-    with pytest.raises(StudyError) as caught:
-        parse_study(wrong.text, Path("study.toml"))
-    found = {one.where: one.code for one in caught.value.mistakes} or {"": caught.value.code}
-    assert found == wrong.codes
-    assert caught.value.field == (next(iter(wrong.codes)) or None)
-
-
-@pytest.mark.parametrize(("text", "code"), [(text, code) for text, code, _ in NO_TOML], ids=lambda value: value[:20])
-def test_what_is_no_toml_has_a_code(text: str, code: str) -> None:
-    with pytest.raises(StudyError) as caught:
-        parse_study(text, Path("study.toml"))
-    assert caught.value.code == code
 
 
 @pytest.mark.slow
