@@ -20,7 +20,7 @@ from marks import apart
 from viscofric import open_results
 from viscofric.cli import main
 from viscofric.cli.run import NOT_ACCURATE, print_outcome
-from viscofric.notes import Note, codes
+from viscofric.notes import Note
 from viscofric.study.results.file import save_results
 
 EXAMPLE = Path(str(files("viscofric"))) / "example"
@@ -55,11 +55,23 @@ def write(folder: Path, *, dma: str | None = None, study: str = STUDY) -> Path:
     return folder / "study.toml"
 
 
+def put_browser(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a browser be found that writes a few letters as the PDF of any page."""
+    browser = folder / "chromium"
+    browser.write_text(
+        '#!/bin/sh\nfor word; do case $word in --print-to-pdf=*) echo %PDF > "${word#*=}";; esac; done\n'
+    )
+    browser.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
+
+
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
     """Return what one run printed, and the folder of its results."""
     folder = tmp_path_factory.mktemp("once")
-    return call("run", write(folder)), folder / "study.results"
+    with pytest.MonkeyPatch.context() as patch:
+        put_browser(folder, patch)
+        return call("run", write(folder), "--pdf"), folder / "study.results"
 
 
 @pytest.fixture(scope="module")
@@ -67,21 +79,6 @@ def once(run: tuple[Result, Path]) -> Path:
     """Return the results of one run, not to be changed."""
     assert run[0].exit_code == 0
     return run[1]
-
-
-def test_run_and_report_print_a_pdf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    browser = tmp_path / "chromium"
-    browser.write_text(
-        '#!/bin/sh\nfor word; do case $word in --print-to-pdf=*) echo %PDF > "${word#*=}";; esac; done\n'
-    )
-    browser.chmod(0o755)
-    monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
-    study = write(tmp_path)
-    done = call("run", study, "--pdf", "--json")
-    pdf = tmp_path / "study.results" / "report.pdf"
-    assert json.loads(done.stdout.splitlines()[-1])["pdf"] == str(pdf)
-    assert pdf.read_text() == "%PDF\n"
-    assert f"pdf      {pdf}" in call("report", pdf.parent, "--pdf").stdout
 
 
 def test_run_needs_its_browser_before_it_solves(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -99,12 +96,21 @@ def finished(once: Path, tmp_path: Path) -> Path:
 
 @pytest.mark.slow
 def test_run_names_the_files_it_wrote(run: tuple[Result, Path]) -> None:
-    result, _ = run
+    result, folder = run
     assert result.exit_code == 0, result.output
     for words in ("figures ", "data ", "report "):
         paths = [line.split(maxsplit=1)[1] for line in result.stdout.splitlines() if line.startswith(words)]
         assert paths
         assert all(Path(path).stat().st_size > 0 for path in paths)
+    assert f"pdf      {folder / 'report.pdf'}" in result.stdout
+    assert (folder / "report.pdf").read_text() == "%PDF\n"
+
+
+def test_report_prints_a_pdf(finished: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    put_browser(finished.parent, monkeypatch)
+    (finished / "report.pdf").unlink()
+    assert json.loads(call("report", finished, "--pdf", "--json").stdout)["pdf"] == str(finished / "report.pdf")
+    assert (finished / "report.pdf").read_text() == "%PDF\n"
 
 
 def sweeps(*rows: str) -> str:
@@ -138,19 +144,6 @@ def test_bad_run_files_are_refused_with_their_field(tmp_path: Path, good: str, b
     assert good in STUDY
     found = refusal("run", write(tmp_path, study=STUDY.replace(good, bad)))
     assert found[:3] == (1, code, field)
-
-
-@pytest.mark.slow
-def test_shuffled_and_repeated_rows_are_accepted_with_a_note(tmp_path: Path) -> None:
-    lines = (EXAMPLE / "dma.csv").read_text(encoding="utf-8").splitlines()
-    header = [line for line in lines if line.startswith(("#", "temperature"))]
-    rows = [line for line in lines if line not in header]
-    shuffled = "\n".join([*header, *rows[::-1], rows[0]])
-    result = call("run", write(tmp_path, dma=shuffled))
-    assert result.exit_code == 0, result.output
-    from viscofric import open_results
-
-    assert {"sorted", "averaged"} <= codes(open_results(tmp_path / "study.results").notes)
 
 
 @pytest.mark.slow

@@ -226,6 +226,21 @@ def same(one: ContactSolution, other: ContactSolution, rel: float) -> None:
         assert getattr(one, name) == pytest.approx(getattr(other, name), rel=rel), name
 
 
+@pytest.mark.parametrize(
+    "surface",
+    [Ball(BALL_RADIUS), Cylinder(BALL_RADIUS), ELLIPSOID, CONE, HeightMap(rough_map(), MAP_STEP)],
+    ids=lambda one: one.noun,
+)
+def test_slopes_are_derivatives_of_the_heights(surface: Indenter) -> None:
+    """Along the motion friction is made of them, across it the lateral force."""
+    x, y = np.random.default_rng(1).uniform(0.1 * MAP_HALF, 0.6 * MAP_HALF, (2, 20))
+    step = 1e-7  # m: waves of some 0.1 mm leave (step/0.1 mm)² = 1e-6 of their slopes of 0.02
+    along = (surface.height(x + step, y) - surface.height(x - step, y)) / (2.0 * step)
+    across = (surface.height(x, y + step) - surface.height(x, y - step)) / (2.0 * step)
+    np.testing.assert_allclose(surface.slope(x, y), along, atol=1e-7)
+    np.testing.assert_allclose(surface.slope_across(x, y), across, atol=1e-7)
+
+
 def test_round_ellipsoid_is_a_ball() -> None:
     ball = solve_steady(RUBBER, Ball(BALL_RADIUS), speed=SPEED, load=LOAD)
     same(solve_steady(RUBBER, Ellipsoid(BALL_RADIUS, "10 mm"), speed=SPEED, load=LOAD), ball, 1e-9)  # round-off

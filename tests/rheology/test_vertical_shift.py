@@ -114,6 +114,11 @@ def test_density_shift_taken_off_leaves_the_master_curve_of_the_reference():
     truth = planted.material.complex_modulus(fit.master_curve.angular_frequency, "30 degC")
     # 0.2 % noise, and shifts known to 0.005 decades times a slope of up to 0.5.
     assert np.std(np.log10(fit.master_curve.storage_modulus / truth.real)) < 0.002
+    # So does each isotherm by itself, moved along both axes.
+    for isotherm in fit.reduced_isotherms:
+        truth = planted.material.complex_modulus(isotherm.angular_frequency, "30 degC")
+        assert np.abs(np.log10(isotherm.storage_modulus / truth.real)).max() < 0.006
+        assert np.abs(np.log10(isotherm.loss_modulus / truth.imag)).max() < 0.006
     given = vf.superpose(planted.sweeps, "30 degC", vertical=DensityShift("100 degC"))
     assert given.shift_factors.log10_values == pytest.approx(fit.shift_factors.log10_values, abs=1e-9)
     # Without the expansion b is larger above the reference and the moduli lower.

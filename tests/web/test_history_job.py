@@ -83,7 +83,6 @@ def test_another_history_becomes_a_table_of_the_page(desk: Desk, points: list[di
         (BALL, {}, "no-history"),
         (ROUGH, {"rows": OTHERS["unloading"], "control": "pressure"}, "swept-in-file"),
         (STUDY, {"rows": OTHERS["unloading"][::-1]}, "time-goes-back"),
-        ({**STUDY, "history": {"file": "../study.csv"}}, {}, "file-not-here"),
     ],
 )
 def test_what_no_study_can_have_has_a_code(

@@ -70,12 +70,9 @@ def test_an_impact_has_the_numbers_of_the_library(desk: Desk) -> None:
     ("study", "options", "code", "index"),
     [
         (BALL, {"rows": [PRESSED[1], PRESSED[0], PRESSED[2]]}, "time-goes-back", 1),
-        (BALL, {"rows": [PRESSED[0], {"time": 0.1, "value": -1.0}]}, "negative-load", 1),
         (BALL, {"rows": PRESSED, "control": "pressure"}, "wrong-control", None),
-        (BALL, {"rows": PRESSED[:1]}, "too-few-points", None),
         ({**BALL, "layer": {"thickness": "2 mm"}}, {"impact": {"mass": 0.1, "speed": 1.0}}, "not-available", None),
         (ROUGH, {"impact": {"mass": 0.1, "speed": 1.0}}, "rough-surface", None),
-        (BALL, {"impact": {"mass": 0.0, "speed": 1.0}}, "not-positive", None),
     ],
 )
 def test_what_cannot_be_solved_has_a_code_and_its_row(
