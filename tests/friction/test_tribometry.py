@@ -285,15 +285,6 @@ def test_readings_without_slip_are_named_as_the_cause() -> None:
     assert "incomplete-replicates" not in codes(notes)
 
 
-def test_pure_rolling_one_way_says_what_to_measure() -> None:
-    rows = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03))
-    rows[:, 1] = rows[:, 0]
-    with refused("signs-missing") as caught:
-        separate(runs_from(rows[rows[:, 0] > 0]))
-    assert caught.value.field == "measurement.zero"
-    assert caught.value.note.values["pure_rolling"]
-
-
 def test_drift_of_the_zero_between_replicates_does_not_reach_friction() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=5)
     rows = rows_of(runs)

@@ -99,8 +99,6 @@ def test_a_table_of_shift_factors_becomes_a_law_where_one_is_asked_for(tmp_path,
     with warned() as notes:
         write_card(material, tmp_path / "card", program, density=1100.0, law="arrhenius")
     assert codes(notes) == {"card-law-misfit"}  # by 0.14 decades
-    with refused("no-table"):
-        write_card(rubber(), tmp_path / "card", program, density=1100.0, law="best")
     with refused("unknown-law"):
         write_card(material, tmp_path / "card", program, density=1100.0, law="polynomial")
 
