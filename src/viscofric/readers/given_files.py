@@ -26,7 +26,7 @@ def files_of(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]
     for path in paths:
         # names of columns are what iterates over a table in memory
         many = isinstance(path, Iterable) and not isinstance(path, (str, Mapping)) and getattr(path, "ndim", 1) == 1
-        names = list(path) if many else [path]
+        names: list[object] = list(cast("Iterable[object]", path)) if many else [path]
         wrong = [one for one in names if not isinstance(one, (str, PathLike))]
         if wrong:
             raise InputError(
