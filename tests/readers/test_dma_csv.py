@@ -618,7 +618,7 @@ def test_what_differs_beside_each_other_is_not_taken_apart(tmp_path, above, head
 
 @pytest.mark.parametrize("words", ["at 3 K/min", "2K-PUR", "(1 and 25 °C)", "- 50 °C"])
 def test_headings_with_other_numbers_are_not_understood(tmp_path, words):
-    with refused("missing-columns"):
+    with refused("dash-or-minus" if words == "- 50 °C" else "missing-columns"):
         read_dma(write(tmp_path, f"f (Hz);E' {words} (MPa);E'' {words} (MPa)", "1;5;0.5", "10;6;0.7"))
 
 

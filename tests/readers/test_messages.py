@@ -17,6 +17,11 @@ DMA = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa
 SWEEP = [f"{T},{f},{5 + f},0.5" for T in (20, 40) for f in (1, 2, 5)]
 MTM = "disc speed (mm/s),ball speed (mm/s),traction force (N),load (N),temperature (degC)"
 
+
+def curves_at_20_celsius(path: Path) -> object:
+    return vf.read_friction_curves(path, columns={"temperature": "= 20 degC"})
+
+
 ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     (read_dma, [""], "the file is empty; it must hold a header and rows of numbers."),
     (
@@ -88,6 +93,53 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     ),
     (read_mtm, [MTM, "20,1,0.5,0,30"], "0 in column 'load (N)' must be above zero."),
     (
+        curves_at_20_celsius,
+        ["speed (mm/s),COF 5,COF 10", "1,0.1,0.2"],
+        (
+            "the numbers of the headings 'COF 5' and 'COF 10' have no unit; write 'COF 5 N', or name repetitions in a "
+            "column."
+        ),
+    ),
+    (
+        curves_at_20_celsius,
+        ["speed (mm/s),COF 5 N 10 N", "1,0.1"],
+        "heading 'COF 5 N 10 N' states two values of load, 10 N and 5 N; keep the one that holds.",
+    ),
+    (
+        vf.read_friction_curves,
+        ["Load: 5 N,", "speed (mm/s),COF-20 °C", "1,0.1"],
+        "the dash in heading 'COF-20 °C' may be a minus sign; write the temperature in brackets.",
+    ),
+    (
+        curves_at_20_celsius,
+        ["Friction force,,", "speed (mm/s),5 N,10 N", "1,0.1,0.2"],
+        (
+            "heading '5 N' and those beside it name no quantity, and above them is 'Friction force'; write the "
+            "quantity into each heading, such as 'COF 5 N' for coefficients of friction."
+        ),
+    ),
+    (
+        curves_at_20_celsius,
+        ["speed (mm/s),5 N,10 N", "1,0.1,3"],
+        (
+            "column '5 N' and those beside it name no quantity, and one is above 2, as forces may be; if they are "
+            "coefficients, write 'COF 5 N'."
+        ),
+    ),
+    (
+        vf.read_friction_curves,
+        ["speed (rpm),T (°C),load (N),COF", "60,20,5,0.1"],
+        (
+            "column 'speed (rpm)' holds revolutions, whose speed depends on the radius; write it as 'speed (mm/s)', "
+            "2π · radius · revolutions/60, or add a column 'track radius (mm)'."
+        ),
+    ),
+    (
+        vf.read_friction_curves,
+        ["speed (mm/s);T (°C);load (N);COF", "1,234.5;20;5;0.1"],
+        "'1,234.5' in column 'speed (mm/s)' has marks between thousands; write it without them.",
+    ),
+    (
         vf.read_topography,
         ["1,2,3,4", "5,6,7,8"],
         "does not state the spacing of its points; give spacing = '5 um', for instance.",
@@ -134,6 +186,17 @@ def test_notes_on_traction_runs(tmp_path: Path) -> None:
             "There is no replicate column; passes at equal speeds, load and temperature are numbered in their order, "
             "and rows in succession are one pass. Give a replicate column if they are repetitions."
         ),
+    ]
+
+
+def test_notes_on_conditions_in_headings(tmp_path: Path) -> None:
+    path = tmp_path / "wide.csv"
+    path.write_text("Temperature: 20 °C\nspeed (mm/s);5 kg;10 kg\n1;0.1;0.2\n", encoding="utf-8")
+    assert list(vf.read_friction_curves(path).notes[:4]) == [
+        "Column '5 kg' and those beside it name no quantity; they were read as viscoelastic friction.",
+        "For all rows, as lines above the table state: 'Temperature: 20 °C'.",
+        "Masses in 'loads of headings' were read as their weights at 9.80665 m/s²: 1 kg is 1 kgf.",
+        "No column holds a load; loads were taken from the headings.",
     ]
 
 

@@ -13,16 +13,16 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError, short_notes
-from viscofric.files import file_path, read_text, write_atomically
+from viscofric.files import file_path, write_atomically
 from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
 from viscofric.readers.dma.names import FROM_TITLES, joined_tables, temperatures_of_titles
 from viscofric.readers.given_files import bytes_of
-from viscofric.readers.headings import Column, quantity_of
+from viscofric.readers.headings import OF_HEADINGS, Column, quantity_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.one_table import table_of
-from viscofric.readers.source import Source
+from viscofric.readers.source import Source, is_revolutions
 from viscofric.readers.table import Table
 from viscofric.readers.tables import find_tables, name_columns
 from viscofric.readers.workbook import is_workbook
@@ -40,6 +40,10 @@ _ABOVE_ZERO = {
 #: Fields that are infinite where not known, an empty cell in the file.
 _OPEN = ("_error", "_scatter", "_freedom")
 _MOST_REPLICATES = 1e9
+#: Codes of errors about headings of coefficients of friction that state conditions.
+_OF_HEADINGS = ("two-values", "number-without-unit", "dash-or-minus", "quantity-unknown")
+#: Larger numbers under headings such as "5 N" are not taken for coefficients of friction.
+_LARGEST_UNNAMED = 2.0
 #: As results of studies name viscoelastic friction.
 _OF_RESULTS = "friction_coefficient"
 
@@ -150,10 +154,15 @@ def read_friction_curves(
     found = {name: _read_column(table, name, place, unit) for name, place in places.items()}
     remarks = _remarks(str(path))
     notes = [*remarks["note"], *table.heading_notes, *notes]
+    if table.columns[places["viscoelastic"]].alone and np.max(np.abs(found["viscoelastic"])) > _LARGEST_UNNAMED:
+        problem = f"column {table.columns[places['viscoelastic']].heading!r} and those beside it name no quantity, and "
+        right = f"one is above {_LARGEST_UNNAMED:g}, as forces may be; if they are coefficients, write 'COF 5 N'."
+        raise table.refused("quantity-unknown", problem + right)
     if _is_any_friction(column := table.columns[places["viscoelastic"]]):
         said = f"Column {column.heading!r} was read as viscoelastic friction; friction measured in sliding includes "
         notes.append(Note("total-friction", said + "Coulomb friction, which must be subtracted first."))
-    unused = [column.heading for column in table.unused(places.values())]
+    radius = table.place("track radius") if is_revolutions(table.columns[places["speed"]].unit) else None
+    unused = [column.heading for column in table.unused([*places.values(), radius])]
     if unused:
         said = f"Columns of the file of friction curves that are not read: {', '.join(map(repr, unused))}."
         notes.append(Note("unused-columns", said, values={"headings": unused}))
@@ -181,8 +190,8 @@ def holds_friction_curves(path: str | PathLike[str], columns: Mapping[str, str] 
         return True
     try:
         tables = find_tables(Source(str(path), bytes_of(str(path))), CURVES).values()
-    except DataFileError:
-        return False
+    except DataFileError as error:
+        return error.code in _OF_HEADINGS
     return any(table.has("viscoelastic friction") and not _is_of_runs(table) for table in tables)
 
 
@@ -216,6 +225,8 @@ def _with_temperatures(table: Table) -> tuple[Table, list[str]]:
             FROM_TITLES,
             *joined_tables(table),
         ]
+    if any(column.heading == OF_HEADINGS["temperature"] for column in table.columns):
+        return table, [*joined_tables(table)]
     if joined_tables(table):
         problem = "holds several tables below each other, which may differ in more than temperature; give each a file "
         raise DataFileError(table.path, problem + "of its own.", code="several-tables")
@@ -252,8 +263,11 @@ def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:
     unit = load_unit if name == "load" else COLUMNS[name][0]
     column = table.columns[place]
     values = table.numbers_or_missing(place) if name.endswith(_OPEN) else table.numbers(place)
-    factor, shift = table.conversion(column, unit) if unit else (table.fraction(column), 0.0)
-    values = factor * values + shift
+    if name == "speed":
+        values = table.values(place, unit)
+    else:
+        factor, shift = table.conversion(column, unit) if unit else (table.fraction(column), 0.0)
+        values = factor * values + shift
     if name in ("speed", "temperature", "load"):
         bad, right = values <= 0.0, _ABOVE_ZERO[name]
     elif name == "replicates":
@@ -296,9 +310,10 @@ def _complete(columns: dict[str, Array], kind: str, replicates: Array, notes: li
 def _remarks(path: str) -> dict[str, list[str]]:
     """Return the remarks of a file that viscofric saved."""
     found: dict[str, list[str]] = {name: [] for name in _REMARKS}
-    if is_workbook(Source(path, bytes_of(path))):
+    source = Source(path, bytes_of(path))
+    if is_workbook(source):
         return found
-    lines = [line[1:].strip() for line in read_text(path).splitlines() if line.startswith("#")]
+    lines = [line[1:].strip() for line in (source.text or "").splitlines() if line.startswith("#")]
     if not lines or lines[0] != _TITLE:
         return found
     for line in lines[1:]:

@@ -51,7 +51,7 @@ _NEEDED = ("speed", "temperature", "load", "viscoelastic")
 CURVES = Vocabulary(
     "a table of friction curves",
     {heading.lower(): frozenset({heading, heading.lower(), *others}) for _, heading, others in COLUMNS.values()}
-    | {"temperature": TEMPERATURE},
+    | {"temperature": TEMPERATURE, "track radius": frozenset({"track radius", "wear track radius"})},
     needed=tuple((COLUMNS[name][1],) for name in _NEEDED),
     example="friction curves have 'speed (mm/s)', 'temperature (degC)', 'load (N)' and 'viscoelastic friction'",
     key="measurement.columns",
@@ -65,6 +65,8 @@ CURVES = Vocabulary(
     ),
     logarithms=True,
     means=frozenset({"viscoelastic friction"}),
+    conditions=("temperature", "load", "speed"),
+    alone="viscoelastic friction",
     several="titled",
 )
 

@@ -6,16 +6,20 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from viscofric.readers.headings import is_place, place_of
+from viscofric.readers.source import plain_number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from viscofric.readers.headings import Vocabulary
+    from viscofric.readers.headings import Column, Vocabulary
     from viscofric.readers.table import NumberedRow
 
 #: Tables by people and instruments begin above this line.
 DEEPEST_HEADER = 300
 _LONGEST_NAME = 100
+_MOST_HEADER_ROWS = 3
+#: In place of the unit of a number.
+_NO_UNIT = ("-", "–", "—")
 #: First characters of names that begin with no letter: "|E*|", " f (Hz)", '"f"'.
 _BEFORE_LETTERS = ("|", " ", '"', "'")
 
@@ -34,10 +38,91 @@ def named(cells: Sequence[str], words: Vocabulary) -> set[str]:
         return set()
     if not words.user_columns:
         cells = [cell if len(cell) < _LONGEST_NAME else "" for cell in cells]
-    return {column.quantity for column in words.columns(cells)} - {""}
+    columns = words.columns(cells)
+    return {what for one in columns for what in (one.quantity, *(stated for stated, _ in one.stated))} - {""}
 
 
 def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
+    """Return rows with the place of their header, of up to three rows as one; None without any."""
+    found = _header_of_one_row(rows, words)
+    held = named(found.rows[found.header][1], words) if found else set()
+    if found and not words.missing(held):
+        return found
+    least, first = max(1, len(held)), _first_numbers(rows, words)
+    for bottom in {*range(max(0, (first or 0) - _MOST_HEADER_ROWS), first or 0), *([found.header] if found else [])}:
+        for top in range(max(0, bottom - _MOST_HEADER_ROWS + 1), bottom)[::-1]:
+            cells = joined([row for _, row in rows[top : bottom + 1]], words)
+            if any(place_of(said, cells)[0] is None for said in words.user_columns.values()):
+                continue
+            count = len(named(cells, words))
+            if count > least:
+                above = [row for row in rows[top:bottom] if not any(map(is_number, row[1]))]
+                header = (rows[bottom][0], cells)
+                found, least = Found([*rows[:top], *above, header, *rows[bottom + 1 :]], top + len(above)), count
+    return found
+
+
+def joined(band: Sequence[Sequence[str]], words: Vocabulary) -> list[str]:
+    """Return the headings that rows above each other make: ``COF`` above ``5 N`` and ``10 N``, or units below names."""
+    # The blank cells behind one belong to it, as those of a merged cell do.
+    *above, lowest = [[*cells, *[""] * (max(map(len, band)) - len(cells))] for cells in band]
+    texts = [" ".join(cell.split()) for cell in lowest]
+    first = [next((cell for cell in cells if cell.strip()), "") for cells in above]
+    for row in reversed(range(len(above))):
+        labels = [cell for cell in reversed(first[: row + 1]) if not is_number(cell)]
+        label, left = words.column(labels[0] if labels else ""), ""
+        for place, cell in enumerate(_without_values_of_others(above[row], words)):
+            own = " ".join(cell.split())
+            left = own or left
+            texts[place] = _under(left if texts[place] else own, texts[place], label, words)
+    return texts
+
+
+def _without_values_of_others(cells: Sequence[str], words: Vocabulary) -> list[str]:
+    """Return cells without values behind other words, such as ``7 N`` behind ``Preload``."""
+    found, others = [], False
+    for cell in cells:
+        rest, stated = words.stated_in(cell)
+        found.append("" if others and stated and not rest.strip() else cell)
+        of = words.quantity_of_rest(rest) or words.quantity_of_rest(rest.rstrip(":= "))
+        others = bool(rest.strip()) and not is_number(cell) and not of
+    return found
+
+
+def _under(upper: str, text: str, label: Column, words: Vocabulary) -> str:
+    """Return a heading with the cell above it, in a row that begins with a label."""
+    unit = text.strip("()[]")
+    if unit in _NO_UNIT:
+        return upper
+    if not upper or not text or upper.casefold() in text.casefold() or _is_of_user(text, words):
+        return text or upper
+    if is_number(upper) and label.quantity in words.conditions:  # under "load (N)", with 5 and 10 beside it
+        upper = f"{upper} {label.unit}"
+    over = words.column(upper)
+    if is_number(text) and over.quantity in words.conditions:
+        return f"{over.name} {text} {over.unit}".strip()
+    (above, stated), (below, own) = words.stated_in(upper), words.stated_in(text)
+    of_above, of_below = words.quantity_of_rest(above), words.quantity_of_rest(below)
+    if of_below:
+        values = " ".join(value for _, value in stated)
+        if is_number(upper):
+            values = upper
+        return (
+            f"{values} {text}" if values and (not above.strip() or of_above == of_below or is_number(upper)) else text
+        )
+    if own and not below.strip():
+        if of_above in words.conditions:
+            return f"{over.name} {text}"
+        return f"{upper} {text}" if of_above or is_number(upper) or (stated and not above.strip()) else text
+    return f"{upper} ({unit})" if over.quantity and not over.unit else f"{upper} {text}"
+
+
+def _is_of_user(text: str, words: Vocabulary) -> bool:
+    """Return whether the user names a column by this heading."""
+    return any(place_of(said, [text])[0] == 0 and not is_place(said) for said in words.user_columns.values())
+
+
+def _header_of_one_row(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
     """Return rows with the place of their header, None without one; a missing header is put in where places suffice."""
     # It is the first row with all headings that the user names; without these the first that names what is needed;
     # without such a row the first that names two quantities.
@@ -63,7 +148,7 @@ def _header_with(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None
             if all(place_of(said, cells)[0] is not None for said in names):
                 return Found(list(rows), place)
         return None
-    first = _first_numbers(rows)
+    first = _first_numbers(rows, words)
     if first is None or any(place_of(said, rows[first][1])[0] is None for said in names):
         return None
     top = _top_of_header(rows, first)
@@ -74,13 +159,19 @@ def _header_with(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None
     return Found([*rows[:first], (number, places), *rows[first:]], first)
 
 
-def _first_numbers(rows: Sequence[NumberedRow]) -> int | None:
+def _first_numbers(rows: Sequence[NumberedRow], words: Vocabulary) -> int | None:
     """Return the place of the first row of numbers, at least two and most of its cells."""
     for place, (_, cells) in enumerate(rows[: DEEPEST_HEADER + 3]):
         count = sum(map(is_number, cells))
-        if count > 1 and 2 * count >= len([cell for cell in cells if cell.strip()]):
+        if count > 1 and 2 * count >= len([cell for cell in cells if cell.strip()]) and not _is_label(cells, words):
             return place
     return None
+
+
+def _is_label(cells: Sequence[str], words: Vocabulary) -> bool:
+    """Return whether a row of numbers begins with the name of a quantity: values of it, or of what is below them."""
+    label = next((cell for cell in cells if cell.strip()), "")
+    return any(words.column(part).quantity for part in label.split("\\"))
 
 
 def _top_of_header(rows: Sequence[NumberedRow], first: int) -> int | None:
@@ -95,12 +186,14 @@ def _top_of_header(rows: Sequence[NumberedRow], first: int) -> int | None:
     return top
 
 
-def guessed(rows: Sequence[NumberedRow]) -> list[str]:
+def guessed(rows: Sequence[NumberedRow], words: Vocabulary) -> list[str]:
     """Return the headings above the first row of numbers, or the numbers of its columns; none without numbers."""
-    first = _first_numbers(rows)
+    first = _first_numbers(rows, words)
     if first is None:
         return []
     top = _top_of_header(rows, first)
+    if top is None and first and _is_label(rows[first - 1][1], words):
+        top = first - 1
     if top is None:
         return [f"#{place}" for place in range(1, len(rows[first][1]) + 1)]
     return [cell.strip() for cell in rows[top][1]]
@@ -109,7 +202,7 @@ def guessed(rows: Sequence[NumberedRow]) -> list[str]:
 def is_number(cell: str) -> bool:
     """Return whether a cell is a number, with a decimal point or comma, perhaps in per cent."""
     try:
-        float(cell.strip().removesuffix("%").replace(",", ".").replace("−", "-"))
+        float(plain_number(cell).removesuffix("%").replace(",", "."))
     except ValueError:
         return False
     return True

@@ -17,11 +17,12 @@ _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNIT = (
     r"(?i:°[CKF]|℃|deg[CFK]|[mkM]?Hz|rad[/_]?s(?:ec)?|[kMG]?Pa|[kM]?psi|bar|[mkM]?N/[mc]?m(?:\^?2|²)|dynes?/cm(?:\^?2|²)"
-    r"|dyn/cm(?:\^?2|²)|kgf?/[mc]m(?:\^?2|²)|[mcµu]?m/s|1/s|rpm|1/[kMG]?Pa|mm|[µun]m|ms|min|cpm|Cel|%)|mN"
+    r"|dyn/cm(?:\^?2|²)|kgf?/[mc]m(?:\^?2|²)|[mcµμu]?m/s|1/s|rpm|1/[kMG]?Pa|mm|[µun]m|ms|min|cpm|Cel|%)|mN"
 )
 _SEPARATED = re.compile(
     rf"^(?P<name>.*?[^\s/_,])(?:(?:\s+in\s+|_in_|\s*,\s*|_|\s+)(?P<unit>{_UNIT})"
-    r"|(?:\s+in\s+|_in_|\s*,\s*|_)(?P<letter>[CKFNsm]))$"
+    r"|(?:\s+in\s+|_in_|\s*,\s*|_)(?P<letter>[CKFNsm])"
+    r"|(?:\s+in\s+|\s*,\s*)(?P<rarer>[ckd]N|daN|kgf|kp|gf|lbf|kg|g|mm?/min|km/h))$"
 )
 _LETTER = re.compile(r"^(?P<name>.*temp[^\s_]*|T)[\s_]+(?P<unit>[ckf])$", re.IGNORECASE)
 #: "log10(aT)", "tan(δ)", "a(T)", "compliance J(t)": brackets that hold an argument, not a unit.
@@ -62,12 +63,39 @@ FREQUENCY_IN_NAME = re.compile(
     r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<minus>)(?P<dash>)(?P<number>\d+(?:[.,]\d+)?)\s?_?"
     rf"(?P<unit>[mk]?Hz|rad/s){_OF_A_RATE}"
 )
-#: Heading of the column of frequencies that stood in the headings of others.
-FREQUENCIES_OF_HEADINGS = "frequencies of headings"
+
+
+def _positive_in_name(units: str) -> re.Pattern[str]:
+    return re.compile(
+        r"(?:^|(?<=[\s_=:(,;@[]))(?P<sign>)(?P<minus>)(?P<dash>)(?P<number>\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?)\s?_?"
+        rf"(?P<unit>{units})(?![^\W_]|\s*[/·*-]\s*[^\W\d]|[\^²³])"
+    )
+
+
+#: Quantity -> a value of it with its unit in the name of another: "COF 5 N", "µ @ 20 °C", "10 mm/s".
+_IN_NAMES = {
+    "temperature": TEMPERATURE_IN_NAME,
+    "frequency": FREQUENCY_IN_NAME,
+    "load": _positive_in_name(r"[cdmk]?N/[mc]?m|(?:[cmk]|da)?N|kgf|kp|gf|lbf|kg|g"),
+    "speed": _positive_in_name(r"[mcµμu]?m/(?:s|min)|km/h"),
+}
+#: Headings of the columns of what stood in the headings of others.
+OF_HEADINGS = {
+    "temperature": "temperatures of headings",
+    "frequency": "frequencies of headings",
+    "load": "loads of headings",
+    "speed": "speeds of headings",
+}
 _DASH_AT_END = re.compile(r"[-−–]\s*$")
-#: What a temperature or frequency that is cut from a heading leaves behind.
+#: What a value that is cut from a heading leaves behind.
 _LEFT_BEHIND = re.compile(
-    r"[(\[]\s*[)\]]|(\b(at|bei|à|[Tf]\s*=)|[@,;=_])\s*(?=$|[()\[\]/])|_(?=_)|^\s*[:;,=]", re.IGNORECASE
+    r"[(\[]\s*[,;:=@|]?\s*[)\]]|(\b(at|bei|à|for|für|[Tf]\s*=)|[@,;:=_|])\s*(?=$|[()\[\]/])|_(?=_)|^\s*[:;,=@|/]|/\s*$",
+    re.IGNORECASE,
+)
+#: The name of a quantity before its value, of two words or one: "load" of "COF, load = 5 N".
+_LABELS = tuple(
+    re.compile(rf"(?:^|(?<=[\s,;(\[_@:]))(?P<label>[^\W\d_]+[.']?{more})\s*[=:]?\s*$")
+    for more in (r"[\s_][^\W\d_]+", "")
 )
 #: Names are the same with and without these: "a_T", "a(T)", "aT".
 _MARKS = re.compile(r"[\s_().·\[\]-]")
@@ -84,7 +112,9 @@ class Column:
     given: bool = False  # named by the user, not recognised
     base: float = 0.0  # of the logarithm that the numbers are, 0 where they are none
     is_mean: bool = False  # "E' mean (MPa)", where no column is of the quantity itself
-    title: str = ""  # the temperature or frequency in the heading: "25 °C" of "E' 25 °C (MPa)"
+    stated: tuple[tuple[str, str], ...] = ()  # in the heading: ("temperature", "25 °C") of "E' 25 °C (MPa)"
+    above: bool = False  # the heading is a line above the table, which states the value of all rows: "Load: 20 N"
+    alone: bool = False  # the heading states values of other quantities, and none of its own: "25 °C, 10 N"
 
     @property
     def unnumbered(self) -> str:
@@ -113,6 +143,10 @@ class Vocabulary:
     constants: Mapping[str, str] = field(default_factory=dict)  # quantity -> "= 20 N", the value in all rows
     logarithms: bool = False  # whether columns may hold logarithms of the quantities
     means: frozenset[str] = frozenset()  # quantities of which columns of means are read where there are no others
+    # What headings may state of the numbers below them (``COF 20 °C, 5 N``), and the quantity of headings that state
+    # nothing else.
+    conditions: tuple[str, ...] = ()
+    alone: str = ""
     # Whether several tables below each other are one, all rows alike, or of the temperatures in the lines above each.
     several: Literal["refused", "rows", "titled"] = "refused"
 
@@ -206,56 +240,91 @@ class Vocabulary:
             what = "" if column.quantity else self.quantity(_MEAN.sub("", column.name).strip())
             if what in self.means and what not in held:
                 found[n] = replace(column, quantity=what, is_mean=True)
-        if self.several == "titled":
-            found = self._with_titles(found, held)
+        if self.conditions:
+            found = self._with_conditions(found, held)
         for what, said in self.user_columns.items():
             place, unit = place_of(said, cells)
             if place is not None:
                 column = found[place]
                 if _SAID_LOGARITHM.match(column.heading) and not _OF_LOGARITHMS.fullmatch(what):
                     column = _logarithm(column.heading) or column
-                found[place] = replace(column, quantity=what, unit=unit or column.unit, given=True, title="")
+                plain = replace(column, quantity=what, unit=unit or column.unit, given=True)
+                found[place] = replace(plain, stated=(), alone=False)
         return tuple(found)
 
-    def _with_titles(self, columns: list[Column], held: set[str]) -> list[Column]:
-        """Return columns with the temperatures or frequencies of their headings, where no column holds these."""
-        # Those of a temperature without any quantity that a header needs are left as they are, and all where another
-        # column holds one of their quantities, or a temperature may be below or above zero.
-        lacks = [
-            pattern
-            for pattern, has in ((TEMPERATURE_IN_NAME, "temperature"), (FREQUENCY_IN_NAME, "frequency"))
-            if has in self.quantities and not any(has in what for what in held)
-        ]
-        found = [self._titled(column, lacks) for column in columns]
-        if any(one.title for one in found) and any(_doubtful(one.heading, lacks) for one in found if not one.title):
+    def _with_conditions(self, columns: list[Column], held: set[str]) -> list[Column]:
+        """Return columns with what their headings state of quantities that no column holds: ``COF 20 °C, 5 N``."""
+        # Those that state something without any quantity that a header needs are left as they are, and all where
+        # another column holds one of their quantities, or a temperature may be below or above zero.
+        lacks = {what: _IN_NAMES[what] for what in self.conditions if not any(what in one for one in held)}
+        found = [self._conditioned(column, lacks) for column in columns]
+        signed = [pattern for what, pattern in lacks.items() if what == "temperature"]
+        if any(one.stated for one in found) and any(_doubtful(one.heading, signed) for one in found if not one.stated):
             return columns
-        single = {column.quantity for column in found if not column.title} | {*self.user_columns}
-        of_titles: dict[str, set[str]] = {}
+        named = any(one.quantity == self.alone and not one.alone for one in found) or self.alone in self.user_columns
+        if named or held.isdisjoint(self.conditions):
+            found = [before if one.alone else one for one, before in zip(found, columns, strict=True)]
+        single = {column.quantity for column in found if not column.stated} | {*self.user_columns}
+        of_values: dict[tuple[tuple[str, str], ...], set[str]] = {}
         for column in found:
-            if column.title:
-                of_titles.setdefault(column.title, set()).add(column.quantity)
-        needed = {what for some in self.needed for what in some}
-        if any(own & single for own in of_titles.values()):
+            if column.stated:
+                of_values.setdefault(column.stated, set()).add(column.quantity)
+        needed = {what for some in self.needed for what in some} - {*self.conditions}
+        if any(own & single for own in of_values.values()):
             return columns
-        bare = {title for title, own in of_titles.items() if not own & needed}
-        return [before if one.title in bare else one for one, before in zip(found, columns, strict=True)]
+        bare = {stated for stated, own in of_values.items() if not own & needed}
+        return [before if one.stated in bare else one for one, before in zip(found, columns, strict=True)]
 
-    def _titled(self, column: Column, patterns: Sequence[re.Pattern[str]]) -> Column:
-        """Return the column with the temperature or frequency that its heading states as its title, or as it is."""
-        found = [one for pattern in patterns for one in pattern.finditer(column.heading)]
-        if len(found) != 1 or (column.quantity and column.unit != found[0][0].strip("( [")):
+    def _conditioned(self, column: Column, lacks: Mapping[str, re.Pattern[str]]) -> Column:
+        """Return the column with what its heading states, one value of each quantity, or as it is."""
+        rest, stated = self._parted(column.heading, lacks)
+        if not stated or len({what for what, _ in stated}) < len(stated):
             return column
-        (one,) = found
-        start = one.start("minus" if one["minus"] else "dash" if one["dash"] else "sign")
-        if one["dash"] or _DASH_AT_END.search(column.heading[:start]):  # or a minus sign
+        of = self.column(rest)
+        if not of.quantity and (what := self.quantity(_MEAN.sub("", of.name).strip())) in self.means:
+            of = replace(of, quantity=what, is_mean=True)
+        alone = bool(self.alone) and not rest.strip()
+        if alone:
+            of = replace(of, quantity=self.alone)
+        own = of.quantity.split()
+        if not own or "isotherm" in own or any(what in own for what, _ in stated):
             return column
-        rest = column.heading[:start] + column.heading[one.end() :]
-        of = self.column(_LEFT_BEHIND.sub("", _LEFT_BEHIND.sub("", rest)))  # what is left of brackets is removed last
-        if not of.quantity or any(what in of.quantity for what in ("temperature", "isotherm", "frequency")):
+        if column.quantity and column.quantity != of.quantity:
             return column
-        below_zero = one["minus"] or one["sign"] in ("-", "−", "–")
-        title = f"{'-' if below_zero else ''}{one['number']} {one['unit'].strip('_')}"
-        return replace(of, heading=column.heading, title=title)
+        return replace(of, heading=column.heading, stated=stated, alone=alone)
+
+    def _parted(self, text: str, lacks: Mapping[str, re.Pattern[str]]) -> tuple[str, tuple[tuple[str, str], ...]]:
+        """Return a heading without the values that it states, and these with their quantities; none where doubtful."""
+        found = [(what, one) for what, pattern in lacks.items() for one in pattern.finditer(text)]
+        rest, stated = text, []
+        for what, one in sorted(found, key=lambda value: value[1].start(), reverse=True):
+            start = one.start("minus" if one["minus"] else "dash" if one["dash"] else "sign")
+            if one["dash"] or (what == "temperature" and _DASH_AT_END.search(text[:start])):  # or a minus sign
+                return text, ()
+            labels = [label for pattern in _LABELS if (label := pattern.search(rest[:start]))]
+            start = next((one.start("label") for one in labels if self.quantity(one["label"]) == what), start)
+            rest = rest[:start] + rest[one.end() :]
+            below_zero = one["minus"] or one["sign"] in ("-", "−", "–")
+            stated.append((what, f"{'-' if below_zero else ''}{one['number']} {one['unit'].strip('_')}"))
+        while (shorter := _LEFT_BEHIND.sub("", rest)) != rest:
+            rest = shorter
+        return rest, tuple(sorted(stated))
+
+    def has_value(self, text: str) -> bool:
+        """Return whether a text holds values of the conditions of headings, perhaps with a dash before one."""
+        return any(_IN_NAMES[what].search(text) for what in self.conditions)
+
+    def is_doubtful(self, text: str) -> bool:
+        """Return whether a measured value has a temperature behind a dash, which may be a minus sign."""
+        return "temperature" in self.conditions and _doubtful(text, [TEMPERATURE_IN_NAME])
+
+    def quantity_of_rest(self, text: str) -> str:
+        """Return the quantity that is left of a heading without the values that it states, "" for none."""
+        return self.column(text).quantity if text.strip() else ""
+
+    def stated_in(self, text: str) -> tuple[str, tuple[tuple[str, str], ...]]:
+        """Return what a text says besides values of the conditions of headings, and these with their quantities."""
+        return self._parted(" ".join(text.split()), {what: _IN_NAMES[what] for what in self.conditions})
 
 
 def _doubtful(text: str, patterns: Sequence[re.Pattern[str]]) -> bool:
@@ -327,7 +396,8 @@ def heading(text: str) -> Column:
     for pattern in () if _FUNCTION.fullmatch(plain) else (_BRACKETED, _SEPARATED, _SLASHED, _LETTER):
         match = pattern.match(plain)
         if match:
-            name, unit = match["name"], match["unit"] or match.groupdict().get("letter") or ""
+            groups = match.groupdict()
+            name, unit = match["name"], match["unit"] or groups.get("letter") or groups.get("rarer") or ""
             break
     if name.strip() == "t" and _CELSIUS.fullmatch(unit):  # not a time
         name = "T"

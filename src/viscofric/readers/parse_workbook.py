@@ -11,6 +11,7 @@ import io
 import json
 import re
 import zipfile
+from collections.abc import Iterable
 
 from viscofric.errors import DataFileError
 
@@ -42,7 +43,7 @@ def parsed(path: str, data: bytes) -> tuple[dict[str, list[list[object]]], list[
         listed = [one for one in workbook.sheets_metadata if one.typ == kinds.WorkSheet]
         names = [one.name for one in listed]
         hidden = [one.name for one in listed if one.visible != python_calamine.SheetVisibleEnum.Visible]
-        sheets, cells = {}, 0
+        sheets, merged, cells = {}, {}, 0
         for name in names:
             sheet = workbook.get_sheet_by_name(name)
             height, width = sheet.end or (0, 0)
@@ -51,8 +52,11 @@ def parsed(path: str, data: bytes) -> tuple[dict[str, list[list[object]]], list[
                 raise _too_many_cells(path, cells)
             rows = sheet.to_python(skip_empty_area=False)
             sheets[name] = [[_plain(cell) for cell in row] for row in rows]
+            merged[name] = getattr(sheet, "merged_cell_ranges", None) or []
         if data.startswith(b"PK"):
             _show_per_cent(data, sheets)
+        for name, ranges in merged.items():
+            _fill_merged(sheets[name], ranges)
         size = len(json.dumps(sheets))
     except DataFileError:
         raise
@@ -66,6 +70,19 @@ def parsed(path: str, data: bytes) -> tuple[dict[str, list[list[object]]], list[
         problem = f"holds {size / 1e6:.0f} MB of cells, far more than a workbook of measurements does."
         raise DataFileError(path, problem, code="too-large")
     return sheets, hidden
+
+
+def _fill_merged(rows: list[list[object]], ranges: Iterable[tuple[tuple[int, int], tuple[int, int]]]) -> None:
+    """Write what stands in the first of merged cells into those below it, and a number into those beside it too."""
+    # Words beside it are left out: what stands above several headings is read as that of the blank cells behind it.
+    for (top, left), (bottom, right) in ranges:
+        value = rows[top][left] if top < len(rows) and left < len(rows[top]) else ""
+        if value == "":
+            continue
+        for row in rows[top : bottom + 1]:
+            is_number = isinstance(value, (int, float)) or str(value).endswith(" %")
+            end = min(right + 1, len(row)) if is_number else left + 1
+            row[left:end] = [value] * (end - left)
 
 
 def _first_line(error: BaseException) -> str:

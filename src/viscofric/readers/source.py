@@ -70,6 +70,7 @@ def _marked(data: bytes) -> bytes:
 
 
 COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*%?\s*")
+_GROUPED = re.compile(r"[+-]?\d{1,3}(?:[ \u00a0\u2009\u202f'’]\d{3})+(?:[.,]\d+)?\s*%?")
 _LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}\s*%?")
 #: Relative agreement of Hz and rad/s in one row, both printed with about two digits.
 PRINTED_FREQUENCY = 0.05
@@ -103,12 +104,23 @@ _SPELLINGS = {
     "dynes/cm²": "dyn/cm²",
     "dyne/cm²": "dyn/cm²",
     **{f"{force}/{length}²": f"kgf/{length}²" for force in ("kgf", "kp") for length in ("cm", "mm")},
+    "kp": "kgf",
 }
+#: Units of mass in which loads are given -> their weight, N.
+MASSES = {"kg": 9.80665, "g": 9.80665e-3}
 _PREFIXES = {"m": 1e-3, "k": 1e3, "K": 1e3, "M": 1e6}
 
 
 #: Unit of a strain amplitude -> factor to a fraction.
 STRAIN_FACTORS = {"%": 0.01, "1": 1.0, "-": 1.0, "m/m": 1.0, "mm/mm": 1.0, "µm/µm": 1.0}
+
+
+def plain_number(cell: str) -> str:
+    """Return a cell with a plain minus sign, and without blanks or apostrophes between thousands."""
+    text = cell.strip().replace("−", "-")
+    if text[:1] in ("–", "‒") and text[1:2].isdigit():
+        text = f"-{text[1:]}"
+    return re.sub("[^0-9.,%+-]", "", text) if _GROUPED.fullmatch(text) else text
 
 
 def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
@@ -132,6 +144,8 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
         text = _TEMPERATURE_UNITS.get(re.sub(r"[°º˚\s]", "", text.replace("℃", "C")).lower(), text)
     if unit == "rad":
         text = _ANGLES.get(text.strip().lower(), "an unknown unit")
+    if unit == "N" and text.strip() in MASSES:
+        return MASSES[text.strip()], 0.0
     plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())
     folded = plain.replace(" ", "").casefold()
     try:
@@ -140,6 +154,11 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
         if folded not in _SPELLINGS:
             raise
         return conversion(_SPELLINGS[folded], unit, name)
+
+
+def is_revolutions(unit: str) -> bool:
+    """Return whether a unit is that of revolutions per minute."""
+    return bool(re.fullmatch(r"rpm|(1|u|r|tr|rev|umdr?\.?)/min\.?|min(\^?-1|⁻¹)", unit.replace(" ", ""), re.IGNORECASE))
 
 
 def to_rad_per_second(unit: str, *, angular: bool) -> float | None:

@@ -13,8 +13,8 @@ import numpy as np
 from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.headings import CONSTANT, FREQUENCIES_OF_HEADINGS, NO_WORDS, Column, Vocabulary, option_of
-from viscofric.readers.source import decimal_comma, unit_conversion
+from viscofric.readers.headings import CONSTANT, NO_WORDS, OF_HEADINGS, Column, Vocabulary, option_of
+from viscofric.readers.source import MASSES, decimal_comma, is_revolutions, plain_number, unit_conversion
 
 #: Cells of one row, with its number in the file.
 NumberedRow = tuple[int, Sequence[str]]
@@ -47,11 +47,14 @@ MISSING = frozenset(
 
 #: A number as printed, with a decimal point or comma.
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+#: "1,234.5", "1.234.567": with marks between thousands.
+_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,]\d{3})+(?:[.,]\d+)?")
 #: Units of a ratio -> factor.
 _FRACTIONS = {"": 1.0, "1": 1.0, "-": 1.0, "–": 1.0, "N/N": 1.0, "%": 0.01}
 #: Labels of rows that summarise others: a mean, or how far the others scatter.
 _OF_SUMMARIES = re.compile(
     r"(?P<mean>mean( value)?|average|avg|median|mittelwert|mittel|moyenne|media|promedio)"
+    r"|(grand )?total|sum|summe|gesamt|somme|suma|min|max|minimum|maximum|range|spannweite"
     r"|std|std\.? ?dev|stdev|sd|standard deviation|standard error|sem|standardabweichung|stabw|écart[- ]type"
     r"|desviación (estándar|típica)|variance|varianz|cv|rsd"
 )
@@ -145,6 +148,9 @@ class Table:
             value = column.base ** float(plain) if column.base else factor * float(plain)
         except (ValueError, OverflowError):
             value = math.nan
+        if math.isnan(value) and _THOUSANDS.fullmatch(text):
+            problem = f"{text!r} in column {heading!r} has marks between thousands; write it without them."
+            raise DataFileError(self.path, problem, line, code="thousands-separators")
         if not math.isfinite(value) or "_" in plain:
             raise DataFileError(
                 self.path, f"{text!r} in column {heading!r} is not a finite number.", line, code="not-a-number"
@@ -153,15 +159,30 @@ class Table:
 
     def values(self, column: int, unit: str) -> Array:
         """Return a column, (n,), in an SI unit, or raise `DataFileError` for a wrong cell or unit."""
-        factor, offset = self.conversion(self.columns[column], unit)
+        one = self.columns[column]
+        if unit == "m/s" and one.unit and is_revolutions(one.unit):
+            return self._on_track(column)
+        factor, offset = self.conversion(one, unit)
         return factor * self.numbers(column) + offset
+
+    def _on_track(self, column: int) -> Array:
+        """Return the speeds, m/s, of a track whose radius a column holds, from revolutions per minute."""
+        one, radius = self.columns[column], self.place("track radius")
+        if radius is None or one.quantity not in ("speed", "disc speed"):
+            problem = f"column {one.heading!r} holds revolutions, whose speed depends on the radius; write it as "
+            add = f"'{one.name} (mm/s)', 2π · radius · revolutions/60"
+            if one.quantity in ("speed", "disc speed") and "track radius" in self.vocabulary.quantities:
+                add += ", or add a column 'track radius (mm)'"
+            raise self.refused("revolutions", f"{problem}{add}.")
+        factor, _ = unit_conversion("rpm", "rad/s", one.heading)
+        return factor * self.numbers(column) * self.values(radius, "m")
 
     def conversion(self, column: Column, unit: str, hint: Remedy | None = None) -> tuple[float, float]:
         """Return ``(factor, offset)`` from a column as printed to an SI unit."""
         # Without a unit in the heading, the error ends with the hint; a unit of the wrong kind is an error too.
         example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s", "rad": "deg"}.get(unit, unit)
         if not column.unit:
-            right = f"{' '.join(filter(None, (column.name, column.title)))} ({example})"
+            right = f"{' '.join(filter(None, (column.name, *(value for _, value in column.stated))))} ({example})"
             right = f"{column.heading} {example}" if CONSTANT.fullmatch(column.heading) else right
             problem = f"column {column.heading!r} has no unit; write it as {right!r}"
             raise self.refused("no-unit", problem, (hint or Remedy("")) + ".")
@@ -201,15 +222,33 @@ class Table:
 
     @property
     def heading_notes(self) -> list[Note]:
-        """Notes on logarithms whose base is assumed, on means, and on frequencies that stood in headings."""
+        """Notes on logarithms whose base is assumed, on means, on loads in kg, and on what stood in headings."""
         decadic = [repr(column.heading) for column in self.columns if column.assumed_decadic]
         means = [repr(column.heading) for column in self.columns if column.is_mean]
-        titled = any(column.heading == FREQUENCIES_OF_HEADINGS for column in self.columns)
-        said = (
+        alone = next((repr(column.heading) for column in self.columns if column.alone), "")
+        masses = [repr(one.heading) for one in self.columns if one.quantity and one.unit in MASSES]
+        above = [repr(column.heading) for column in self.columns if column.above]
+        headings = {column.heading for column in self.columns}
+        said: list[tuple[str, object, str]] = [
             ("decadic-logarithms", decadic, f"Read as decadic logarithms: {' and '.join(decadic)}."),
             ("means-read", means, f"Means were read as the values: {' and '.join(means)}."),
-            ("frequency-from-title", titled, "No column holds a frequency; frequencies were taken from the headings."),
-        )
+            (
+                "quantity-assumed",
+                alone,
+                f"Column {alone} and those beside it name no quantity; they were read as {self.vocabulary.alone}.",
+            ),
+            ("value-from-above", above, f"For all rows, as lines above the table state: {', '.join(above)}."),
+            (
+                "mass-as-load",
+                masses,
+                f"Masses in {' and '.join(masses)} were read as their weights at 9.80665 m/s²: 1 kg is 1 kgf.",
+            ),
+        ]
+        for what, name in OF_HEADINGS.items():
+            plural = name.partition(" ")[0]
+            text = f"No column holds a {what}; {plural} were taken from the headings"
+            other = ", or from the line above each table" if what == "temperature" else ""
+            said.append((f"{what}-from-title", name in headings, f"{text}{other}."))
         return [Note(code, text) for code, holds, text in said if holds]
 
     def unused(self, used: Collection[int | None]) -> list[Column]:
@@ -279,7 +318,7 @@ def make_table(
         if places and not any(cells[place].strip() for place in places):
             empty += 1
             continue
-        rows.append(tuple(cell.replace("−", "-") for cell in cells))
+        rows.append(tuple(map(plain_number, cells)))
         lines.append(number)
     if not rows:
         raise DataFileError(path, "there is a header, but no row of numbers under it.", code="no-points")
@@ -301,8 +340,6 @@ def make_table(
 def _insist_on_no_summaries(table: Table) -> None:
     """Refuse rows that a column of labels calls means or standard deviations, beside rows that it calls otherwise."""
     for place, column in enumerate(table.columns):
-        if column.quantity:
-            continue
         labels = [re.sub(r"\([^)]*\)|[.:]+$", "", row[place].strip().lower()).strip() for row in table.rows]
         found = [_OF_SUMMARIES.fullmatch(label) for label in labels]
         kinds = {match["mean"] is None if match else label for match, label in zip(found, labels, strict=True)}

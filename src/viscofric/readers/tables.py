@@ -22,21 +22,31 @@ from viscofric.readers.dma.names import (
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
 from viscofric.readers.headings import (
     CONSTANT,
-    FREQUENCIES_OF_HEADINGS,
+    OF_HEADINGS,
     Column,
     Vocabulary,
     heading,
     option_of,
     place_of,
 )
-from viscofric.readers.source import Source, decimal_comma, same_unit, unit_conversion
+from viscofric.readers.source import (
+    MASSES,
+    Source,
+    decimal_comma,
+    plain_number,
+    same_unit,
+    to_rad_per_second,
+    unit_conversion,
+)
 from viscofric.readers.table import MISSING, NumberedRow, Table, make_table, split_cells
 from viscofric.readers.workbook import is_workbook, sheets
 
 #: A line with its number in the file.
 NumberedLine = tuple[int, str]
-#: Places of the columns that all tables beside each other share, those of each, and the title of each.
-Sets = tuple[list[int], Sequence[Sequence[int]], list[tuple[str, ...]]]
+#: A number as text, and its unit.
+Value = tuple[str, str]
+#: Places of the columns that all tables beside each other share, those of each, the title of each, and what it states.
+Sets = tuple[list[int], Sequence[Sequence[int]], list[tuple[str, ...]], list[dict[str, Value]]]
 
 
 #: Characters of a text that may hold its header.
@@ -94,7 +104,7 @@ def no_header(source: Source, vocabulary: Vocabulary) -> DataFileError:
     words = vocabulary.with_columns(source.columns)
     if is_workbook(source):
         return _no_header_in_workbook(source, words)
-    candidates = [guessed(_split_lines(source, delimiter)) for delimiter in (*_DELIMITERS, _BLANKS)]
+    candidates = [guessed(_split_lines(source, delimiter), words) for delimiter in (*_DELIMITERS, _BLANKS)]
     return _not_understood(source.path, words, max(candidates, key=len))
 
 
@@ -129,13 +139,14 @@ def _of_workbook(source: Source, words: Vocabulary) -> dict[str, Table]:
 def _no_header_in_workbook(source: Source, words: Vocabulary) -> DataFileError:
     known = sheets(source)
     read = [source.sheet] if source.sheet in known else [*known]
-    headings = {name: guessed(numbered_rows(f"{source.path}, sheet {name!r}", known[name])) for name in read}
+    headings = {name: guessed(numbered_rows(f"{source.path}, sheet {name!r}", known[name]), words) for name in read}
     return _not_understood(source.path, words, max(headings.values(), key=len, default=[]), [*known])
 
 
 def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheets: Sequence[str] = ()) -> DataFileError:
     """Return the error of a header without the needed words, or without the headings that the user names."""
     columns = words.columns(headings)
+    _insist_on_clear_headings(path, columns, words)
     missing = words.missing(column.quantity for column in columns)
     values = words.header_values(columns, missing)
     shown = ", ".join(map(repr, headings)) or "none"
@@ -178,6 +189,7 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     body = list(rows[header + 1 :])
     if body and _is_row_of_units(columns, body[0][1]):
         columns = _with_units(path, columns, *body.pop(0))
+    _insist_on_clear_headings(path, columns, words)
     blocks, titles = _stacked(body, list(rows[header][1]), columns)
     titles = [list(rows[header - 1][1]) if header else [], *titles]
     kept = [row for block in blocks for row in block]
@@ -190,8 +202,9 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     if block is not None and (words.several == "refused" or (words.several == "rows" and between)):
         problem = f"holds {len(first_lines)} tables below each other, the second with its header above line "
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
-    if block is None and words.several == "titled":
-        table = _below_each_other(table)
+    if block is None and words.conditions:
+        table = _with_stated_above(_below_each_other(table))
+    _insist_on_words(table)
     table, given = table.with_constants(), words.constants.get("temperature")
     _insist_on_one_value(table)
     place = table.place("temperature") if given and table.rows else None
@@ -202,6 +215,110 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
             raise table.refused("value-not-needed", f"{TITLES_STATE}; leave out {given!r}.")
         insist_on_same_temperature(table, kelvin, repr(given))
     return table
+
+
+def _insist_on_clear_headings(path: str, columns: Sequence[Column], words: Vocabulary) -> None:
+    """Refuse headings of measured values with two values of one quantity, or with a number without a unit."""
+    held = {column.quantity for column in columns if not column.stated} | {*words.user_columns, *words.constants}
+    lacks = [what for what in words.conditions if not any(what in one for one in held)]
+    needed = {what for some in words.needed for what in some} - {*words.conditions}
+    if not lacks or not held.isdisjoint(needed):
+        return
+    for column in (column for column in columns if column.heading and not column.quantity):
+        rest, stated = words.stated_in(column.heading)
+        is_value = words.quantity(heading(rest).name) in needed or (bool(words.alone) and not rest.strip())
+        twice = [what for what in lacks if sum(one == what for one, _ in stated) > 1]
+        if not stated and words.is_doubtful(column.heading) and "temperature" in lacks:
+            problem = f"the dash in heading {column.heading!r} may be a minus sign; write the temperature in brackets."
+            raise _unclear(path, columns, words, "dash-or-minus", problem)
+        if is_value and twice:
+            both = " and ".join(value for what, value in stated if what == twice[0])
+            problem = f"heading {column.heading!r} states two values of {twice[0]}, {both}; keep the one that holds."
+            raise _unclear(path, columns, words, "two-values", problem)
+    bare = [column for column in columns if _is_bare(column, words, needed)]
+    if len(bare) > 1:
+        shown = " and ".join(repr(column.heading) for column in bare[:2])
+        units = {"load": "N", "temperature": "°C", "speed": "mm/s", "frequency": "Hz"}
+        forms = " or ".join(repr(f"{bare[0].name} {units[what]}") for what in lacks)
+        problem = f"the numbers of the headings {shown} have no unit; write {forms}, or name repetitions in a column."
+        raise _unclear(path, columns, words, "number-without-unit", problem)
+
+
+def _is_bare(column: Column, words: Vocabulary, needed: set[str]) -> bool:
+    """Return whether a heading is a number, or the name of a measured value with a number, without a unit."""
+    if column.quantity or words.has_value(column.heading):
+        return False
+    return (bool(words.alone) and is_number(column.heading)) or words.quantity(column.unnumbered) in needed
+
+
+def _unclear(path: str, columns: Sequence[Column], words: Vocabulary, code: str, problem: str) -> DataFileError:
+    return DataFileError(path, Note(code, problem, values=words.header_values(columns, ())))
+
+
+def _with_stated_above(table: Table) -> Table:
+    """Return the table with a column of each value that it needs and lacks and that one line above states alone."""
+    words = table.vocabulary
+    for what in words.conditions:
+        found = {} if what in words.constants else _stated_above(table, what)
+        place = next((n for n, one in enumerate(table.columns) if one.heading == OF_HEADINGS[what]), None)
+        if place is not None:
+            held = {_comparable(row[place], table.columns[place].unit) for row in table.rows}
+            for value, line in found.items():
+                if _comparable(*_value(value)) not in held:
+                    problem = f"{line!r} above the table contradicts the {what} in its headings; delete one of them."
+                    raise table.refused("values-contradict", problem)
+        elif (what,) in words.needed and not table.has(what) and len(found) == 1:
+            (value, line), *_ = found.items()
+            number, unit = _value(value)
+            table = table.with_column(Column(line, what, unit, what, above=True), [number] * len(table.rows))
+    return table
+
+
+def _stated_above(table: Table, what: str) -> dict[str, str]:
+    """Return the values of a quantity that lines or cells above a table state by its name and nothing else."""
+    found = {}
+    for line in _lines_and_cells(table.above):
+        label, _, number = line.rpartition(" ")
+        named = heading(label.rstrip(":= "))
+        text = f"{named.name} {number} {named.unit}" if named.unit and is_number(number) else line
+        rest, stated = table.vocabulary.stated_in(text)
+        if not rest.strip() and len(stated) == 1 and stated[0][0] == what and text[:1].isalpha():
+            found[stated[0][1]] = line
+    return found
+
+
+def _comparable(number: str, unit: str) -> tuple[float, str]:
+    """Return a value in an SI unit where there is one."""
+    for si in ("K", "rad/s", "N", "N/m", "m/s"):
+        if (value := _in_si(number, unit, si)) is not None:
+            return float(f"{value:.9g}"), si
+    return float(number.replace(",", ".")), unit
+
+
+#: What is measured besides a coefficient, in lines above a table.
+_NO_COEFFICIENT = re.compile(
+    r"force|kraft|kräfte|effort|fuerza|forza|torque|moment|wear|verschlei|usure", re.IGNORECASE
+)
+
+
+def _insist_on_words(table: Table) -> None:
+    """Refuse headings without words of what is measured where a line above states other values: ``Friction force``."""
+    alone = next((column for column in table.columns if column.alone), None)
+    if alone is None:
+        return
+    for cell in (cell.strip() for row in table.above for cell in row if cell.strip()):
+        one = table.vocabulary.column(cell.partition(":")[0])
+        unit = one.unit and not table.vocabulary.has_value(cell)
+        if not one.quantity and (unit or _NO_COEFFICIENT.search(cell)):
+            problem = f"heading {alone.heading!r} and those beside it name no quantity, and above them is {cell!r}; "
+            right = f"write the quantity into each heading, such as 'COF {alone.heading}' for coefficients of friction."
+            raise table.refused("quantity-unknown", problem + right)
+
+
+def _lines_and_cells(rows: Sequence[Sequence[str]]) -> set[str]:
+    """Return each row of cells as a line, and each cell by itself."""
+    filled = [list(dict.fromkeys(cell.strip() for cell in row if cell.strip())) for row in rows]
+    return {" ".join(cells) for cells in filled} | {cell for cells in filled for cell in cells}
 
 
 def _insist_on_one_value(table: Table) -> None:
@@ -232,19 +349,21 @@ def _si_value(stated: re.Match[str], unit: str) -> float | None:
 
 
 def _below_each_other(table: Table) -> Table:
-    """Return tables beside each other, such as E' and E'' of several temperatures, below each other."""
-    # Columns before them belong to all. They have the same columns, and each has a temperature of its own, in its
-    # headings or above them; else the table is returned as it is, and so it is where the user names columns, of which
-    # equal headings say too little.
-    found = _by_headings(table) if any(column.title for column in table.columns) else _by_line_above(table)
+    """Return columns beside each other, such as E' and E'' of several temperatures, below each other."""
+    # Columns before them belong to all. They have the same columns, and each has values of its own, in its headings or
+    # above them, which become columns; else the table is returned as it is, and so it is where the user names columns,
+    # of which equal headings say too little.
+    found = _by_headings(table) if any(column.stated for column in table.columns) else _by_line_above(table)
     if found is None:
         return table
-    shared, sets, titles = found
-    hertz = [frequency_of_title(title) for title in titles]
-    values = [*filter(None, hertz)] if any(hertz) else [temperature_of_title(title) for title in titles]
+    shared, sets, titles, stated = found
     columns = [[table.columns[place] for place in (*shared, *one)] for one in sets]
-    kinds = [[(c.quantity, c.unit, c.base, deformation_of(c.name)) for c in one] for one in columns]
-    if None in values or len(set(values)) < len(titles) or any(one != kinds[0] for one in kinds):
+    kinds = [[(c.quantity, c.unit, c.base, c.alone, deformation_of(c.name)) for c in one] for one in columns]
+    alike = all(set(values) == set(stated[0]) for values in stated) and all(one == kinds[0] for one in kinds)
+    if not alike:
+        return table
+    of_sets = {what: _in_one_unit([values[what] for values in stated]) for what in stated[0]}
+    if len(set(zip(*(cells for _, cells in of_sets.values()), strict=False))) < len(sets):
         return table
     kept = [
         (number, row, one)
@@ -253,31 +372,64 @@ def _below_each_other(table: Table) -> Table:
         if any(cells[place].strip().lower() not in MISSING for place in one)
     ]
     held = {place for one in (shared, *sets) for place in one}
-    unread = {one.heading: replace(one, quantity="") for one in table.unused(held)}.values()  # for notes on them
+    unread = {one.heading: replace(one, quantity="", stated=()) for one in table.unused(held)}.values()  # for notes
     below = replace(
         table,
-        columns=(*columns[0], *unread),
+        columns=(*(replace(one, stated=()) for one in columns[0]), *unread),
         rows=tuple(
             (*(table.rows[row][place] for place in (*shared, *one)), *[""] * len(unread)) for _, row, one in kept
         ),
         lines=table.lines[[row for _, row, _ in kept]],
     )
     numbers = np.array([number for number, _, _ in kept], dtype=np.int64)
-    if any(hertz):
-        column = Column(FREQUENCIES_OF_HEADINGS, "frequency", "Hz", "frequency")
-        return below.with_column(column, [repr(values[number - 1]) for number in numbers])
-    return replace(below, block=numbers, titles=tuple(titles))
+    for what, (unit, cells) in of_sets.items():
+        column = Column(OF_HEADINGS.get(what, what), what, unit, what)
+        below = below.with_column(column, [cells[number - 1] for number in numbers])
+    return replace(below, block=numbers, titles=tuple(titles)) if "temperature" in stated[0] else below
+
+
+def _in_one_unit(values: Sequence[Value]) -> tuple[str, list[str]]:
+    """Return the unit of values, and their numbers as text; an SI unit where theirs differ, no numbers without one."""
+    (_, first), *_ = values
+    if all(unit == first for _, unit in values):
+        return first, [f"{float(number.replace(',', '.')):.12g}" for number, _ in values]
+    for unit in ("K", "rad/s", "N", "N/m", "m/s"):
+        found = [one for number, its in values if (one := _in_si(number, its, unit)) is not None]
+        if len(found) == len(values):
+            return unit, [f"{one:.12g}" for one in found]
+    return "", []
+
+
+def _in_si(number: str, unit: str, si: str) -> float | None:
+    """Return a value in an SI unit, None if it is of another kind."""
+    plain = float(number.replace(",", "."))
+    if unit in MASSES:  # among weights
+        return None
+    if si == "rad/s":
+        factor = to_rad_per_second(unit, angular=False)
+        return None if factor is None else factor * plain
+    try:
+        factor, offset = unit_conversion(unit, si)
+        return factor * plain + offset
+    except InputError:
+        return None
 
 
 def _by_headings(table: Table) -> Sets | None:
-    """Return the columns of each temperature that headings state: ``E' 25 °C``, ``E'' 25 °C``, ``E' 40 °C`` ..."""
-    titles = dict.fromkeys(column.title for column in table.columns if column.title)
+    """Return the columns of each set of values that headings state: ``E' 25 °C``, ``E'' 25 °C``, ``E' 40 °C`` ..."""
+    each = dict.fromkeys(column.stated for column in table.columns if column.stated)
     sets = []
-    for title in titles:
-        places = [place for place, column in enumerate(table.columns) if column.title == title]
+    for stated in each:
+        places = [place for place, column in enumerate(table.columns) if column.stated == stated]
         sets.append(sorted(places, key=lambda place: table.columns[place].quantity))
-    shared = [place for place, column in enumerate(table.columns) if not column.title]
-    return shared, sets, [(title,) for title in titles]
+    shared = [place for place, column in enumerate(table.columns) if not column.stated]
+    values = [{what: _value(text) for what, text in stated} for stated in each]
+    return shared, sets, [(dict(stated).get("temperature", ""),) for stated in each], values
+
+
+def _value(text: str) -> Value:
+    number, _, unit = text.partition(" ")
+    return number, unit
 
 
 def _by_line_above(table: Table) -> Sets | None:
@@ -298,7 +450,21 @@ def _by_line_above(table: Table) -> Sets | None:
     above = [*table.above[-1], *[""] * len(table.columns)]
     label = next((cell for cell in above[: starts[0]] if cell.strip()), "")
     ends = [*starts[1:], len(above)]
-    return shared, sets, [_title(label, above[start:end]) for start, end in zip(starts, ends, strict=True)]
+    titles = [_title(label, above[start:end]) for start, end in zip(starts, ends, strict=True)]
+    stated = [_stated_by(title, table) for title in titles]
+    return (shared, sets, titles, stated) if all(stated) else None
+
+
+def _stated_by(title: tuple[str, ...], table: Table) -> dict[str, Value]:
+    """Return what the line above columns states of the quantities that no column holds."""
+    hertz, kelvin = frequency_of_title(title), temperature_of_title(title)
+    found = {what: _value(text) for what, text in table.vocabulary.stated_in(" ".join(title))[1]}
+    found = {what: value for what, value in found.items() if what not in ("temperature", "frequency")}
+    if hertz:
+        found["frequency"] = (repr(hertz), "Hz")
+    elif kelvin:
+        found["temperature"] = (repr(kelvin), "K")
+    return {what: value for what, value in found.items() if what in table.vocabulary.conditions and not table.has(what)}
 
 
 def _title(label: str, cells: Sequence[str]) -> tuple[str, ...]:
@@ -358,7 +524,7 @@ def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:
 
 def _stated(column: Column, cell: str) -> str:
     """Return the unit in a cell under a heading of the vocabulary, "" for a value or for nothing."""
-    unit = _unit(cell)
+    unit = "" if cell.strip() == column.heading else _unit(cell)
     return unit if column.quantity and unit.lower() not in MISSING and not _VALUE.match(unit) else ""
 
 
@@ -370,12 +536,15 @@ def _with_units(path: str, columns: Sequence[Column], row: int, cells: Sequence[
         if stated and column.unit and not column.given and not same_unit(_unit(column.unit), stated):
             problem = f"column {column.heading!r} has {column.unit!r} in its heading, but {stated!r} in the row below; "
             raise DataFileError(path, problem + "keep the unit that is right.", row, code="units-contradict")
-        found.append(column if _unit(column.unit) else replace(column, unit=_unit(cell)))
+        whole = _unit(column.unit) or cell.strip() == column.heading  # a merged cell
+        found.append(column if whole else replace(column, unit=_unit(cell)))
     return tuple(found)
 
 
 def _unit(cell: str) -> str:
-    plain = cell.strip().strip("[]()").strip()
+    plain = cell.strip()
+    if re.fullmatch(r"[(\[][^()\[\]]*[)\]]?|[^()\[\]]*[)\]]", plain):
+        plain = plain.strip("[]()").strip()
     return "" if plain in ("-", "–", "1") else plain
 
 
@@ -477,7 +646,7 @@ def _split(line: str, delimiter: str) -> list[str]:
 
 def numbered_rows(path: str, cells: Sequence[Sequence[float | str]]) -> list[NumberedRow]:
     """Return the rows of a sheet that are not blank as text, with their numbers."""
-    texts = ((cell, n) for n, row in enumerate(cells, start=1) for cell in row if isinstance(cell, str))
+    texts = ((plain_number(cell), n) for n, row in enumerate(cells, start=1) for cell in row if isinstance(cell, str))
     comma = decimal_comma(path, texts)
     rows: list[NumberedRow] = []
     for number, row in enumerate(cells, start=1):

@@ -174,6 +174,7 @@ DMA = Vocabulary(
     ),
     logarithms=True,
     means=frozenset({"temperature", "frequency", "angular frequency", *MODULI, "tan delta", "phase angle"}),
+    conditions=("temperature", "frequency"),
     several="titled",
 )
 
@@ -285,6 +286,7 @@ def frequency_of_title(cells: Sequence[str]) -> float | None:
 
 def _as_one_cell(filled: list[str]) -> list[str]:
     """Return ``25 °C`` for the cells ``Temperature (°C)`` and ``25``, other cells as they are."""
+    filled = list(dict.fromkeys(filled))  # merged cells
     if len(filled) == 2 and is_number(filled[1]):
         name = heading(filled[0].rstrip(":= "))
         if DMA.quantity(name.name) == "temperature" and name.unit:

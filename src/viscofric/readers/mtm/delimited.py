@@ -73,6 +73,7 @@ TRACTION = Vocabulary(
         ("traction coefficient", ""),
         ("replicate", ""),
     ),
+    conditions=("temperature", "load"),
     several="rows",
 )
 #: Quantity -> SI unit; cells may be empty.
@@ -93,7 +94,7 @@ def read(source: Source) -> TractionReadings:
             problem += "; a pin or ball at rest has the speed 0"
         raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, lacking), lacking)
     load, temperature = (_values(table, *what) for what in (("load", "N", "zero"), ("temperature", "K", _COLDEST)))
-    notes: list[Note] = []
+    notes: list[Note] = [*table.heading_notes]
     disc, ball, of_speeds = speeds(table, notes)
     traction, of_force = force(table, load, disc - ball, notes)
     notes += _unused(table, {"load", "temperature", of_force, *of_speeds, *OPTIONAL, "replicate", "step"})

@@ -20,7 +20,7 @@ from viscofric.readers.dma.names import (
     temperature_in_name,
     temperatures_of_titles,
 )
-from viscofric.readers.headings import Vocabulary
+from viscofric.readers.headings import OF_HEADINGS, Vocabulary
 from viscofric.readers.source import STRAIN_FACTORS, Source, unit_conversion
 from viscofric.readers.table import Table
 from viscofric.step_tests import StepKind
@@ -72,6 +72,7 @@ STEPS = Vocabulary(
         ("creep compliance", "1/MPa"),
         ("relaxation modulus", "MPa"),
     ),
+    conditions=("temperature",),
     several="titled",
 )
 
@@ -180,6 +181,8 @@ def temperature_of(table: Table, source: Source, name: str, count: int, notes: l
         if source.temperature is not None:
             problem = f"column {table.columns[place].heading!r} contains the temperatures"
             raise not_needed(table.path, "temperature", "temperature-not-needed", problem)
+        if table.columns[place].heading == OF_HEADINGS["temperature"]:
+            notes += joined_tables(table)
         factor, offset = table.conversion(table.columns[place], "K")
         return factor * table.numbers_or_missing(place) + offset
     titled = temperatures_of_titles(table, source)

@@ -218,7 +218,7 @@ def _table_of_step(path: str, step: StepText) -> Table | None:
 
 def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: str) -> _Part:
     """Return the columns of one table in SI units."""
-    notes: list[str] = []
+    notes: list[str] = [*table.heading_notes]
     time = time_of(table, notes)
     known = kind or kind_of(table, name)
     response, heading, lacks_unit = response_of(table, source, known, notes)
