@@ -242,6 +242,37 @@ def test_headings_that_may_be_read_in_two_ways_are_refused(tmp_path: Path, heade
         vf.read_friction_curves(path, columns={"temperature": "= 20 degC"})
 
 
+def test_marks_of_thousands_in_headings_are_refused(tmp_path: Path) -> None:
+    path = saved(tmp_path, [[SPEED, "COF 1,000 N", "COF 2,500 N"], [1.0, 0.1, 0.2]])
+    with refused("ambiguous-decimals", None, "'1,000'"):
+        vf.read_friction_curves(path, columns={"temperature": "= 20 degC"})
+
+
+@pytest.mark.parametrize("form", ["semicolons", "workbook"])
+def test_tables_of_several_temperatures_below_each_other_may_be_wide(tmp_path: Path, form: str) -> None:
+    header = ["speed (mm/s)", *(f"COF {F:g} N" for F in LOADS)]
+    rows: list[list[object]] = []
+    for T in CELSIUS:
+        rows += [[f"T = {T:g} °C"], header, *([v, *(coefficient(v, T, F) for F in LOADS)] for v in SPEEDS)]
+    assert_read(saved(tmp_path, rows, form), everywhere())
+
+
+def test_lines_between_rows_do_not_state_other_conditions_than_the_headings(tmp_path: Path) -> None:
+    header, row = ["specimen", "speed (mm/s)", "load (N)", "COF"], ["A", 1.0, 5.0, 0.1]
+    with refused("values-contradict", 4, "'T = 40 °C'"):
+        path = saved(tmp_path, [["T = 20 °C", "", "", ""], header, row, ["T = 40 °C", "", "", ""], row])
+        vf.read_friction_curves(path)
+    with refused("values-contradict", 3, "'Load: 10 N'"):
+        path = saved(tmp_path, [["specimen", "speed (mm/s)", "COF 5 N"], row[:3], ["Load: 10 N", "", ""], row[:3]])
+        vf.read_friction_curves(path, columns={"temperature": "= 20 degC"})
+
+
+def test_columns_of_two_compounds_beside_each_other_are_not_joined(tmp_path: Path) -> None:
+    rows = [["", "NR", "SBR"], ["speed (mm/s)", "COF 5 N", "COF 10 N"], [1.0, 0.1, 0.2]]
+    with refused("several-tables"):
+        vf.read_friction_curves(saved(tmp_path, rows), columns={"temperature": "= 20 degC"})
+
+
 def test_numbers_too_large_for_friction_are_not_read_under_loads_alone(tmp_path: Path) -> None:
     path = saved(tmp_path, [[SPEED, "5 N", "10 N"], [1.0, 1.5, 3.1]])  # perhaps forces
     with refused("quantity-unknown"):

@@ -228,8 +228,8 @@ def _with_temperatures(table: Table) -> tuple[Table, list[str]]:
     if any(column.heading == OF_HEADINGS["temperature"] for column in table.columns):
         return table, [*joined_tables(table)]
     if joined_tables(table):
-        problem = "holds several tables below each other, which may differ in more than temperature; give each a file "
-        raise DataFileError(table.path, problem + "of its own.", code="several-tables")
+        problem = "holds several tables below or beside each other, which may differ in more than temperature; "
+        raise DataFileError(table.path, problem + "give each a file of its own.", code="several-tables")
     return table, []
 
 

@@ -71,7 +71,7 @@ def _marked(data: bytes) -> bytes:
 
 COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*%?\s*")
 _GROUPED = re.compile(r"[+-]?\d{1,3}(?:[ \u00a0\u2009\u202f'’]\d{3})+(?:[.,]\d+)?\s*%?")
-_LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}\s*%?")
+LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}\s*%?")
 #: Relative agreement of Hz and rad/s in one row, both printed with about two digits.
 PRINTED_FREQUENCY = 0.05
 
@@ -117,7 +117,10 @@ STRAIN_FACTORS = {"%": 0.01, "1": 1.0, "-": 1.0, "m/m": 1.0, "mm/mm": 1.0, "µm/
 
 def plain_number(cell: str) -> str:
     """Return a cell with a plain minus sign, and without blanks or apostrophes between thousands."""
-    text = cell.strip().replace("−", "-")
+    text = cell.strip()
+    if text.isascii() and " " not in text and "'" not in text:
+        return text
+    text = text.replace("−", "-")
     if text[:1] in ("–", "‒") and text[1:2].isdigit():
         text = f"-{text[1:]}"
     return re.sub("[^0-9.,%+-]", "", text) if _GROUPED.fullmatch(text) else text
@@ -126,7 +129,7 @@ def plain_number(cell: str) -> str:
 def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
     """Return whether decimals have a comma, from the numbers of a file as printed, each with its row."""
     commas = [(cell.strip(), row) for cell, row in cells if COMMA_NUMBER.fullmatch(cell)]
-    if commas and all(_LIKE_THOUSANDS.fullmatch(cell) for cell, _ in commas):
+    if commas and all(LIKE_THOUSANDS.fullmatch(cell) for cell, _ in commas):
         cell, row = commas[0]
         as_decimal, as_thousands = cell.replace(",", "."), cell.replace(",", "")
         problem = f"{cell!r} may be {as_decimal} or {as_thousands}, since every comma precedes three digits; "

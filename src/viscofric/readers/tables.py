@@ -30,6 +30,7 @@ from viscofric.readers.headings import (
     place_of,
 )
 from viscofric.readers.source import (
+    LIKE_THOUSANDS,
     MASSES,
     Source,
     decimal_comma,
@@ -202,8 +203,11 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     if block is not None and (words.several == "refused" or (words.several == "rows" and between)):
         problem = f"holds {len(first_lines)} tables below each other, the second with its header above line "
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
-    if block is None and words.conditions:
-        table = _with_stated_above(_below_each_other(table))
+    if words.conditions and (block is None or any(column.stated for column in columns)):
+        table = _below_each_other(table)
+        table = _with_stated_above(table) if block is None else table
+        read = {*table.lines.tolist()}
+        _insist_on_nothing_between(table, [row for row in kept if row[0] not in read])
     _insist_on_words(table)
     table, given = table.with_constants(), words.constants.get("temperature")
     _insist_on_one_value(table)
@@ -222,6 +226,12 @@ def _insist_on_clear_headings(path: str, columns: Sequence[Column], words: Vocab
     held = {column.quantity for column in columns if not column.stated} | {*words.user_columns, *words.constants}
     lacks = [what for what in words.conditions if not any(what in one for one in held)]
     needed = {what for some in words.needed for what in some} - {*words.conditions}
+    for column in columns:
+        number = next((_value(text)[0] for _, text in column.stated if LIKE_THOUSANDS.fullmatch(_value(text)[0])), "")
+        if number:
+            problem = f"{number!r} in heading {column.heading!r} may be {number.replace(',', '.')} or "
+            right = f"{number.replace(',', '')}; write it with a point, or without a mark for thousands."
+            raise _unclear(path, columns, words, "ambiguous-decimals", problem + right)
     if not lacks or not held.isdisjoint(needed):
         return
     for column in (column for column in columns if column.heading and not column.quantity):
@@ -274,10 +284,23 @@ def _with_stated_above(table: Table) -> Table:
     return table
 
 
-def _stated_above(table: Table, what: str) -> dict[str, str]:
+def _insist_on_nothing_between(table: Table, others: Sequence[NumberedRow]) -> None:
+    """Refuse rows without numbers that state values anew which all rows have by the headings or the lines above."""
+    for what in table.vocabulary.conditions:
+        if any(one.above or one.heading == OF_HEADINGS[what] for one in table.columns if one.quantity == what):
+            for number, cells in others:
+                for line in _stated_above(table, what, [cells]).values():
+                    problem = (
+                        f"{line!r} between the rows states another {what}; repeat the headings below it, or write "
+                    )
+                    problem += f"the {what} into a column."
+                    raise DataFileError(table.path, problem, number, code="values-contradict")
+
+
+def _stated_above(table: Table, what: str, rows: Sequence[Sequence[str]] | None = None) -> dict[str, str]:
     """Return the values of a quantity that lines or cells above a table state by its name and nothing else."""
     found = {}
-    for line in _lines_and_cells(table.above):
+    for line in _lines_and_cells(table.above if rows is None else rows):
         label, _, number = line.rpartition(" ")
         named = heading(label.rstrip(":= "))
         text = f"{named.name} {number} {named.unit}" if named.unit and is_number(number) else line
@@ -382,10 +405,14 @@ def _below_each_other(table: Table) -> Table:
         lines=table.lines[[row for _, row, _ in kept]],
     )
     numbers = np.array([number for number, _, _ in kept], dtype=np.int64)
+    if table.block is not None:  # tables below each other, each of such columns
+        below = replace(below, block=table.block[[row for _, row, _ in kept]])
+    elif "frequency" not in of_sets:
+        below = replace(below, block=numbers, titles=tuple(titles))
     for what, (unit, cells) in of_sets.items():
         column = Column(OF_HEADINGS.get(what, what), what, unit, what)
         below = below.with_column(column, [cells[number - 1] for number in numbers])
-    return replace(below, block=numbers, titles=tuple(titles)) if "temperature" in stated[0] else below
+    return below
 
 
 def _in_one_unit(values: Sequence[Value]) -> tuple[str, list[str]]:
@@ -424,7 +451,18 @@ def _by_headings(table: Table) -> Sets | None:
         sets.append(sorted(places, key=lambda place: table.columns[place].quantity))
     shared = [place for place, column in enumerate(table.columns) if not column.stated]
     values = [{what: _value(text) for what, text in stated} for stated in each]
-    return shared, sets, [(dict(stated).get("temperature", ""),) for stated in each], values
+    above = [*(table.above[-1] if table.above else ()), *[""] * len(table.columns)]
+    words = [[above[place] for place in one if _says_more(above[place], table)] for one in sets]
+    titles = [
+        (dict(stated).get("temperature", ""), *dict.fromkeys(one)) for stated, one in zip(each, words, strict=True)
+    ]
+    return shared, sets, titles, values
+
+
+def _says_more(cell: str, table: Table) -> bool:
+    """Return whether a cell above columns holds other words than the conditions and quantities of their headings."""
+    rest = table.vocabulary.stated_in(cell)[0]
+    return bool(rest.strip()) and not is_number(cell) and not table.vocabulary.quantity_of_rest(rest)
 
 
 def _value(text: str) -> Value:
