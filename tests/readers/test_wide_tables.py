@@ -273,6 +273,12 @@ def test_columns_of_two_compounds_beside_each_other_are_not_joined(tmp_path: Pat
         vf.read_friction_curves(saved(tmp_path, rows), columns={"temperature": "= 20 degC"})
 
 
+def test_specimens_with_names_like_quantities_lose_no_row(tmp_path: Path) -> None:
+    rows = [["T", 1.0, 5.0, 0.1], ["T", 2.0, 5.0, 0.2], ["T", 3.0, 5.0, 0.3]]
+    columns = {"speed": "#2 (mm/s)", "load": "#3 (N)", "viscoelastic_friction": "#4", "temperature": "= 20 degC"}
+    assert len(vf.read_friction_curves(saved(tmp_path, rows), columns=columns)) == 3
+
+
 def test_numbers_too_large_for_friction_are_not_read_under_loads_alone(tmp_path: Path) -> None:
     path = saved(tmp_path, [[SPEED, "5 N", "10 N"], [1.0, 1.5, 3.1]])  # perhaps forces
     with refused("quantity-unknown"):

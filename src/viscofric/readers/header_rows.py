@@ -163,15 +163,23 @@ def _first_numbers(rows: Sequence[NumberedRow], words: Vocabulary) -> int | None
     """Return the place of the first row of numbers, at least two and most of its cells."""
     for place, (_, cells) in enumerate(rows[: DEEPEST_HEADER + 3]):
         count = sum(map(is_number, cells))
-        if count > 1 and 2 * count >= len([cell for cell in cells if cell.strip()]) and not _is_label(cells, words):
+        if (
+            count > 1
+            and 2 * count >= len([cell for cell in cells if cell.strip()])
+            and not _is_label(rows, place, words)
+        ):
             return place
     return None
 
 
-def _is_label(cells: Sequence[str], words: Vocabulary) -> bool:
-    """Return whether a row of numbers begins with the name of a quantity: values of it, or of what is below them."""
-    label = next((cell for cell in cells if cell.strip()), "")
-    return any(words.column(part).quantity for part in label.split("\\"))
+def _is_label(rows: Sequence[NumberedRow], row: int, words: Vocabulary) -> bool:
+    """Return whether a row begins with the name of a quantity, above numbers: values of it, or of what is below."""
+    cells = rows[row][1]
+    place, label = next(((place, cell) for place, cell in enumerate(cells) if cell.strip()), (0, ""))
+    if not any(words.column(part).quantity for part in label.split("\\")):
+        return False
+    below = next((cells for _, cells in rows[row + 1 : row + 4] if any(map(is_number, cells))), [])
+    return len(below) > place and is_number(below[place])
 
 
 def _top_of_header(rows: Sequence[NumberedRow], first: int) -> int | None:
@@ -192,7 +200,7 @@ def guessed(rows: Sequence[NumberedRow], words: Vocabulary) -> list[str]:
     if first is None:
         return []
     top = _top_of_header(rows, first)
-    if top is None and first and _is_label(rows[first - 1][1], words):
+    if top is None and first and _is_label(rows, first - 1, words):
         top = first - 1
     if top is None:
         return [f"#{place}" for place in range(1, len(rows[first][1]) + 1)]
