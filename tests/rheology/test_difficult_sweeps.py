@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import viscofric as vf
 from refusals import refused
-from rheology.planted import EXAMPLE_PROGRAMME, planted_sweeps
+from rheology.planted import EXAMPLE_PROGRAMME, planted_sweeps, synthetic_soft_rubber
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
-from viscofric.notes import codes
+from viscofric.notes import codes, note_of
 from viscofric.rheology.spectra.modulus_misfit import STIFFEST
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.overlap import LogSweep, overlap_quality, parted
@@ -234,3 +236,34 @@ def test_every_result_is_shown_in_a_few_lines():
     ]
     assert all("array" not in text and len(text) < 400 for text in shown), shown
     assert shown[0].startswith("Superposition\n  isotherms       26\n  temperature     26 from −20 to 200 °C")
+
+
+@pytest.mark.parametrize(("off", "code"), [(0.0, None), (3.0, "temperature-off"), (-5.0, "temperature-off")])
+def test_a_wrong_temperature_of_one_isotherm_is_named(off: float, code: str | None) -> None:
+    """α at 40 °C had an error of 0.005 decades while 3 K move it by 0.2: nothing said so."""
+    celsius = np.arange(-10.0, 81.0, 10.0)
+    for seed in range(3):
+        true = planted_sweeps(seed, material=synthetic_soft_rubber(), celsius=celsius + off * (celsius == 40.0)).sweeps
+        labelled = [replace(one, temperature=at + 273.15) for one, at in zip(true.isotherms, celsius, strict=True)]
+        fit = vf.superpose(replace(true, isotherms=tuple(labelled)), "30 degC")
+        noted = [one for one in map(note_of, fit.notes) if one.code in ("temperature-off", "factors-scatter")]
+        assert [one.code for one in noted] == ([] if code is None else [code])
+        for one in noted:
+            assert one.values["temperature"] == pytest.approx(313.15)
+            # An error of 0.005 decades, at a slope of 0.06 decades per kelvin, and that of the course of the others.
+            assert one.values["kelvin"] == pytest.approx(off, abs=0.3)
+
+
+def test_errors_of_all_temperatures_are_noted() -> None:
+    """Errors of 0.5 K: 95 % intervals of α held a third, without a word."""
+    celsius, found = np.arange(-10.0, 81.0, 10.0), []
+    for seed in range(4):
+        wrong = 0.5 * np.random.default_rng([seed, 2]).standard_normal(len(celsius))
+        true = planted_sweeps(seed, material=synthetic_soft_rubber(), celsius=celsius + wrong).sweeps
+        labelled = [replace(one, temperature=at + 273.15) for one, at in zip(true.isotherms, celsius, strict=True)]
+        fit = vf.superpose(replace(true, isotherms=tuple(labelled)), "30 degC")
+        found += [one for one in map(note_of, fit.notes) if one.code in ("temperature-off", "factors-scatter")]
+    assert len(found) >= 3
+    kelvin = [one.values["kelvin"] for one in found if one.code == "factors-scatter"]
+    # Each from some six degrees of freedom, and slopes change by a factor of two over the temperatures.
+    assert np.median(kelvin) == pytest.approx(0.5, rel=0.6)

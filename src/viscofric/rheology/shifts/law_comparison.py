@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
@@ -17,6 +18,7 @@ from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
 from viscofric.rheology.shifts.law_fitting import FactorTable
 from viscofric.rheology.shifts.laws import WLF, InversePolynomial, ParametricLaw
 from viscofric.showing import Plotted, Rows
+from viscofric.units import shown_celsius
 
 #: A kind of law: of shift factors, or of shear stress.
 Law = TypeVar("Law")
@@ -33,6 +35,8 @@ LARGEST_SCATTER = 0.1  # decades
 BEYOND = 10.0  # K
 #: AICs closer than this are equal.
 ROUNDING = 1e-3
+#: Probability of a note on factors off their course by chance, and the degrees of freedom that this needs.
+BY_CHANCE, FEWEST_FREE = 0.01, 2
 #: Laws that are compared, those of physics with the fewest constants first.
 _COMPARED = ("arrhenius", "wlf", "wlf+arrhenius", "polynomial")
 
@@ -161,6 +165,64 @@ def compare_laws(table: FactorTable) -> LawComparison[ParametricLaw]:
     by_kind = {row.kind: row for row in rows}
     every = sorted([*rows, _vft(by_kind["wlf"])], key=lambda row: row.aic)
     return LawComparison(tuple(every), by_kind[kind], tuple(_notes(by_kind[kind], rows, table)))
+
+
+def course_notes(temperatures: Array, values: Array, covariance: Array) -> tuple[Note, ...]:
+    """Return a note if one of n factors lies off the course of the others, or if all scatter about any course."""
+    # Courses are polynomials in 1/T. One temperature is off if the others without it scatter by so much less that
+    # chance explains it in one table of a hundred (Student's t). At an end it may be a change of law.
+    from scipy.special import gammaincc, stdtr
+
+    found, courses = [], []
+    for degree in range(2, max(LARGEST_DEGREE, len(values) // 3) + 1):
+        freedom = len(values) - 2 - degree
+        if freedom < FEWEST_FREE:
+            break
+        whole, course = _course(temperatures, values, covariance, degree)
+        scatter = float(np.sqrt(np.sum((values - course(temperatures)) ** 2) / (freedom + 1)))
+        courses.append((float(gammaincc(0.5 * (freedom + 1), 0.5 * whole)), -scatter))
+        for place in range(1, len(values) - 1):
+            others = np.arange(len(values)) != place
+            rest, course = _course(temperatures[others], values[others], covariance[np.ix_(others, others)], degree)
+            better = np.sqrt(max(whole - rest, 0.0) / max(1.0, rest / freedom))
+            found.append((float(stdtr(freedom, -better)), place, course))
+    likely, scatter = max(courses, default=(1.0, 0.0))
+    if likely >= BY_CHANCE:
+        return ()
+    chance, place, course = min(found, key=lambda one: one[0])
+    kelvin = float(temperatures[place])
+    slope = float(np.diff(course(kelvin + np.array([-0.5, 0.5])))[0])
+    if 2.0 * len(found) * chance < BY_CHANCE:
+        away = float(values[place] - course(np.array([kelvin]))[0])
+        text = (
+            f"log10 α at {shown_celsius(kelvin)} °C lies {abs(away):.2g} decades off the course of the others, as if "
+            f"its temperature were {abs(away / slope):.2g} K {'lower' if away * slope < 0.0 else 'higher'}: errors and "
+            "bands do not include that; check this temperature, or leave it out."
+        )
+        return (Note("temperature-off", text, values={"temperature": kelvin, "decades": away, "kelvin": away / slope}),)
+    decades, kelvin = abs(scatter), abs(scatter / slope)
+    text = (
+        f"log10 α scatters by {decades:.2g} decades about any smooth course, more than its errors explain, as errors "
+        f"of {kelvin:.2g} K in the temperatures or an abrupt change of law would make it: errors and bands do not "
+        "include that."
+    )
+    return (Note("factors-scatter", text, values={"decades": decades, "kelvin": kelvin}),)
+
+
+def _course(
+    temperatures: Array, values: Array, covariance: Array, degree: int
+) -> tuple[float, Callable[[Array], Array]]:
+    """Return χ² of values about a polynomial in 1/T, and the polynomial."""
+    middle = float(temperatures.mean())
+    table = FactorTable.of(temperatures, values, covariance, middle)
+    whiten = table.whitening(law_fitting.SMALLEST_MISFIT**2)
+
+    def powers(kelvin: Array) -> Array:
+        return np.stack([(1e3 / kelvin - 1e3 / middle) ** power for power in range(1, degree + 1)], axis=-1)
+
+    found = law_fitting.linear(whiten(powers(temperatures)), whiten(values))
+    level = float(np.mean(values - powers(temperatures) @ found.parameters))
+    return found.chi2, lambda kelvin: np.asarray(level + powers(kelvin) @ found.parameters)
 
 
 def weighted(rows: Iterable[LawRow[Law]], compared: Iterable[LawRow[Law]]) -> list[LawRow[Law]]:

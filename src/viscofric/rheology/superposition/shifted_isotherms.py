@@ -12,6 +12,7 @@ from viscofric.arrays import Array
 from viscofric.data import Isotherm
 from viscofric.errors import InputError
 from viscofric.notes import Note
+from viscofric.rheology.shifts.law_comparison import course_notes
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.shift_law import NOMINAL
@@ -198,6 +199,8 @@ def shifted_isotherms(
         places = unidentified_places(found.values, found.covariance)
         unidentified = steps_at(temperatures, places)
         notes += unidentified_steps(unidentified, max(errors_of_steps(found.covariance)[places], default=0.0))
+        if not fixed:
+            notes += course_notes(temperatures, found.values, found.covariance)
     if free:
         known = VerticalShiftFactors(temperatures, found.vertical, kelvin, found.vertical_covariance)
         joined = joined.less(known.log10_values)

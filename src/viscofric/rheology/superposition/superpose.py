@@ -131,7 +131,8 @@ def superpose(
     it is followed far from the best fit, be it over a plateau or to a second minimum (`step_profiles`).  Steps that
     are not fixed are in `unidentified`, and a note names them.  With isotherms off by 1 to 2 %, 95 % intervals of α
     hold some 95 % of planted factors (`benchmarks/rheology`).  An error of temperature is an error of α itself, and is
-    not in them.  With a free vertical shift, offsets that E' and E'' share are part of b.
+    not in them; a note names a temperature that is off the course of the others, or says that all scatter about it.
+    With a free vertical shift, offsets that E' and E'' share are part of b.
 
     Where isotherms drift to one side (`SuperpositionCheck.drift`), a vertical shift may be missing, or none describes
     them.  Then half of the squared difference to the shifts beside a free one counts as variance of α; where they drift
