@@ -136,7 +136,12 @@ def eyring():
 
 
 def stress_fit():
-    return {"fitted_speeds": (0.01, 1.0), "fitted_temperatures": (290.0, 310.0), "fitted_pressures": (1e5, 1e6)}
+    return {
+        "fitted_speeds": (0.01, 1.0),
+        "fitted_temperatures": (290.0, 310.0),
+        "fitted_pressures": (1e5, 1e6),
+        "notes": ("a note",),
+    }
 
 
 @functools.cache

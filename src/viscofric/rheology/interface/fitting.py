@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import InputError, check_choice
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.interface.laws import (
     ConstantShearStress,
@@ -244,6 +244,7 @@ def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference:
         found, _, scatter = solved(family, table.levelled(student * level), otherwise)
     aic = criterion_of(family, table.levelled(level), found.parameters) + (2.0 if level > 0.0 else 0.0)
     law = family.law(found.parameters, _wider(found, scatter, freedom))
+    law = replace(law, notes=tuple(_misfit(level, scatter)))
     return FittedStress(law, chi2, scatter, level, aic, family.size)
 
 
@@ -367,13 +368,20 @@ def _notes(chosen: LawRow[InterfaceLaw], rows: list[LawRow[InterfaceLaw]], table
         first = "no other law can be fitted"
     yield Note("law-chosen", f"The law of shear stress is: {chosen.title}; {first}.")
     yield from (_rivalry(chosen, row, table) for row in others if row.aic <= chosen.aic + EXCLUDED)
-    if chosen.level > 0.0:
-        text = f"Temperatures differ in level from the law by {100.0 * (10.0**chosen.level - 1.0):.2g} % more than "
+    assert chosen.law is not None
+    yield from map(note_of, chosen.law.notes)
+
+
+def _misfit(level: float, scatter: float) -> Iterator[Note]:
+    """Yield by how much points miss a law beyond their stated errors."""
+    if level > 0.0:
+        text = f"Temperatures differ in level from the law by {100.0 * (10.0**level - 1.0):.2g} % more than "
         text += "stated (level_error); the errors of the law include it."
-        yield Note("level-scatter", text, values={"level": chosen.level})
-    if chosen.scatter > 0.0:
-        text = f"Shear stress scatters about the law by {100.0 * (10.0**chosen.scatter - 1.0):.2g} % more than its "
-        yield Note("law-scatter", text + "stated errors explain.", values={"scatter": chosen.scatter})
+        yield Note("level-scatter", text, values={"level": level})
+    if scatter > 0.0:
+        text = f"Shear stress scatters about the law by {100.0 * (10.0**scatter - 1.0):.2g} % more than its stated "
+        text += "errors explain; the errors of the law include it."
+        yield Note("law-scatter", text, values={"scatter": scatter})
 
 
 def _rivalry(chosen: LawRow[InterfaceLaw], rival: LawRow[InterfaceLaw], table: StressTable) -> Note:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from viscofric.arguments import LARGEST, insist_on, numbers
+from viscofric.arguments import LARGEST, insist_on, numbers, sentences
 from viscofric.arrays import Array, Mask
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, brief
@@ -44,6 +44,8 @@ class InterfaceLaw(Shown, ABC):
         Temperatures of the fit, K.
     fitted_pressures : (lowest, highest), optional
         Mean contact pressures of the fit, Pa, on which no law depends.
+    notes : tuple of str
+        How the points miss a fitted law by more than their stated errors, which widens its covariance.
     """
 
     shift: ShiftLaw | None = None
@@ -51,6 +53,7 @@ class InterfaceLaw(Shown, ABC):
     fitted_speeds: tuple[float, float] | None = field(default=None, compare=False, repr=False)
     fitted_temperatures: tuple[float, float] | None = field(default=None, compare=False, repr=False)
     fitted_pressures: tuple[float, float] | None = field(default=None, compare=False, repr=False)
+    notes: tuple[str, ...] = field(default=(), compare=False, repr=False)
 
     #: As `ShearStress.law` calls it, and as it is called in a sentence.
     kind: ClassVar[str]
@@ -74,6 +77,7 @@ class InterfaceLaw(Shown, ABC):
             own = len(self._adjusted)
             size = own if given.shape == (own, own) else len(self.parameters)
             object.__setattr__(self, "covariance", checked_covariance(self.covariance, size, "a law of shear stress"))
+        object.__setattr__(self, "notes", sentences(self.notes, "notes"))
         for name, unit in (("fitted_speeds", "m/s"), ("fitted_temperatures", "K"), ("fitted_pressures", "Pa")):
             if (ends := getattr(self, name)) is not None:
                 low_high = to_si_array(ends, unit, name)
@@ -90,6 +94,7 @@ class InterfaceLaw(Shown, ABC):
             ("shift", None if self.shift is None else str(self.shift)),
             ("fitted speeds", self.fitted_speeds, "m/s"),
             ("fitted temperatures", self.fitted_temperatures, "°C"),
+            ("notes", self.notes),
         )
 
     def __str__(self) -> str:

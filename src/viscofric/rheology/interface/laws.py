@@ -25,7 +25,7 @@ class ConstantShearStress(InterfaceLaw):
     ----------
     stress : float, str or pint.Quantity
         Pa.
-    shift, covariance, fitted_speeds, fitted_temperatures, fitted_pressures
+    shift, covariance, fitted_speeds, fitted_temperatures, fitted_pressures, notes
         See `InterfaceLaw`; a shift has no effect.
 
     Examples
@@ -65,7 +65,7 @@ class PowerShearStress(InterfaceLaw):
         n.
     speed : float, str or pint.Quantity
         v₀, m/s; chosen, not fitted.
-    shift, covariance, fitted_speeds, fitted_temperatures, fitted_pressures
+    shift, covariance, fitted_speeds, fitted_temperatures, fitted_pressures, notes
         See `InterfaceLaw`.
 
     Examples
@@ -108,7 +108,7 @@ class EyringShearStress(InterfaceLaw):
         φ, m³.
     speed : float, str or pint.Quantity
         v₀, up to which the stress is proportional to the speed, m/s at the reference of the shift.
-    shift, covariance, fitted_speeds, fitted_temperatures, fitted_pressures
+    shift, covariance, fitted_speeds, fitted_temperatures, fitted_pressures, notes
         See `InterfaceLaw`.
 
     References
@@ -171,7 +171,7 @@ class GaussianShearStress(InterfaceLaw):
         v_p of the maximum, m/s at the reference of the shift.
     width : float
         w, decades of speed.
-    shift, covariance, fitted_speeds, fitted_temperatures, fitted_pressures
+    shift, covariance, fitted_speeds, fitted_temperatures, fitted_pressures, notes
         See `InterfaceLaw`.
 
     References
