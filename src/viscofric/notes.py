@@ -194,6 +194,28 @@ def dumped(record: Any) -> str:
     return json.dumps(plain(record, None), ensure_ascii=False)
 
 
+def notes_in(attributes: Mapping[Any, Any], name: str) -> tuple[Note, ...]:
+    """Return an attribute of results that is a list of notes: as JSON, as it is stored, or as it is."""
+    found = from_json(attributes.get(name, []))
+    return tuple(map(note_of, [found] if isinstance(found, str) and found else found))
+
+
+def table_in(attributes: Mapping[Any, Any], name: str) -> dict[str, str]:
+    """Return an attribute of results that is a mapping of texts, see `notes_in`."""
+    found = from_json(attributes.get(name, {}))
+    return {str(key): str(value) for key, value in found.items()} if isinstance(found, dict) else {}
+
+
+def from_json(value: Any) -> Any:
+    """Return what a text of JSON holds; all else as it is."""
+    if not isinstance(value, str):
+        return value
+    try:
+        return json.loads(value)
+    except ValueError:
+        return value
+
+
 def listed(name: str, notes: Iterable[str], reader: Reader = "python") -> dict[str, list[Any]]:
     """Return notes as two entries of a JSON object: sentences under `name`, and their records."""
     found = [note_of(note) for note in notes]

@@ -15,8 +15,8 @@ import pytest
 from refusals import refused
 from viscofric import report
 from viscofric.errors import DataFileError
+from viscofric.notes import table_in
 from viscofric.report import html
-from viscofric.report.results import table as table_of
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
 from viscofric.report.texts.study import scope
 
@@ -137,7 +137,7 @@ def test_tables_hold_every_number(tree: xr.DataTree, tmp_path: Path) -> None:
     hashes = [
         "input file",
         "SHA-256",
-        *(text for pair in table_of(tree.attrs, "input_hashes").items() for text in pair),
+        *(text for pair in table_in(tree.attrs, "input_hashes").items() for text in pair),
     ]
     expected = hashes
     for table in tables:

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from viscofric.datasets import Dataset, DataTree
+from viscofric.notes import notes_in
 from viscofric.report.figures.heating import MOST_PANELS as HEATED
 from viscofric.report.figures.histories import MOST_LINES as HISTORIES
 from viscofric.report.figures.maps import MARKED_TEMPERATURES, known_shifts
@@ -18,7 +19,6 @@ from viscofric.report.results import (
     is_extrapolated,
     is_rough,
     is_synthetic,
-    notes,
     reference_temperature,
     rubbers,
 )
@@ -51,7 +51,7 @@ def _captions(tree: DataTree) -> dict[str, str]:
     measured = "synthetic measurement" if made else "measured"
     bars = f" Points: {measured}, with bars of one standard deviation over the repetitions." if points else ""
     # A note of the study says how the curves coincide, or that they do not overlap.
-    tested = (note for note in notes(tree.attrs, "notes") if note.code in ("curves-coincide", "curves-apart"))
+    tested = (note for note in notes_in(tree.attrs, "notes") if note.code in ("curves-coincide", "curves-apart"))
     together = f" {next(tested, '')}".rstrip() if points else ""
     return {
         "friction_against_speed": "Viscoelastic friction against speed. "

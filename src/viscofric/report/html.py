@@ -17,10 +17,11 @@ from typing import Any
 from viscofric.datasets import DataTree
 from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
+from viscofric.notes import notes_in, table_in
 from viscofric.report.captions import captions
 from viscofric.report.figures.saving import adaptive
 from viscofric.report.figures.study import RUBBER_FIGURES, figure_images, save_images
-from viscofric.report.results import group, is_synthetic, notes, rubbers, sentences, table
+from viscofric.report.results import group, is_synthetic, rubbers, sentences
 from viscofric.report.texts.checks import all_checks, counted
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
 from viscofric.report.texts.study import grouped_failures, inputs, key_numbers, scope
@@ -155,13 +156,13 @@ def _content(tree: DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, A
         "answer_figures": answer,
         "figure_groups": [(heading, found) for heading, found in others if found],
         "tables": detail_tables(tree),
-        "failures": grouped_failures(notes(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
-        "warnings": [one.words("run_file") for one in notes(tree.attrs, "warnings")],
-        "notes": [one.words("run_file") for one in notes(tree.attrs, "notes")],
+        "failures": grouped_failures(notes_in(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
+        "warnings": [one.words("run_file") for one in notes_in(tree.attrs, "warnings")],
+        "notes": [one.words("run_file") for one in notes_in(tree.attrs, "notes")],
         "command": attrs.get("command") or f"viscofric run {shlex.quote(attrs.get('study_file') or 'study.toml')}",
         "study_text": attrs.get("study_text", ""),
-        "software": table(tree.attrs, "software"),
-        "hashes": table(tree.attrs, "input_hashes"),
+        "software": table_in(tree.attrs, "software"),
+        "hashes": table_in(tree.attrs, "input_hashes"),
         "style": (_HERE / "report.css").read_text(encoding="utf-8"),
     }
 

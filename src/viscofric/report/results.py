@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -12,7 +11,7 @@ import numpy as np
 from viscofric.arrays import Array, Integers, Mask
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.datasets import Dataset, DataTree
-from viscofric.notes import Note, note_of
+from viscofric.notes import from_json
 
 #: Temperatures closer than this are one nominal temperature, K.
 SAME_TEMPERATURE = 0.5
@@ -61,38 +60,17 @@ def number(attributes: Mapping[Any, Any], name: str) -> float:
 def numbers(attributes: Mapping[Any, Any], name: str) -> list[float]:
     """Return an attribute that is a list of numbers, written as JSON or as an array; empty if it is absent."""
     try:
-        return [float(value) for value in np.ravel(_from_json(attributes.get(name, [])))]
+        return [float(value) for value in np.ravel(from_json(attributes.get(name, [])))]
     except (TypeError, ValueError):
         return []
 
 
 def sentences(attributes: Mapping[Any, Any], name: str) -> list[str]:
     """Return an attribute that is a list of sentences, written as JSON or as a list."""
-    found = _from_json(attributes.get(name, []))
+    found = from_json(attributes.get(name, []))
     if isinstance(found, str):
         return [found] if found else []
     return [str(sentence) for sentence in found]
-
-
-def notes(attributes: Mapping[Any, Any], name: str) -> tuple[Note, ...]:
-    """Return an attribute that is a list of notes, written as JSON: their records, or sentences alone."""
-    found = _from_json(attributes.get(name, []))
-    return tuple(map(note_of, [found] if isinstance(found, str) and found else found))
-
-
-def table(attributes: Mapping[Any, Any], name: str) -> dict[str, str]:
-    """Return an attribute that is a mapping of texts, written as JSON or as a dict."""
-    found = _from_json(attributes.get(name, {}))
-    return {str(key): str(value) for key, value in found.items()} if isinstance(found, dict) else {}
-
-
-def _from_json(value: Any) -> Any:
-    if not isinstance(value, str):
-        return value
-    try:
-        return json.loads(value)
-    except ValueError:
-        return value
 
 
 def is_synthetic(tree: DataTree) -> bool:

@@ -22,7 +22,7 @@ from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.histories import Histories, Impacts, material_notes
 from viscofric.study.interface import StudyInterface, interface_columns, study_interface
 from viscofric.study.measurement import Measurement, read_measurement
-from viscofric.study.results.file import save_results
+from viscofric.study.results.file import DESCRIBED, save_results
 from viscofric.study.results.results import StudyResults, beyond_accuracy, input_hashes, provenance
 from viscofric.study.results.tree import field_groups, master_prediction, material_groups, prediction, setting
 from viscofric.study.rubber_datasets import rubber_groups
@@ -243,7 +243,7 @@ def tree_of(
     tree.attrs = {
         "title": study.title,
         "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
-        **{name: text for name in _DESCRIBED if (text := getattr(study, name))},
+        **{name: text for name in DESCRIBED if (text := getattr(study, name))},
         "notes": _listed([*notes, *study.notes, *of_friction]),
         "warnings": _listed(
             [
@@ -260,10 +260,6 @@ def tree_of(
         **setting(study, contacts.sweep, rubbers),
     }
     return tree
-
-
-#: Keys of a run file that describe a study in words, and attributes of its results.
-_DESCRIBED = ("author", "sample", "comment", "citation", "licence")
 
 
 def _missed_accuracy(cases: Dataset, study: Study) -> list[str]:

@@ -14,7 +14,7 @@ from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.datasets import Dataset, DataTree
 from viscofric.friction.assumption_check import assumption_checks_of
 from viscofric.friction.intervals import consistency_check
-from viscofric.notes import Note
+from viscofric.notes import Note, notes_in
 from viscofric.report.results import (
     SAME_TEMPERATURE,
     group,
@@ -22,7 +22,6 @@ from viscofric.report.results import (
     is_extrapolated,
     is_from_friction,
     is_rough,
-    notes,
     number,
     numbers,
     reach,
@@ -315,7 +314,7 @@ def _cases(tree: DataTree) -> Iterator[Check]:
     found = group(tree, "prediction")
     if found is None:
         return
-    failures = notes(tree.attrs, "failures")
+    failures = notes_in(tree.attrs, "failures")
     if failures:
         many = f"{len(failures)} cases" if len(failures) > 1 else "One case"
         words = f"{many} could not be solved; the reasons are listed with the results."

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from viscofric.datasets import Dataset, DataTree
+from viscofric.notes import table_in
 from viscofric.report.results import group, values
-from viscofric.report.results import table as texts
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
 
 
@@ -103,7 +103,7 @@ def law_table(tree: DataTree) -> Table | None:
         Column("weight", "akaike_weight", times(1.0, 2)),
         Column("scatter beyond the errors (decades)", "law_scatter", times(1.0, 2)),
     ]
-    refused = "".join(f" {title}: {reason}" for title, reason in texts(laws.attrs, "refused").items())
+    refused = "".join(f" {title}: {reason}" for title, reason in table_in(laws.attrs, "refused").items())
     note = f"{laws.attrs.get('explanation', '')}{refused}".strip()
     return made_table("laws", "Shift laws fitted to the shift factors, compared by AIC.", laws, columns, False, note)
 

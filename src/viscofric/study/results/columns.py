@@ -11,8 +11,8 @@ from typing import Any, TextIO
 import numpy as np
 
 from viscofric.datasets import Dataset, DataTree
-from viscofric.notes import note_of
-from viscofric.study.results.file import rubbers_of
+from viscofric.notes import notes_in, table_in
+from viscofric.study.results.file import DESCRIBED, rubbers_of
 from viscofric.units import CELSIUS_ZERO
 
 #: How a table of results begins, after its ``#``.
@@ -40,11 +40,7 @@ _DECIMALS = 9
 # Attribute -> its name in the lines above a table.
 _NAMED = {
     "data_origin": "data",
-    "author": "author",
-    "sample": "sample",
-    "comment": "comment",
-    "citation": "citation",
-    "licence": "licence",
+    **{name: name for name in DESCRIBED},
     "indenter": "indenter",
     "accuracy": "accuracy",
     "seed": "seed",
@@ -114,11 +110,10 @@ def about(attributes: Mapping[Any, Any]) -> list[tuple[str, str]]:
     """Return the provenance of results, as pairs of name and text on one line."""
     found = [(TITLE, attributes.get("title", ""))]
     found += [(words, attributes[name]) for name, words in _NAMED.items() if name in attributes]
-    hashes = json.loads(str(attributes.get("input_hashes", "{}")))
-    found += [("input", f"{path} (SHA-256 {digest})") for path, digest in hashes.items()]
-    software = json.loads(str(attributes.get("software", "{}")))
-    found += [("software", f"{name} {number}") for name, number in software.items()]
-    found += [("failed", note_of(one)) for one in json.loads(str(attributes.get("failures", "[]")))]
+    hashes, software = (table_in(attributes, name).items() for name in ("input_hashes", "software"))
+    found += [("input", f"{path} (SHA-256 {digest})") for path, digest in hashes]
+    found += [("software", f"{name} {number}") for name, number in software]
+    found += [("failed", note) for note in notes_in(attributes, "failures")]
     return [(name, " ".join(str(said).split())) for name, said in found]
 
 

@@ -15,7 +15,7 @@ from viscofric.arrays import Array
 from viscofric.contact.solution import ERRORS
 from viscofric.datasets import Dataset, dataset
 from viscofric.files import parse_toml
-from viscofric.notes import Note
+from viscofric.notes import Note, table_in
 from viscofric.showing import Rows, Shown
 from viscofric.study.results.case_table import CaseTable, common_cases
 
@@ -235,13 +235,13 @@ def provenance_differences(one: Mapping[Any, Any], other: Mapping[Any, Any]) -> 
                 f"another-{words}", f"Another {words}: {first} and {second}.", values={"values": [first, second]}
             )
     yield from _versions(one, other)
-    yield from _inputs(_table(one, "input_hashes"), _table(other, "input_hashes"))
+    yield from _inputs(table_in(one, "input_hashes"), table_in(other, "input_hashes"))
     yield from _run_files(str(one.get("study_text", "")), str(other.get("study_text", "")))
 
 
 def _versions(one: Mapping[Any, Any], other: Mapping[Any, Any]) -> Iterator[str]:
     here, there = (
-        {"viscofric": str(about.get("viscofric_version", "")), **_table(about, "software")} for about in (one, other)
+        {"viscofric": str(about.get("viscofric_version", "")), **table_in(about, "software")} for about in (one, other)
     )
     changed = [
         f"{name} {here.get(name, 'unknown')} and {there.get(name, 'unknown')}"
@@ -292,8 +292,3 @@ def flat_keys(table: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
 
 def _shown(value: Any) -> str:
     return "not given" if value is None else json.dumps(value, ensure_ascii=False, default=str)
-
-
-def _table(attributes: Mapping[Any, Any], name: str) -> dict[str, str]:
-    found = json.loads(str(attributes.get(name, "{}")))
-    return {str(key): str(value) for key, value in found.items()}

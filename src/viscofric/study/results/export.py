@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
 import re
 import shutil
 import tempfile
@@ -15,7 +14,7 @@ from typing import Any, Literal, get_args
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import DataFileError, InputError, check_choice, not_imported, not_written
 from viscofric.files import file_path, write_atomically
-from viscofric.notes import note_of
+from viscofric.notes import notes_in
 from viscofric.study.results.columns import about, columns_of, table_text, tables
 from viscofric.study.results.file import RESULTS_FILE, cases_of
 
@@ -42,13 +41,14 @@ def export_results(tree: DataTree, folder: Path, form: Form, path: str | Path | 
     elif form == "excel":
         write_atomically(target, workbook(tree, cases))
     elif form == "netcdf":
-        _write_netcdf(cases, target)
+        write_netcdf(cases, target)
     else:
         _write_zarr(cases, target)
     return target
 
 
-def _write_netcdf(dataset: Dataset, target: Path) -> None:
+def write_netcdf(dataset: Dataset, target: Path) -> None:
+    """Write a data set as netCDF, whole or not at all."""
     if target.is_dir():
         raise DataFileError(target, "is a folder; give the name of a file.", code="is-folder")
 
@@ -144,7 +144,7 @@ class _Made:
         """Write provenance, warnings, notes and the run file."""
         rows = about(attributes)
         for name in _SENTENCES:
-            rows += [(name[:-1], str(note_of(one))) for one in json.loads(str(attributes.get(name, "[]")))]
+            rows += [(name[:-1], str(note)) for note in notes_in(attributes, name)]
         lines = str(attributes.get("study_text", "")).splitlines()
         rows += [("run file" if number == 0 else "", line) for number, line in enumerate(lines)]
         page = self.sheet("summary")

@@ -17,15 +17,13 @@ from viscofric.files import file_path, insist_on_true_size, sync_folder
 
 RESULTS_FILE = "results.nc"
 _PREDICTION = "prediction"
+#: Keys of a run file that describe a study in words, and attributes of its results.
+DESCRIBED = ("author", "sample", "comment", "citation", "licence")
 #: Attributes of the root that a data set of the tree keeps: title and provenance.
 _ABOUT = (
     "title",
     "data_origin",
-    "author",
-    "sample",
-    "comment",
-    "citation",
-    "licence",
+    *DESCRIBED,
     "accuracy",
     "seed",
     "indenter",

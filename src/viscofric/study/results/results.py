@@ -16,7 +16,7 @@ import numpy as np
 from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError, brief
-from viscofric.notes import Note, note_of
+from viscofric.notes import Note, notes_in
 from viscofric.showing import Plotted, Rows
 from viscofric.study.results.case_table import CaseTable
 from viscofric.study.results.compare import ResultsComparison, compare_tables
@@ -151,17 +151,17 @@ class StudyResults(Plotted):
     @property
     def notes(self) -> tuple[Note, ...]:
         """What was doubtful about the data, changed or left out, one note each."""
-        return tuple(map(note_of, json.loads(self.tree.attrs["notes"])))
+        return notes_in(self.tree.attrs, "notes")
 
     @property
     def failures(self) -> tuple[Note, ...]:
         """Cases that could not be solved, one note each."""
-        return tuple(map(note_of, json.loads(self.tree.attrs["failures"])))
+        return notes_in(self.tree.attrs, "failures")
 
     @property
     def warnings(self) -> tuple[Note, ...]:
         """What to be careful about, one note each: assumptions that do not hold well, accuracy that is missed."""
-        return tuple(map(note_of, json.loads(self.tree.attrs["warnings"])))
+        return notes_in(self.tree.attrs, "warnings")
 
 
 def beyond_accuracy(cases: Dataset, accuracy: float) -> Mask:

@@ -9,12 +9,11 @@ from pydantic import Field
 
 from viscofric.datasets import DataTree, plain
 from viscofric.friction.curves import FrictionCurves
-from viscofric.notes import listed, note_of
+from viscofric.notes import listed, note_of, notes_in
 from viscofric.report.data import predicted
 from viscofric.report.results import (
     group,
     nominal_temperatures,
-    notes,
     reference_temperature,
     remarks,
     sentences,
@@ -126,8 +125,8 @@ def _reply(tree: DataTree) -> dict[str, Any]:
         "table": table_record(agreement_table(tree)),
         "checks": [one.record("page") for one in friction_checks(tree)],
         "band": lines.has_band,
-        **listed("warnings", dict.fromkeys(notes(tree.attrs, "warnings")), "page"),
-        **listed("failures", dict.fromkeys(notes(tree.attrs, "failures")), "page"),
+        **listed("warnings", dict.fromkeys(notes_in(tree.attrs, "warnings")), "page"),
+        **listed("failures", dict.fromkeys(notes_in(tree.attrs, "failures")), "page"),
     }
 
 
