@@ -123,7 +123,9 @@ def write_dataset(path: Path, data: Dataset) -> None:
     from viscofric.files import write_atomically
 
     if path.suffix.lower() == ".nc":
-        write_atomically(path, _netcdf(path, data))
+        from viscofric.study.results.export import write_netcdf
+
+        write_netcdf(data, path)
         return
     from viscofric.study.results.columns import write_columns
 
@@ -139,15 +141,3 @@ def _table(solution: ContactSolution) -> bytes:
     columns = np.column_stack([x, y, solution.pressure.ravel(), solution.displacement.ravel()])
     rows = [",".join(f"{number:.10g}" for number in row) for row in columns.tolist()]
     return "\n".join(["x (m),y (m),pressure (Pa),displacement (m)", *rows, ""]).encode()
-
-
-def _netcdf(path: Path, data: Dataset) -> bytes:
-    from viscofric.errors import not_written
-
-    try:
-        with TemporaryDirectory(prefix="viscofric") as folder:
-            made = Path(folder) / "fields.nc"
-            data.to_netcdf(made, engine="h5netcdf")
-            return made.read_bytes()
-    except OSError as error:
-        raise not_written(path, error) from error

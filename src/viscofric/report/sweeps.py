@@ -32,7 +32,6 @@ VARIED = (
     "radius_y",
     "angle",
     "thickness",
-    "indenter_modulus",
     "seed",
     "pressure",
     "direction",
@@ -50,7 +49,6 @@ _UNITS = {
     "angle": ("°", math.pi / 180.0),
     "direction": ("°", math.pi / 180.0),
     "pressure": ("kPa", 1e3),
-    "indenter_modulus": ("MPa", 1e6),
 }
 _SYMBOLS = {"speed": "$v$", "load": "$F$", "radius": "$R$", "thickness": "$h$"}
 

@@ -18,12 +18,10 @@ from viscofric.readers.mtm.read import format_name, read_mtm
 from viscofric.readers.source import Source
 from viscofric.report.texts.friction import runs_lines
 from viscofric.study.measurement import read_measurement, separated
-from viscofric.study.run_file.contact import IndenterTable
+from viscofric.study.run_file.contact import AnyIndenterTable, IndenterTable
 from viscofric.study.run_file.measurement import MeasurementTable
-from viscofric.study.run_file.study import validated
-from viscofric.study.run_file.tables import Table
 from viscofric.web.jobs.context import Context
-from viscofric.web.jobs.rubbers import insist_on_uploads, kept
+from viscofric.web.jobs.rubbers import checked_part, insist_on_uploads, kept
 
 _NOTHING = Note("", "")
 
@@ -98,18 +96,6 @@ def _is_made_up(path: Path) -> bool:
 _ABOUT = "drop the files of a tribometer, or a table of friction curves, on the page first"
 
 
-class _MeasurementTables(Table):
-    """The table of a run file about measured friction."""
-
-    measurement: MeasurementTable
-
-
-class _IndenterTables(Table):
-    """The table of a run file about the tribometer's body."""
-
-    indenter: IndenterTable
-
-
 def table_of_files(study: Mapping[str, Any], context: Context, names: Sequence[str]) -> dict[str, Any]:
     """Return [measurement] with other uploaded files, recognised as runs or friction curves, not both."""
     for name in names:
@@ -131,7 +117,7 @@ def measurement_table(study: Mapping[str, Any], context: Context) -> Measurement
     """Check [measurement] of a run file alone; paths are those of uploaded files."""
     if not study.get("measurement"):
         raise StudyError(Note("no-measurement", f"there is none; {_ABOUT}.", "measurement"))
-    table = validated(_MeasurementTables, {"measurement": study["measurement"]}).measurement
+    table: MeasurementTable = checked_part(measurement=(MeasurementTable, study["measurement"])).measurement
     insist_on_uploads("measurement.mtm", table.mtm, context.files)
     insist_on_uploads("measurement.curves", table.curves, context.files)
     return table.relative_to(context.files)
@@ -141,7 +127,7 @@ def indenter_of(study: Mapping[str, Any]) -> Indenter | None:
     """Return the one indenter of [indenter]; None without such a table."""
     if not study.get("indenter"):
         return None
-    table = validated(_IndenterTables, {"indenter": study["indenter"]}).indenter
+    table: AnyIndenterTable = checked_part(indenter=(IndenterTable, study["indenter"])).indenter
     for name, sizes in table.axes.items():
         if len(sizes) > 1:
             said = f"has {len(sizes)} values; friction was measured with one."

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from pydantic import Field
+from pydantic import create_model
 
 from viscofric.errors import DataFileError, StudyError
 from viscofric.files import read_bytes, write_atomically
@@ -33,11 +33,11 @@ _KEPT = 16
 _memory: OrderedDict[str, Any] = OrderedDict()
 
 
-class _RubberTables(Table):
-    """The tables of a run file about the material."""
-
-    material: MaterialTable
-    uncertainty: UncertaintyTable = Field(UncertaintyTable())
+def checked_part(**tables: Any) -> Any:
+    """Return some tables of a run file, checked alone: by name, the class and the values of each."""
+    kinds: dict[str, Any] = {name: (kind, ...) for name, (kind, _) in tables.items()}
+    model = create_model("Part", __base__=Table, **kinds)
+    return validated(model, {name: values for name, (_, values) in tables.items()})
 
 
 def checked_tables(study: Mapping[str, Any], context: Context) -> tuple[MaterialTable, UncertaintyTable]:
@@ -45,9 +45,10 @@ def checked_tables(study: Mapping[str, Any], context: Context) -> tuple[Material
     material = study.get("material")
     if isinstance(material, list) and material:
         material = material[0]
-    values = {"material": {} if material is None else material}
-    values |= {name: study[name] for name in ("uncertainty",) if name in study}
-    tables = validated(_RubberTables, values)
+    tables = checked_part(
+        material=(MaterialTable, {} if material is None else material),
+        uncertainty=(UncertaintyTable, study.get("uncertainty", {})),
+    )
     for key in FILE_KEYS["material"]:
         insist_on_uploads(f"material.{key}", getattr(tables.material, key), context.files)
     return tables.material.relative_to(context.files), tables.uncertainty
