@@ -290,6 +290,19 @@ def test_a_body_has_a_name_or_properties_in_any_order(tmp_path: Path) -> None:
     assert heating.passes == np.inf
 
 
+def test_slip_may_be_negative_where_the_counterface_is_the_faster_surface(tmp_path: Path) -> None:
+    def slips(given: str) -> tuple[float, ...]:
+        study = parse_study(BASE + HEATING + f"slip = {given}\n", tmp_path / "study.toml")
+        assert study.heating is not None
+        assert study.heating.slip is not None
+        return study.heating.slip
+
+    assert slips('["-50 mm/s", "0 m/s"]') == (-0.05, 0.0)
+    assert slips('{ from = "-1 m/s", to = "1 m/s", points = 3, spacing = "linear" }') == (-1.0, 0.0, 1.0)
+    with pytest.raises(vf.StudyError, match=r"heating\.slip\.spacing"):
+        slips('{ from = "-1 m/s", to = "1 m/s", points = 3 }')
+
+
 SLIDE = '[history]\nslide = "1 mm"\n'
 
 

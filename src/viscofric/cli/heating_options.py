@@ -38,7 +38,10 @@ _BODIES = (
 )
 _STEADY = (
     click.option(
-        "--heating-slip", metavar="V", help="Sliding velocity between both faces [default: the speed of the contact]."
+        "--heating-slip",
+        metavar="V",
+        help="Sliding velocity between both faces, below zero where the counterface is the faster one [default: the "
+        "speed of the contact].",
     ),
     click.option(
         "--heating-track",

@@ -14,7 +14,7 @@ from viscofric.study.run_file.tables import (
     Length,
     Number,
     Problem,
-    Speeds,
+    Slips,
     Table,
     as_written,
     listed,
@@ -81,8 +81,10 @@ class HeatingTable(Table):
         description="Coulomb friction coefficient, whose heat both bodies share; several are an axis. [interface], if "
         "given, makes this heat instead.",
     )
-    slip: Speeds | None = Field(
-        None, description="Sliding velocity between both surfaces; several are an axis; default: the speed of the case."
+    slip: Slips | None = Field(
+        None,
+        description="Sliding velocity between both surfaces, below zero where the counterface is the faster one; "
+        "several are an axis; default: the speed of the case.",
     )
     track_radius: Length | None = Field(None, description="Radius of the circle on which earlier passes were.")
     passes: Passes = Field(0, description="Earlier passes on that circle; inf: the final state.")

@@ -173,6 +173,10 @@ def _positive(unit: str) -> BeforeValidator:
     return BeforeValidator(lambda value: positive(with_unit(value), unit, VALUE))
 
 
+def _signed(unit: str) -> BeforeValidator:
+    return BeforeValidator(lambda value: to_si(with_unit(value), unit, VALUE))
+
+
 def as_text(*units: str) -> WithJsonSchema:
     """JSON schema of a quantity: a number and a unit."""
     number = r"^\s*[+\-−]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?\s*[^0-9\s.,+\-].*$"
@@ -188,12 +192,13 @@ Modulus = Annotated[float, _positive("Pa"), as_text("200 GPa")]
 Pressure = Annotated[float, _positive("Pa"), as_text("50 kPa")]
 Mass = Annotated[float, _positive("kg"), as_text("4 g")]
 Gravity = Annotated[float, _positive("m/s**2"), as_text("9.81 m/s^2")]
-Direction = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "rad", VALUE)), as_text("30 deg")]
+Direction = Annotated[float, _signed("rad"), as_text("30 deg")]
 # Plain, or pydantic would convert a load per length to a plain float.
 Load = Annotated[float, PlainValidator(_load), as_text("25 N", "2 N/mm")]
 Temperature = Annotated[float, BeforeValidator(kelvin), as_text("30 degC")]
 TemperatureStep = Annotated[float, _positive("delta_degC"), as_text("1 delta_degC")]
-SignedForce = Annotated[float, BeforeValidator(lambda value: to_si(with_unit(value), "N", VALUE)), as_text("0.12 N")]
+SignedSpeed = Annotated[float, _signed("m/s"), as_text("-50 mm/s")]
+SignedForce = Annotated[float, _signed("N"), as_text("0.12 N")]
 
 #: Of random numbers.
 BIGGEST_SEED = 2**63 - 1
@@ -279,6 +284,8 @@ class _Range(_Span):
             yield "to", "is the same as from; give one value instead of a range"
         if type(self.first) is not type(self.last):
             yield "to", "is not of the same kind as from"
+        if self.spacing == "log" and self.first * self.last <= 0.0:
+            yield "spacing", "must be 'linear', as equal ratios do not reach or cross zero"
 
     def values(self) -> tuple[float, ...]:
         """Return all values; the ends are exactly those given."""
@@ -361,4 +368,5 @@ Pressures = Annotated[tuple[float, ...], _Many(Pressure, _range("PressureRange",
 Directions = Annotated[tuple[float, ...], _Many(Direction, _range("DirectionRange", Direction, _EvenRange))]
 Seeds = Annotated[tuple[int, ...], _Many(Seed, SeedRange, SEED_RANGE)]
 Speeds = Annotated[tuple[float, ...], _Many(Speed, SpeedRange)]
+Slips = Annotated[tuple[float, ...], _Many(SignedSpeed, _range("SlipRange", SignedSpeed))]
 Temperatures = Annotated[tuple[float, ...], _Many(Temperature, _range("TemperatureRange", Temperature, _EvenRange))]
