@@ -49,6 +49,22 @@ def test_without_any_material_each_step_shows_its_figures_and_says_what_to_do(ta
     assert "traction test" in tab.text("#step-measurement .card:last-child")
 
 
+def test_a_figure_that_an_error_keeps_empty_does_not_ask_for_data_that_are_there(tab: Tab) -> None:
+    tab.step("sweeps")
+    found = {}
+    for material in ("undefined", "{dma: 'none.csv', reference_temperature: '30 degC'}"):
+        tab.value(f"{STATE}.set('material', {material})")
+        for step in ("sweeps", "shift", "spectrum"):
+            tab.step(step)
+            at_rest(tab)
+            found[material, step] = set(tab.value(_EMPTY).values())
+    without, wrong = (
+        set.union(*[words for (one, _), words in found.items() if (one == "undefined") is no]) for no in (True, False)
+    )
+    assert len(wrong) == 1, wrong
+    assert not wrong & without
+
+
 def test_a_predefined_material_leaves_room_for_sweeps(tab: Tab) -> None:
     tab.step("shift")
     at_rest(tab)

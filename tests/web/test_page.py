@@ -95,6 +95,16 @@ def test_changes_are_checked_undone_and_survive_a_reload(tab: Tab) -> None:
     assert page.get_by_label("Accuracy of friction").input_value() == "5"
 
 
+def test_a_number_has_no_more_digits_than_its_error_leaves(tab: Tab) -> None:
+    def shown(*arguments: str) -> list[str]:
+        return tab.value(f"page.units.showWithError({', '.join(arguments)}).map((one) => one.replace('\\u00a0', ' '))")
+
+    assert shown("9.861e-6", "0.23e-6", "'area'", "4") == ["9.86 mm²", "0.23 mm²"]
+    assert shown("9.438e9", "1.0418e10", "'modulus'") == ["9000 MPa", "10000 MPa"]
+    assert shown("1.8162e-3", "4.2e-5", "'length'", "4") == ["1.816 mm", "0.042 mm"]
+    assert shown("0.0128", "null", "'plain'") == ["0.0128", ""]
+
+
 def test_units_are_the_users_and_are_remembered(tab: Tab) -> None:
     shown = "[page.units.show(0.02, 'speed'), page.units.show(303.15, 'temperature'), page.units.show(2e6, 'modulus')]"
     assert tab.value(shown) == ["20\u00a0mm/s", "30\u00a0°C", "2\u00a0MPa"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -12,8 +13,11 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from rheology.planted import liquid_modulus, write_moduli
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.catalogue import catalogue_material
+from viscofric.study.rubber import Rubber
 from viscofric.web.jobs.context import Context, JobError
+from viscofric.web.jobs.spectrum_numbers import spectrum_numbers
 from web.figure_columns import value_at
 from web.rubber_workspace import EXAMPLE, SWEEPS, done, workspace_with
 
@@ -233,3 +237,12 @@ def test_a_liquid_has_shift_factors_and_moduli_and_no_modes(tmp_path: Path) -> N
     assert answer["spectrum"]["modes"] is None
     assert answer["spectrum"]["measured"] is not None
     assert "liquid" in [one["code"] for one in answer["note_records"]]
+
+
+def test_notes_are_in_the_words_of_the_page() -> None:
+    remedy = Remedy("give vertical='free'", page="set “Vertical shift b(T)”")
+    spectrum = vf.synthetic_fluoroelastomer().spectrum
+    notes = (Note("doubt", "Doubtful: ", remedy=remedy),)
+    fit = vf.rheology.SpectrumFit(0.0, 0.0, False, False, (1.0, 2.0), notes)
+    found = spectrum_numbers(Rubber(vf.Material(replace(spectrum, fit=fit))))
+    assert found["fit"]["notes"] == [f"Doubtful: {remedy.page}"]

@@ -139,8 +139,9 @@ def spectrum_numbers_shown(found: dict[str, Any]) -> list[spec.Spec]:
 
     def end(label: str, name: str) -> spec.Spec:
         error = band.get(f"{name}_error95")
-        remarks = [f"± {spec.quantity(error, 'modulus', 2)} (95 %)" if error else "", fit.get(f"{name}_remark") or ""]
-        return spec.number(label, spectrum["modes"][name], "modulus", remark="; ".join(filter(None, remarks)))
+        remarks = ["95 %" if error else "", fit.get(f"{name}_remark") or ""]
+        value, remark = spectrum["modes"][name], "; ".join(filter(None, remarks))
+        return spec.number(label, value, "modulus", error=error, remark=remark)
 
     misfits = []
     if fit.get("rms_step") is not None:

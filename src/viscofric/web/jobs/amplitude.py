@@ -42,7 +42,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "words": str(fit.law),
         "linear": [str(one) for one in fit.linear_ranges],
         "contact": _contact(study, fit, table.measured_at, context) if options.contact else None,
-        **listed("notes", fit.notes),
+        **listed("notes", fit.notes, "page"),
     }
 
 

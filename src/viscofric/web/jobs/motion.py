@@ -116,7 +116,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "rejected_steps": whole.rejected_steps,
         "temperature_of_contact": plain(case.temperature),
         **listed("warnings", dict.fromkeys(warnings)),
-        **listed("notes", dict.fromkeys(notes)),
+        **listed("notes", dict.fromkeys(notes), "page"),
     }
 
 

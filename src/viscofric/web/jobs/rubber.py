@@ -103,7 +103,7 @@ def _without_bands(rubber: Rubber, held: dict[float, float]) -> dict[str, Any]:
         "check": _check(rubber),
         "spectrum": spectrum_numbers(rubber),
     }
-    return dict(plain(found)) | listed("notes", [one for one in rubber.notes if one not in read])
+    return dict(plain(found)) | listed("notes", [one for one in rubber.notes if one not in read], "page")
 
 
 def _check(rubber: Rubber) -> dict[str, Any] | None:

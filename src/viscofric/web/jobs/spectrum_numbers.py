@@ -10,6 +10,7 @@ from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
 from viscofric.datasets import record
 from viscofric.errors import InputError
+from viscofric.notes import listed
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -37,8 +38,10 @@ def spectrum_numbers(rubber: Rubber) -> dict[str, Any]:
         "poisson_ratio": material.poisson_ratio,
         "modes": None if modes is None else record(modes.to_dataset(), _DIGITS),
         "relaxation": None if modes is None else record(modes.to_relaxation().to_dataset(), _DIGITS),
-        "fit": None if fit is None else {name: getattr(fit, name) for name in _OF_A_FIT},
-        "notes": list(why),
+        "fit": None
+        if fit is None
+        else {name: getattr(fit, name) for name in _OF_A_FIT} | listed("notes", fit.notes, "page"),
+        **listed("notes", why, "page"),
         "modulus": moduli(at, material.complex_modulus(at)),
         "measured": None if curve is None else moduli(curve.angular_frequency, curve.complex_modulus),
         "residual": None if curve is None else _residual(curve, material),
@@ -55,7 +58,6 @@ _OF_A_FIT = (
     "regularisation",
     "E0_remark",
     "E_inf_remark",
-    "notes",
 )
 
 
@@ -127,5 +129,5 @@ def band_numbers(
         "modes": {"retardation_time": samples.tau[0], "lower": modes.lower, "upper": modes.upper} if alike else None,
         "E0_error95": LEVEL_95 * error.E0,
         "E_inf_error95": LEVEL_95 * error.E_inf,
-        "notes": list(samples.notes),
+        **listed("notes", samples.notes, "page"),
     }

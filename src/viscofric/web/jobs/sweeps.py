@@ -94,7 +94,7 @@ def _of_sweeps(table: MaterialTable, traced: TracedSweeps) -> dict[str, Any]:
         "isotherms": [record(one.to_dataset(), _DIGITS) for one in sweeps.isotherms],
         "flagged": [*_left_out(traced), *_outliers(traced)],
         "left_out": int(traced.left_out.size),
-        **listed("notes", notes),
+        **listed("notes", notes, "page"),
         "specimens": specimens,
         "reference": plain(round(nearest, 2)),
         "synthetic": False,
@@ -195,7 +195,7 @@ def _other(table: MaterialTable, study: dict[str, Any], context: Context) -> dic
         "source": source,
         "name": rubber.material.name,
         "about": about or [text for text in (rubber.source, rubber.material.citation) if text],
-        **listed("notes", rubber.notes),
+        **listed("notes", rubber.notes, "page"),
         "synthetic": rubber.synthetic,
         "reference": None if rubber.material.reference is None else plain(rubber.material.reference),
         "isotherms": [],
@@ -222,7 +222,7 @@ def _read_other(table: MaterialTable) -> dict[str, Any]:
             "left_open": [*_given(table), *asked],
             "ramps": _ramps(ramps),
             "reference": plain(round(float(np.clip(_USUAL_REFERENCE, low, high)), 2)),
-            **listed("notes", ramps.notes),
+            **listed("notes", ramps.notes, "page"),
         }
     tests = read_steps_of(table)
     return common | {
@@ -232,7 +232,7 @@ def _read_other(table: MaterialTable) -> dict[str, Any]:
         "left_open": _given(table),
         "steps": _step_curves(tests),
         "reference": plain(round(_nearest(tests.temperatures), 2)),
-        **listed("notes", tests.notes),
+        **listed("notes", tests.notes, "page"),
     }
 
 

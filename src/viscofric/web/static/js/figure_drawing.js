@@ -159,10 +159,11 @@ export function dataOf(spec, dark) {
     const edge = { ...shared, mode: "lines", line: edgeLine, hoverinfo: "skip", showlegend: false };
     const fill = { fill: "tonexty", fillcolor: faded(look.colour, beside ? 0.04 : dark ? 0.25 : 0.16) };
     const [lower, upper] = [trace.lower, trace.upper].map((values) => units.number(values, spec.y?.kind));
+    // a band without a line of its own is in the legend as the band
     return [
       { ...edge, y: lower },
-      { ...edge, y: upper, ...fill },
-      { ...line, ...shared },
+      { ...edge, y: upper, ...fill, ...(trace.width === 0 && { showlegend: line.showlegend, name: line.name }) },
+      { ...line, ...shared, ...(trace.width === 0 && { showlegend: false }) },
     ];
   });
   return [...(map ? [heatOf(spec)] : []), ...drawn, ...(barOf(spec, dark) ?? [])];

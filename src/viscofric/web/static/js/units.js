@@ -96,6 +96,16 @@ export function show(value, kind = "plain", digits = 3) {
   return unit === "°" ? `${text}°` : `${text}\u00a0${unit}`;
 }
 
+/** A value and its error as `show` has them, both to the error's second digit; the error is "" where there is none. */
+export function showWithError(value, error, kind, digits = 3) {
+  if (!error || !Number.isFinite(value)) return [show(value, kind, digits), ""];
+  const size = (one) => Math.floor(Math.log10(Math.abs(one)));
+  const [inUnit, wide] = [number(value, kind), Math.abs(error / scale(kind)[0])];
+  const known = Math.min(Math.max(size(inUnit || wide) - size(wide) + 2, 1), digits);
+  const unit = label(kind) && `\u00a0${label(kind)}`;
+  return [[inUnit, known], [wide, 2]].map(([one, to]) => `${plainNumber(Number(one.toPrecision(to)), to)}${unit}`);
+}
+
 /** Words with the quantities in them as the user reads them: "{0.02|speed}" -> "20 mm/s", "{omega}" is f in Hz. */
 export const filled = (text) =>
   String(text ?? "")

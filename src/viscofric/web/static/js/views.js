@@ -90,11 +90,13 @@ export const Checks = view(({ of, list = [] }) => {
 
 /** A number of a result (figures/spec.py) in the user's units: its label, its value, and its error with what is remarked. */
 export function told({ label, value, kind, unit, digits, error, remark }) {
-  const show = (one, precision) => `${units.show(one, kind, precision)}${unit ? `\u00a0${unit}` : ""}`;
-  const words = [error ? `± ${show(error, 2)}` : "", units.filled(remark)].filter(Boolean).join(", ");
+  const [shown, uncertain] = units
+    .showWithError(value, error, kind, digits)
+    .map((one) => `${one}${one && unit ? `\u00a0${unit}` : ""}`);
+  const words = [uncertain && `± ${uncertain}`, units.filled(remark)].filter(Boolean).join(", ");
   return {
     label: units.filled(label),
-    value: typeof value === "string" ? units.filled(value) : show(value, digits),
+    value: typeof value === "string" ? units.filled(value) : shown,
     remark: words,
   };
 }

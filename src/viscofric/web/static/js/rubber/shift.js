@@ -7,7 +7,7 @@ import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Button, Card, Drop, Notes, Numbers, Pick, Progress, Table, shown } from "../views.js";
 import { Shifted, startShifted } from "./shifted.js";
-import { TESTS, failed, isMade, rubber, shownRubber, takeFactors } from "./source.js";
+import { TESTS, emptyOf, failed, isMade, rubber, shownRubber, takeFactors } from "./source.js";
 
 const FACTORS = ["shift-factors", "Shift factor against temperature"];
 const EMPTY = "DMA sweeps at several temperatures are shifted here. Add them in step 1, Data.";
@@ -36,7 +36,7 @@ const Factors = view(({ of }) => {
   const diagrams = Object.entries(figures).filter(([name]) => name.startsWith("diagram-"));
   return html`
     <div class="grid">
-      <${Figures} of=${of} ids=${["shifted-steps", FACTORS, "law-residuals"]} empty=${EMPTY} />
+      <${Figures} of=${of} ids=${["shifted-steps", FACTORS, "law-residuals"]} empty=${emptyOf(EMPTY)} />
     </div>
     ${tables.laws && html`<${Laws} of=${of} />`}
     <div class="grid thirds">
@@ -44,7 +44,7 @@ const Factors = view(({ of }) => {
         <${Pick} label="Diagram" options=${diagrams.map(([name, { title }]) => [name, title])} value=${diagram.value}
           onChange=${(key) => (diagram.value = key)} />
         <${Figure} id="superposition-diagram" title="Loss angle against modulus" of=${of} spec=${figures[diagram.value]}
-          height=${diagrams.length ? undefined : 160} empty=${EMPTY} />
+          height=${diagrams.length ? undefined : 160} empty=${emptyOf(EMPTY)} />
       <//>
       <${Figures} of=${of} ids=${["neighbour-distances", "kramers-kronig", "vertical-shift"]} />
     </div>
@@ -106,7 +106,7 @@ export default view(() => {
     ${
       of?.shift?.isotherms?.length > 0
         ? html`<${Shifted} of=${of} />`
-        : html`<${Figures} ids=${[["shifted-isotherms", "Shifted isotherms"]]} empty=${EMPTY} />`
+        : html`<${Figures} ids=${[["shifted-isotherms", "Shifted isotherms"]]} empty=${emptyOf(EMPTY)} />`
     }
     <${Factors} of=${of} />
   `;

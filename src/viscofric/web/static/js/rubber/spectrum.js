@@ -7,7 +7,7 @@ import { explain, page } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Numbers, Pick, Progress, Table } from "../views.js";
-import { isMade, rubber, shownRubber, worded } from "./source.js";
+import { emptyOf, isMade, rubber, shownRubber, worded } from "./source.js";
 
 const chosen = signal(null); // temperature that the modulus is shown at, K; null is the reference
 const moduli = new Job("moduli", {
@@ -34,16 +34,16 @@ const kind = signal("retardation");
 /** The figures of a material; the moduli are those at the chosen temperature. */
 const Modulus = view(({ of }) => html`<${Card} title="Modulus against frequency">
   ${of?.shift && html`<${Temperature} of=${of} />`}
-  <${Figure} id="modulus" title="E′ and E″" height=${430} of=${of && (moduli.result ?? of)} empty=${EMPTY} />
+  <${Figure} id="modulus" title="E′ and E″" height=${430} of=${of && (moduli.result ?? of)} empty=${emptyOf(EMPTY)} />
 <//>`);
 
 const Others = view(({ of }) => {
   const { figures = {}, tables = {} } = of ?? {};
   return html`
-    <${Figures} of=${[of && moduli.result, of]} ids=${[["loss-tangent", "tan δ"], "spectrum-residuals"]} empty=${EMPTY} />
+    <${Figures} of=${[of && moduli.result, of]} ids=${[["loss-tangent", "tan δ"], "spectrum-residuals"]} empty=${emptyOf(EMPTY)} />
     <${Card} title="Spectrum">
       <${Pick} label="Spectrum" options=${KINDS} value=${kind.value} onChange=${(one) => (kind.value = one)} />
-      <${Figure} id="modes" title="Modes" of=${of} spec=${figures[`modes-${kind.value}`]} empty=${EMPTY} />
+      <${Figure} id="modes" title="Modes" of=${of} spec=${figures[`modes-${kind.value}`]} empty=${emptyOf(EMPTY)} />
       ${tables.modes && html`<details><summary>Table of modes</summary><${Table} of=${of} ...${tables.modes} /></details>`}
     <//>
   `;

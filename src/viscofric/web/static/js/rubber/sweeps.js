@@ -10,7 +10,7 @@ import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Drop, Folded, Notes, Numbers, Progress, Radios, Table } from "../views.js";
 import { Amplitude, amplitude } from "./amplitude.js";
-import { FIRST_REFERENCE, TESTS, named, rubber, shownRubber, worded } from "./source.js";
+import { FIRST_REFERENCE, TESTS, emptyOf, named, rubber, shownRubber, worded } from "./source.js";
 import * as source from "./source.js";
 
 const READY = ["catalogue", "file"]; // sources that leave nothing to say
@@ -188,7 +188,8 @@ export default view(() => {
       </div>
     </div>
     <div class="grid thirds">
-      <${Figures} ids=${FIGURES} of=${drawn} empty="Drop DMA sweeps above, or choose a material of the catalogue." />
+      <${Figures} ids=${FIGURES} of=${drawn} 
+        empty=${emptyOf("Drop DMA sweeps above, or choose a material of the catalogue.", sweeps)} />
     </div>
   `;
 });

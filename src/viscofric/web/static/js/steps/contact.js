@@ -95,7 +95,7 @@ const Pictures = view(({ of }) => {
 
 const Found = view(() => {
   const of = contact.result;
-  return html`<div class="live-contact">
+  return html`<div ...${shown(of, "live-contact")}>
     <${Numbers} of=${of} />
     <div class="why-box">
       <h3>Cause of the friction</h3>

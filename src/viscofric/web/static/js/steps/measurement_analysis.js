@@ -90,7 +90,7 @@ export const Identification = view(() => {
   const known = master.current || master.error || master.ended;
   if (!shownMeasured()?.curves)
     return html`<${Card} title="Material identified from friction">
-      <p class="help">Drop a traction test above: the modulus is inferred from its friction here.</p>
+      <p class="help">${emptyOf("Drop a traction test above: the modulus is inferred from its friction here.")}</p>
     <//>`;
   return html`<${Card} title="Material identified from friction">
     <${Form} of=${anchorFields()} />
