@@ -76,9 +76,9 @@ CELSIUS_ZERO = 273.15  # K
 COLDEST_PLAUSIBLE = 150.0  # K
 
 _NUMBER = re.compile(r"(?P<number>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>.*)")
-_DECIMAL_COMMA = re.compile(r"(?P<whole>[+-]?[0-9]*),(?P<part>[0-9]+(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>[^0-9,.+\s].*)")
+_DECIMAL_COMMA = re.compile(r"(?P<whole>[+-]?[0-9]*),(?P<part>[0-9]+(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>[^0-9,.+\s].*|)")
 _PARTED = re.compile(
-    r"(?P<number>[+-]?[0-9]{1,3}(?:(?P<mark>[ ,'’\u00a0\u202f])[0-9]{3})+(?:\.[0-9]+)?)\s*(?P<unit>[^0-9,.\s].*)"
+    r"(?P<number>[+-]?[0-9]{1,3}(?:(?P<mark>[ ,'’\u00a0\u202f])[0-9]{3})+(?:\.[0-9]+)?)\s*(?P<unit>[^0-9,.\s].*|)"
 )
 # A unit is names with single-digit exponents, multiplied and divided; pint gets nothing else to evaluate.
 _LONGEST_UNIT = 40
@@ -203,14 +203,17 @@ def _not_a_quantity(text: str, unit: str, name: str) -> InputError:
     plain = text.strip()
     if not plain:
         return _wrong("empty", name, text, unit, "is empty")
+    example = _EXAMPLE.get(unit, "").strip("'").partition(" ")[2]
+    usual = "" if unit == "dimensionless" else example  # where no unit is written
     if parted := _PARTED.fullmatch(plain):
-        whole = f"{re.sub(r'[^0-9.+-]', '', parted['number'])} {parted['unit']}"
+        whole = f"{re.sub(r'[^0-9.+-]', '', parted['number'])} {parted['unit'] or usual}".rstrip()
         if parted["mark"] != "," or "." in parted["number"] or parted["number"].count(",") > 1:
             return _wrong("thousands-separators", name, text, unit, "has thousands separators", f"write {whole!r}")
     if comma := _DECIMAL_COMMA.fullmatch(plain):
-        decimal = f"{comma['whole'] or '0'}.{comma['part']} {comma['unit']}"
+        decimal = f"{comma['whole'] or '0'}.{comma['part']} {comma['unit'] or usual}".rstrip()
+        write = "write" if comma["unit"] or not usual else "write, for example,"
         also = f", or {whole!r} if it separates thousands" if parted else ""
-        return _wrong("decimal-comma", name, text, unit, "has a decimal comma", f"write {decimal!r}{also}")
+        return _wrong("decimal-comma", name, text, unit, "has a decimal comma", f"{write} {decimal!r}{also}")
     if _UNIT.fullmatch(_plain(plain)) and len(plain) <= _LONGEST_UNIT:
         return _wrong("no-number", name, text, unit, "has no number")
     kind = "one plain number" if unit == "dimensionless" else "one plain number followed by one unit"

@@ -138,7 +138,10 @@ def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
         return _named(str(parameters["material"]))
     if given == ["dma"]:
         return _of_sweeps(parameters)
-    if len(single) < len(_SINGLE):
+    if single and len(single) < len(_SINGLE):
+        missing = " and ".join(option(name) for name in _SINGLE if name not in single)
+        raise click.UsageError(f"{option(single[0])} needs {missing} too: the three are a standard linear solid.")
+    if not single:
         raise click.UsageError("no material is given; give --material, --dma, or --E0, --E-inf and --tau.")
     from viscofric.rheology.material import Material
 

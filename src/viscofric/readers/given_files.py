@@ -25,8 +25,10 @@ def files_of(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]
     files: list[str] = []
     for path in paths:
         # names of columns are what iterates over a table in memory
-        many = isinstance(path, Iterable) and not isinstance(path, (str, Mapping)) and getattr(path, "ndim", 1) == 1
-        names: list[object] = list(cast("Iterable[object]", path)) if many else [path]
+        if isinstance(path, Iterable) and not isinstance(path, (str, Mapping)) and getattr(path, "ndim", 1) == 1:
+            names: list[object] = list(path)
+        else:
+            names = [path]
         wrong = [one for one in names if not isinstance(one, (str, PathLike))]
         if wrong:
             raise InputError(
