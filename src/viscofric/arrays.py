@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array: TypeAlias = NDArray[np.float64]
 ComplexArray: TypeAlias = NDArray[np.complex128]
@@ -19,10 +19,12 @@ def centre_line(y: Array, field: Array) -> Array:
     return np.asarray(field[:, middle].mean(axis=1))
 
 
-def gauss(count: int) -> tuple[Array, Array]:
-    """Return nodes and weights of Gauss's rule over the unit interval, (n,) each."""
+def gauss(count: int, edges: ArrayLike = (0.0, 1.0)) -> tuple[Array, Array]:
+    """Return nodes and weights of Gauss's rule between all neighbouring edges (m,), ((m − 1) n,) each."""
     node, weight = np.polynomial.legendre.leggauss(count)
-    return 0.5 * (node + 1.0), 0.5 * weight
+    ends = np.asarray(edges)
+    width = np.diff(ends)[:, None]
+    return (ends[:-1, None] + 0.5 * width * (1.0 + node)).ravel(), (0.5 * width * weight).ravel()
 
 
 def lagrange(nodes: Array, places: Array) -> Array:

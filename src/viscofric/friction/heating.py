@@ -55,10 +55,7 @@ class HeatedFrictionCurves(SolvedHeatColumns, FrictionCurves):
         self.keep_heat(self.speed.shape)
 
     def _shown(self) -> Rows:
-        return (
-            *(row for row in super()._shown() if row[0] not in ("source", "replicates", "error by the material")),
-            ("rise of temperature", self.temperature_rise, "K"),
-        )
+        return [row for row in super()._shown() if row[0] not in ("source", "replicates", "error by the material")]
 
     def points_dataset(self) -> Dataset:
         """Return the curves as `FrictionCurves` do, with the columns of the heat."""

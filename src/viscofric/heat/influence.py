@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, gauss
 from viscofric.errors import InputError
 from viscofric.thermal import ThermalProperties
 
@@ -97,10 +97,7 @@ class Diffusion:
         while edges[-1] < last:
             step = _PER_LOG * edges[-1]
             edges.append(min(edges[-1] + (min(step, _PER_EDGE / sweep) if sweep > 0.0 else step), last))
-        node, weight = np.polynomial.legendre.leggauss(_NODES)
-        width = np.diff(edges)[:, None]
-        lengths = np.asarray(edges[:-1])[:, None] + 0.5 * width * (1.0 + node)
-        return lengths.ravel(), (0.5 * width * weight).ravel(), rest if last == rest else math.inf
+        return *gauss(_NODES, edges), rest if last == rest else math.inf
 
     def images(self, lengths: Array) -> Array:
         """Return m(l) (n,); in a layer thinner than l from Poisson's sum, the same in waves across the layer."""

@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.fft
 
-from viscofric.arrays import Array, ComplexArray, Indices
+from viscofric.arrays import Array, ComplexArray, Indices, gauss
 from viscofric.thermal import ThermalProperties
 
 #: Frequencies, over their interval, up to which responses are averaged.
@@ -169,9 +169,8 @@ class MovingHeat:
         found = [(every, roots(every, once[0]), once[1])] if len(every) else []
         if interval == 0.0:
             return [*found, (averaged, roots(averaged, once[0]), once[1])]
-        node, weight = np.polynomial.legendre.leggauss(_NODES)
-        place = 0.5 * (1.0 + node)
-        shares = 0.25 * weight * _POWER * place ** (_POWER - 1)
+        place, weight = gauss(_NODES)
+        shares = 0.5 * weight * _POWER * place ** (_POWER - 1)
         offsets = 0.5 * interval * place**_POWER
         return [
             *found,

@@ -17,12 +17,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array, gauss
 from viscofric.heat.means import pair_density
 
 if TYPE_CHECKING:
     from scipy.interpolate import RectBivariateSpline
 
-    from viscofric.arrays import Array
     from viscofric.heat.heating import Heating
     from viscofric.thermal import ThermalProperties
 
@@ -40,7 +40,7 @@ _REACH = 7.0
 _VARIANCE = {"disc": 1.0 / 5.0 + 1.0 / 4.0, "strip": 1.0 / 4.0 + 1.0 / 3.0}
 _POWER = {"disc": 2, "strip": 1}
 #: Gauss's rule on each part of an interval, longest part of the path in radii, most parts.
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+_NODES = 8
 _STEP, _PARTS = 0.5, 256
 #: Ends of parts in √(κt)/a.
 _SPREADING = 0.5 * 2.0 ** np.arange(12)
@@ -113,14 +113,13 @@ def _response(passage: Passage, body: ThermalProperties, row: int, last: int, ra
     spreading = radius / math.sqrt(body.diffusivity) * _SPREADING
     inside = (spreading[(spreading > end) & (spreading < start)] - end) / whole
     edges = np.sort(np.append(np.linspace(0.0, 1.0, parts + 1), inside))
-    half = 0.5 * np.diff(edges)[:, None]
-    place = (edges[:-1, None] + half * (1.0 + _NODES)).ravel()
+    place, weight = gauss(_NODES, edges)
     root = end + whole * place  # √t, in which 1/√t has no pole
     share = (1.0 - place) * whole * (start + root) / length
     away = places[row] - places[last - 1] - share[:, None] * way
     spread = body.diffusivity * root**2 / radius**2
     scale = body.volume_heat * math.sqrt(math.pi * body.diffusivity) * radius ** _POWER[passage.shape]
-    each = 2.0 * whole * (half * _WEIGHTS).ravel() * density(np.hypot(*away.T) / radius, spread, passage.shape)
+    each = 2.0 * whole * weight * density(np.hypot(*away.T) / radius, spread, passage.shape)
     each /= scale * length
     return np.asarray(between_depths(spread, passage.shape) @ each)
 
@@ -174,8 +173,7 @@ def _table(shape: str) -> RectBivariateSpline:
     from scipy.interpolate import RectBivariateSpline
     from scipy.special import i0e
 
-    node, weight = np.polynomial.legendre.leggauss(_RADII)
-    radius = 1.0 + node
+    radius, weight = gauss(_RADII, (0.0, 2.0))
     common = weight * pair_density(radius, shape)
     place, logarithm = np.linspace(0.0, 1.0, _PLACES) ** 2, np.linspace(math.log(_LEAST), math.log(_MOST), _TIMES)
 

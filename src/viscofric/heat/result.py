@@ -37,7 +37,7 @@ COLUMNS = {
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class HeatColumns:
+class HeatColumns(Shown):
     """Friction without heating, rises of temperature and both thermal states, an array each.
 
     Attributes
@@ -65,6 +65,9 @@ class HeatColumns:
     cold_rise: Array
     hot_friction: Array
     hot_rise: Array
+
+    def _shown(self) -> Rows:
+        return (*super()._shown(), ("rise of temperature", self.temperature_rise, "K"))
 
     def keep_heat(self, shape: tuple[int, ...]) -> None:
         """Make all columns read-only; raise InputError if one is not finite or of another shape."""

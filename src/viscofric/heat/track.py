@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on, numbers
-from viscofric.arrays import Array
+from viscofric.arrays import Array, gauss
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.influence import Diffusion
 from viscofric.heat.quadrature import unit_nodes
@@ -153,10 +153,9 @@ def _summed(left: Callable[[Array], Array], count: Array, last: float) -> Array:
     edges = np.unique(
         np.concatenate([[start], ends[ends > start], np.arange(start, max(float(ends.max()), start), _PANEL)])
     )
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
-    width = np.diff(edges)[:, None]
-    n = np.exp(edges[:-1, None] + 0.5 * width * (1.0 + node))
-    parts = 0.5 * width * weight * n * left(n.ravel()).reshape(n.shape)
+    place, weight = gauss(_NODES, edges)
+    n = np.exp(place)
+    parts = (weight * n * left(n)).reshape(-1, _NODES)
     later = np.concatenate([[0.0], np.cumsum(parts.sum(axis=1))])
     found = found + later[np.maximum(np.searchsorted(edges, ends), 0)] * (ends > start)
     return np.asarray(np.where(np.isinf(count), found + 2.0 * last * left(np.array([last])), found))

@@ -11,7 +11,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.arguments import MOST_PER_DECADE, insist_on, whole_number
-from viscofric.arrays import Array, non_negative_fit
+from viscofric.arrays import Array, gauss, non_negative_fit
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.roughness.spectrum import NODES, Density, PowerSpectrum, integral
@@ -95,16 +95,14 @@ def _isotropic_density(q: Array, line: Callable[[Array], Array]) -> Array:
     # C is sought as C₁(k)/k times a factor that is linear in ln k between the points, not below zero, by least squares
     # of the relative misfit. For C ∝ k^(−s) the factor is constant, Γ(s/2)/(√π Γ((s−1)/2)).
     logs, count = np.log(q), len(q)
-    place, weight = np.polynomial.legendre.leggauss(NODES)
     rows = np.zeros((count - 1, count))
     for row in range(count - 1):
         # Ends of the segments of ln k, as distances p along the other axis, in which the integrand is smooth.
         ends = np.sqrt(np.maximum(np.square(q[row:]) - q[row] ** 2, 0.0))
-        half = 0.5 * np.diff(ends)
-        p = (0.5 * (ends[:-1] + ends[1:]))[:, None] + half[:, None] * place
+        p, weight = (one.reshape(-1, NODES) for one in gauss(NODES, ends))
         k = np.sqrt(q[row] ** 2 + np.square(p))
-        values = 2.0 * half[:, None] * weight * line(k) / k
-        segment = row + np.arange(len(half))[:, None]
+        values = 2.0 * weight * line(k) / k
+        segment = row + np.arange(len(p))[:, None]
         part = (np.log(k) - logs[segment]) / (logs[segment + 1] - logs[segment])
         np.add.at(rows[row], segment + np.zeros(k.shape, int), (1.0 - part) * values)
         np.add.at(rows[row], segment + 1 + np.zeros(k.shape, int), part * values)

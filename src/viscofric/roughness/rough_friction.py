@@ -180,12 +180,6 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
     def __post_init__(self) -> None:
         self.keep_heat(self.friction_coefficient.shape)
 
-    def _shown(self) -> Rows:
-        return (
-            *super()._shown(),
-            ("rise of temperature", self.temperature_rise, "K"),
-        )
-
     def to_dataset(self) -> Dataset:
         """Return everything as `RoughFriction` does, with the columns of the heat."""
         return super().to_dataset().assign(self.heat_variables("temperature", "speed", "surface"))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, gauss
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.response import Response
 
@@ -38,12 +38,10 @@ class Wake:
         farthest = _FADED / float(steps.min())
         count = max(1, math.ceil(math.log2(1.0 + farthest / distance)))
         edges = distance * (2.0 ** np.arange(count + 1) - 1.0)
-        points, weights = np.polynomial.legendre.leggauss(_NODES)
-        half = 0.5 * np.diff(edges)[:, None]
         # The sum over rows 0, 1, … is the integral from −½ on.
-        nodes = (edges[:-1, None] + half * (1.0 + points)).ravel() - 0.5
+        nodes, weights = gauss(_NODES, edges - 0.5)
         share = np.exp(-steps[:, None] * nodes)
-        return cls(row, distance, nodes, load[:, None] * share * (half * weights).ravel(), np.ones(len(load)))
+        return cls(row, distance, nodes, load[:, None] * share * weights, np.ones(len(load)))
 
     def faded(self, decay: Array) -> Wake:
         """Return the wake after a time in which each mode has faded by a factor."""
