@@ -38,21 +38,7 @@ COLUMNS = {
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeatColumns(Shown):
-    """Friction without heating, rises of temperature and both thermal states, an array each.
-
-    Attributes
-    ----------
-    isothermal_friction : array
-        Viscoelastic friction coefficient without heating.
-    temperature_rise, coulomb_rise, loss_rise, track_rise : array
-        Rise of temperature that the rubber responds to, its parts due to Coulomb friction and to the loss, and the part
-        left by earlier passes, K.
-    face_rise, loss_weighted_rise : array
-        Both mean rises, over the face and where the loss is released, K; see `Heating`.
-    cold_friction, cold_rise, hot_friction, hot_rise : array
-        Friction and rise of the coldest and of the hottest stable state, equal where there is one only.  A speed that
-        rises slowly follows the cold states, one that falls slowly the hot ones: the difference is the hysteresis.
-    """
+    """Friction without heating, rises of temperature and both thermal states, an array each; see `COLUMNS`."""
 
     isothermal_friction: Array
     temperature_rise: Array
@@ -94,13 +80,7 @@ class HeatColumns(Shown):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SolvedHeatColumns(HeatColumns):
-    """The same of solved contacts.
-
-    Attributes
-    ----------
-    skin : array
-        Depth to which heat spreads while the contact passes; see `ContactHeating`.
-    """
+    """The same of solved contacts."""
 
     skin: Array
 

@@ -9,7 +9,6 @@ from typing import TypeAlias
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.data import MasterCurve
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
@@ -131,25 +130,18 @@ def _agreement(misfit: float, freedom: int) -> list[str]:
 
 def _shifted(part: Part, values: Array) -> Part:
     """Return one kind with other shift factors (n,) at its temperatures."""
-    own = part.shift_factors
-    change = values - own.log10_values
-    curve = part.master_curve
+    own, curve = part.shift_factors, part.master_curve
     place = np.abs(curve.temperature[:, None] - own.temperatures).argmin(axis=1)
+    change = 10.0 ** (values - own.log10_values)[place]
+    if isinstance(curve, StepMasterCurve):
+        columns = {"time": curve.time / change, "response": curve.response}
+    else:
+        columns = {"angular_frequency": curve.angular_frequency * change}
+        columns |= {"storage_modulus": curve.storage_modulus, "loss_modulus": curve.loss_modulus}
+    order = np.argsort(next(iter(columns.values())), kind="stable")
+    moved = {name: column[order] for name, column in {**columns, "temperature": curve.temperature}.items()}
     factors = ShiftFactors(own.temperatures, values, own.reference, own.covariance)
-    if isinstance(part, StepSuperposition):
-        assert isinstance(curve, StepMasterCurve)
-        time = curve.time * 10.0 ** -change[place]
-        order = np.argsort(time, kind="stable")
-        moved = StepMasterCurve(
-            time[order], curve.response[order], curve.temperature[order], curve.reference, curve.kind
-        )
-        return replace(part, shift_factors=factors, master_curve=moved)
-    assert isinstance(curve, MasterCurve)
-    omega = curve.angular_frequency * 10.0 ** change[place]
-    order = np.argsort(omega, kind="stable")
-    storage, loss, kelvin = (one[order] for one in (curve.storage_modulus, curve.loss_modulus, curve.temperature))
-    sweeps = MasterCurve(omega[order], storage, loss, kelvin, curve.reference)
-    return replace(part, shift_factors=factors, master_curve=sweeps)
+    return replace(part, shift_factors=factors, master_curve=replace(curve, **moved))  # type: ignore[arg-type]
 
 
 def insist_on_kinds(tests: Sequence[object], vertical: object, shift: object, fixed: object) -> None:
