@@ -32,6 +32,8 @@ _FORMAT, _DIGEST = "viscofric state 2", "sha256"
 _MARCHES = "", "coarser/"
 _DAMAGED = (KeyError, ValueError, TypeError, IndexError, OSError, EOFError, zipfile.BadZipFile, InputError)
 _REACHED = ("time", "since", "jumped", "told", "pace", "share", "stored", "limited")
+_HISTORY = ("time", "control", "position", "speed", "temperature", "before", "direction")
+_INSTANT, _MOMENT = ("time", "clock", "position"), ("work", "rubbed", "slopes", "errors")
 _FORCES = "friction_force", "force_on_slopes"
 _SEEN = ("load", "depth", *_FORCES, "area", "stored", "dissipated")
 
@@ -52,16 +54,8 @@ def write_restart(path: str | PathLike[str], restart: Restart) -> None:
     history = restart.history
     named: dict[str, Any] = {"format": _FORMAT, "method": restart.method}
     named |= {f"same/{name}": value for name, value in restart.same.items()}
-    named |= {
-        "history/time": history.time,
-        "history/control": history.control,
-        "history/value": getattr(history, history.control),
-        "history/position": history.position,
-        "history/speed": history.speed,
-        "history/temperature": history.temperature,
-        "history/before": history.before,
-        "history/direction": history.direction,
-    }
+    named |= {f"history/{name}": getattr(history, name) for name in _HISTORY}
+    named["history/value"] = getattr(history, history.control)
     for begin, march in zip(_MARCHES, reversed(restart.marches), strict=False):
         named |= {f"{begin}{name}": value for name, value in _march(march).items()}
     file = io.BytesIO()
@@ -103,15 +97,12 @@ def _march(march: Begun) -> dict[str, Any]:
         parts = packed(link.state) if isinstance(link.state, FreeState) else vars(link.state)
         named |= {f"{name}/state/{part}": value for part, value in parts.items()}
     moments = track.moments
-    named["moments/time"] = [one.instant.time for one in moments]
-    named["moments/clock"] = [one.instant.clock for one in moments]
-    named["moments/position"] = [one.instant.position for one in moments]
-    named["moments/work"] = [one.work for one in moments]
-    named["moments/rubbed"] = [one.rubbed for one in moments]
-    named["moments/slopes"] = [one.slopes for one in moments]
-    named["moments/left_out"] = [one.seen.left_out for one in moments]
-    named["moments/errors"] = [one.errors for one in moments]
-    named |= {f"moments/{name}": [getattr(one.seen, name) for one in moments] for name in _SEEN}
+    for names, rows in (
+        (_INSTANT, [one.instant for one in moments]),
+        (_MOMENT, moments),
+        ((*_SEEN, "left_out"), [one.seen for one in moments]),
+    ):
+        named |= {f"moments/{name}": [getattr(row, name) for row in rows] for name in names}
     for name in moments[0].seen.extents if moments else ():
         named[f"moments/extents/{name}"] = [one.seen.extents[name] for one in moments]
     for place, one in enumerate(moments):

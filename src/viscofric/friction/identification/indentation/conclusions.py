@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscofric.arrays import Array
+from viscofric.friction.identification.conclusions import FOLLOWING
 from viscofric.friction.identification.drawn_materials import Findings, Posterior, limits
 from viscofric.friction.identification.indentation.problem import IndentationProblem
 from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
@@ -22,8 +23,6 @@ from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 #: Bands of moduli begin at this factor below the inverse of the longest time; they end at that of the shortest one.
 BEYOND = 3.0
-#: Successive residuals count as correlated above this many standard deviations of von Neumann's ratio.
-FOLLOWING = 3.0
 #: Correlated residuals smaller than this get no note: records do not repeat better.
 WORTH_A_NOTE = 2e-3
 

@@ -12,6 +12,7 @@ from viscofric.arrays import Array, Mask
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError, wrong_argument
+from viscofric.friction.identification.conclusions import DOUBTFUL
 from viscofric.friction.identification.identify import check_counts
 from viscofric.friction.identification.indentation.conclusions import conclude
 from viscofric.friction.identification.indentation.contact import Shared
@@ -31,8 +32,6 @@ SETTLED, PASSES = 0.05, 4
 LEAST_ERROR = 1e-4
 #: Largest relative errors in common: their effect is taken to first order.
 LARGEST_SHARED = 0.2
-#: Residuals this many standard deviations above their expectation enlarge the given errors.
-DOUBTFUL = 3.0
 
 
 @one_blas_thread
