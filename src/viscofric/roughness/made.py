@@ -15,7 +15,7 @@ from viscofric.contact.periodic.surface import hermitian_factor, wave_number
 from viscofric.errors import InputError, wrong_argument
 from viscofric.notes import Note
 from viscofric.roughness.measured_spectrum import LineSpectrum
-from viscofric.roughness.spectrum import PowerSpectrum, hurst_exponent, wanted_rms
+from viscofric.roughness.spectrum import PowerSpectrum, self_affine_shape, wanted_rms
 from viscofric.roughness.topography import Topography
 from viscofric.units import Quantity, positive, to_si, two_lengths
 
@@ -89,19 +89,11 @@ def self_affine(
     >>> f"{road.rms_slope:.6f}"
     '0.200000'
     """
-    H = hurst_exponent(hurst)
     flag(exact, "exact")
     points, steps = _grid(shape, spacing)
     wanted, order = wanted_rms(rms_height, rms_slope)
     period = max(n * d for n, d in zip(points, steps, strict=True) if n > 1)
-    long = period if longest is None else positive(longest, "m", "longest")
-    roll = long if rolloff is None else positive(rolloff, "m", "rolloff")
-    short = positive(shortest, "m", "shortest")
-    if not short < roll <= long:
-        raise InputError(
-            f"shortest = {short:g} m, rolloff = {roll:g} m, longest = {long:g} m: must grow in this order.",
-            code="wavelengths-out-of-order",
-        )
+    H, long, roll, short = self_affine_shape(hurst, period if longest is None else longest, rolloff, shortest)
     power = -1.0 - 2.0 * H if points[1] == 1 else -2.0 - 2.0 * H
 
     def density(q: Array) -> Array:

@@ -135,14 +135,7 @@ class PowerSpectrum(Density):
         InputError
             If a value is out of range, or not just one of height and slope is given.
         """
-        H = hurst_exponent(hurst)
-        long, short = positive(longest, "m", "longest"), positive(shortest, "m", "shortest")
-        roll = long if rolloff is None else positive(rolloff, "m", "rolloff")
-        if not short < roll <= long:
-            raise InputError(
-                f"shortest = {short:g} m, rolloff = {roll:g} m, longest = {long:g} m: must grow in this order.",
-                code="wavelengths-out-of-order",
-            )
+        H, long, roll, short = self_affine_shape(hurst, longest, rolloff, shortest)
         lengths = [long, roll, short] if roll < long else [long, short]
         q = 2.0 * math.pi / np.array(lengths)
         shape = cls(q, np.minimum((q * roll / (2.0 * math.pi)) ** (-2.0 - 2.0 * H), 1.0))
@@ -243,12 +236,21 @@ class PowerSpectrum(Density):
         return replace(self, density=self.density * (wanted**2 / self.moment(order)))
 
 
-def hurst_exponent(hurst: float) -> float:
-    """Return a Hurst exponent, above 0 and at most 1, or raise `InputError`."""
+def self_affine_shape(
+    hurst: float, longest: Quantity, rolloff: Quantity | None, shortest: Quantity
+) -> tuple[float, float, float, float]:
+    """Return Hurst exponent and wavelengths, m, from the longest on; `InputError` if one is out of range."""
     H = to_si(hurst, "dimensionless", "hurst")
     if not 0.0 < H <= 1.0:
         raise InputError(f"hurst = {H:g}: must lie above 0 and be 1 at most, such as 0.8.", code="out-of-range")
-    return H
+    long, short = positive(longest, "m", "longest"), positive(shortest, "m", "shortest")
+    roll = long if rolloff is None else positive(rolloff, "m", "rolloff")
+    if not short < roll <= long:
+        raise InputError(
+            f"shortest = {short:g} m, rolloff = {roll:g} m, longest = {long:g} m: must grow in this order.",
+            code="wavelengths-out-of-order",
+        )
+    return H, long, roll, short
 
 
 def wanted_rms(rms_height: Quantity | None, rms_slope: float | None) -> tuple[float, float]:

@@ -339,12 +339,7 @@ class Topography(Plotted):
         InputError
             If the surface is not periodic (`window` or `mirror` it first), heights are missing, or no wave is left.
         """
-        if not self.periodic:
-            raise InputError(
-                f"{self._noun} is not periodic, so its Fourier series would ring at the edges; first use ",
-                code="not-periodic",
-                remedy=_PERIODIC,
-            )
+        self._insist_on_period(", so its Fourier series would ring at the edges; first")
         heights, step = waves.passed(self.complete(), self.spacing, shortest, longest)
         return self._with(heights, step)
 
@@ -373,13 +368,12 @@ class Topography(Plotted):
         InputError
             If it is not periodic or heights are missing.
         """
-        if not self.periodic:
-            raise InputError(
-                f"{self._noun} is not periodic; use ",
-                code="not-periodic",
-                remedy=_PERIODIC,
-            )
+        self._insist_on_period(";")
         return PeriodicSurface(self.complete(), self.spacing)
+
+    def _insist_on_period(self, why: str) -> None:
+        if not self.periodic:
+            raise InputError(f"{self._noun} is not periodic{why} use ", code="not-periodic", remedy=_PERIODIC)
 
     def to_indenter(self, shape: Indenter | None = None) -> HeightMap | Profile:
         """Return it as the indenter of `solve_steady`: on its own, or as roughness on a smooth one.

@@ -13,7 +13,7 @@ from viscofric.arguments import flag, numbers
 from viscofric.arrays import Array, Mask
 from viscofric.datasets import plain
 from viscofric.errors import InputError, wrong_argument
-from viscofric.rheology.shifts.shift_law import ShiftLaw, as_record, checked_covariance, in_kelvin
+from viscofric.rheology.shifts.shift_law import ShiftLaw, as_record, checked_covariance
 from viscofric.showing import Rows
 from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si_array
 
@@ -180,9 +180,7 @@ class ParametricLaw(ShiftLaw):
         InputError
             Where `log10` raises it.
         """
-        kelvin = in_kelvin(temperature)
-        self._refuse(np.atleast_1d(kelvin))
-        return self._gradient(kelvin)
+        return self._gradient(self._accepted(temperature))
 
     def _gradient(self, kelvin: Array) -> Array:
         raise NotImplementedError

@@ -105,9 +105,13 @@ class Shift(Plotted, ABC):
             If a temperature is not above absolute zero, one where the shift has no meaning or is not known, or one too
             far from those that it was fitted on.
         """
+        return in_shape(self._log10(self._accepted(temperature)))
+
+    def _accepted(self, temperature: Any) -> Array:
+        """Return temperatures, K, in their shape; InputError where the shift is not known."""
         kelvin = in_kelvin(temperature)
         self._refuse(np.atleast_1d(kelvin))
-        return in_shape(self._log10(kelvin))
+        return kelvin
 
     @overload
     def __call__(self, temperature: Quantity) -> float: ...
@@ -227,9 +231,7 @@ class ShiftLaw(Shift):
         InputError
             Where `log10` raises it, or if the law's constants were given without a covariance.
         """
-        kelvin = in_kelvin(temperature)
-        self._refuse(np.atleast_1d(kelvin))
-        return in_shape(self._standard_error(kelvin))
+        return in_shape(self._standard_error(self._accepted(temperature)))
 
     @overload
     def extrapolates(self, temperature: Quantity) -> bool: ...
