@@ -1,4 +1,4 @@
-"""Published closed forms beyond those of the engine's own checks: conveyor belts, slow balls, power-law solids."""
+"""Published closed forms beyond those of the engine's own checks: conveyor belts, slow balls, power laws, unloading."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from scipy.special import beta
 
 from viscofric.arrays import Array
 from viscofric.contact.bodies import Layer
-from viscofric.contact.indenters.shapes import Ball, Cylinder
+from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder
+from viscofric.motion import solve as motion
+from viscofric.motion.history import History
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.verification.check import Check, Comparison
@@ -125,6 +127,57 @@ def _weak_loss() -> Iterator[Comparison]:
         yield Comparison(case, "μR/(a tan δ)", weak_loss_factor(loss_tangent), law, 5e-3 + exponent)
 
 
+def unloading(
+    relaxation: RelaxationSpectrum, exponent: float, rise: float, back: float, time: float
+) -> tuple[float, float]:
+    """Load, over its factor, at a time after a depth t up to `rise` has turned and falls `back` times as fast.
+
+    The load is ∫ E(t − s) d(sⁿ), n the exponent of depth in the elastic load, up to the time s₁ at which the contact
+    had the present size, which ∫ E(t − s) ds = (1 + back) ∫_rise^t E(t − s) ds from s₁ on gives; the second number is
+    s₁, negative if the contact has been lost.
+    """
+
+    def held(age: float) -> float:
+        return float(relaxation.E0 * age - (relaxation.E * relaxation.tau) @ np.expm1(-age / relaxation.tau))
+
+    left = (1.0 + back) * held(time - rise)
+    if held(time) < left:
+        return 0.0, -1.0
+    same = time - float(brentq(lambda age: held(age) - left, time - rise, time, xtol=1e-14 * time))
+    nodes, weights = np.polynomial.legendre.leggauss(64)
+    s = same * np.square(0.5 * (nodes + 1.0))  # smooth in the root of s, as sⁿ is
+    modulus = relaxation.E0 + np.exp(-(time - s)[:, None] / relaxation.tau) @ relaxation.E
+    return float(weights @ (modulus * exponent * s ** (exponent - 0.5))) * math.sqrt(same), same
+
+
+def _unloading() -> Iterator[Comparison]:
+    relaxation = RelaxationSpectrum(1e6, [4e6, 3e6], [0.03, 0.5])
+    material = Material(relaxation.to_retardation(), poisson_ratio=0.5)
+    rise, rate, radius, slope = 0.2, 1e-3, 0.01, math.tan(math.radians(10.0))  # s, m/s, m
+    # The elastic load is the factor times Eδⁿ, the contact radius the width times δⁿ⁻¹.
+    indenters = (
+        (Ball(radius), 1.5, 4.0 / 3.0 * math.sqrt(radius) / 0.75, math.sqrt(radius)),
+        (Cone("10 deg"), 2.0, 2.0 / (math.pi * slope * 0.75), 2.0 / (math.pi * slope)),
+    )
+    for indenter, exponent, factor, width in indenters:
+        for back in (0.5, 3.0):
+            end = rise * (1.0 + 1.0 / back)
+            times = [rise + part * (end - rise) for part in (0.0, 0.05, 0.2, 0.5, 0.9)]
+            history = History([0.0, rise, end], indentation=[0.0, rate * rise, 0.0])
+            run = motion.solve_transient(material, indenter, history, times=times)
+            assert run.contact_radius is not None
+            first, _ = unloading(relaxation, exponent, rise, back, rise)
+            largest = factor * rate**exponent * first
+            widest = width * (rate * rise) ** (exponent - 1.0)
+            for time, load, contact in zip(times, run.load, run.contact_radius, strict=True):
+                shape, same = unloading(relaxation, exponent, rise, back, time)
+                case = f"{indenter.noun}, falling {back:g} times as fast, t = {time:.3g} s"
+                computed, wanted = float(load) / largest, shape / first
+                yield Comparison(case, "load over the one at the turn", computed, wanted, 1e-3, "absolute")
+                computed, wanted = float(contact) / widest, (max(same, 0.0) / rise) ** (exponent - 1.0)
+                yield Comparison(case, "radius over the one at the turn", computed, wanted, 1e-3, "absolute")
+
+
 _GROUP = "published closed forms"
 
 CHECKS = (
@@ -169,5 +222,16 @@ CHECKS = (
         obtained="Closed form. Greenwood and Tabor's own estimate from the work on the leading half, μ = (3/16) α a/R, "
         "gives c = 3π/16 = 0.589 with a loss α = π tan δ per cycle.",
         unstated="Their measured α exceeds that of simple cycles; it is no input here.",
+    ),
+    Check(
+        "ting-unloading",
+        "Ball and cone that are drawn back: load and contact radius while the contact shrinks, and after it is lost",
+        _GROUP,
+        "T. C. T. Ting, J. Appl. Mech. 33 (1966) 845, doi:10.1115/1.3625192",
+        "The requested accuracy, of the largest load and radius.",
+        _unloading,
+        obtained="Closed form of a growing and then shrinking contact, evaluated for a depth that rises and falls "
+        "steadily; the integral by Gauss's rule.",
+        unstated="Only the formulae were available, not the paper's example numbers; the material is chosen.",
     ),
 )
