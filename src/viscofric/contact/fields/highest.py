@@ -80,6 +80,10 @@ def highest_von_mises(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, poisson_r
     line contact), but not less than one cell, where the steps from cell to cell would be felt.  The depth is then
     refined.  Error where the pressure is resolved: about (cell/depth)², from the position sideways.
 
+    The stress is that of the pressure alone.  With Coulomb friction μ_c the shear on the face makes √3 μ_c times the
+    largest pressure there at least; below an incompressible line contact, up to 15 % are added for μ_c up to 0.3, and
+    the face is the place of the highest stress from 0.35 on (K. L. Johnson, Contact Mechanics, 1985, Sec. 7.1).
+
     Examples
     --------
     >>> import viscofric as vf
