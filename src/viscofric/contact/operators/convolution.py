@@ -56,6 +56,15 @@ class SteadyMaterial:
         """`drag` of the indenter's potential: the shear on it is the opposite one."""
         return -self.drag * self.counterface_coupling
 
+    @property
+    def edge_coupling(self) -> float:
+        """Displacement of the shortest waves by the shear, over that by the pressure: μβ of a half-space.
+
+        The pressure rises from the edges with the powers 1/2 ± arctan(μβ)/π of the distance.
+        """
+        sheared = self.glassy * self.coupling - self.counterface * self.counterface_coupling
+        return self.drag * sheared / (self.glassy + self.counterface)
+
     def symbol(self, qx: Array, yielding: ArrayLike = 1.0) -> ComplexArray:
         """Return the compliance for a sinusoidal load of wavenumber q_x, (1−ν²) S(−q_x v) + (1−ν_i²)/E_i.
 
