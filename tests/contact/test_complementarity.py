@@ -15,7 +15,12 @@ from contact.dense_reference import (
 )
 from gallery import BALL_RADIUS, BALL_REFERENCES, HERTZ_RADIUS, POISSON_RATIO, BallReference, standard_linear_solid
 from marks import apart, slow
-from viscofric.contact.complementarity import solve_complementarity, solve_many_spots, solve_on_contact
+from viscofric.contact.complementarity import (
+    KnownChanges,
+    solve_complementarity,
+    solve_many_spots,
+    solve_on_contact,
+)
 from viscofric.contact.extension import Extension
 from viscofric.contact.free.grids import Window
 from viscofric.contact.operators.convolution import SteadyMaterial
@@ -135,6 +140,35 @@ def test_set_chosen_at_every_step_leaves_the_answer(given: str) -> None:
     assert max(np.abs(gap[other.pressure > 0.0]).max(), -gap.min()) <= 1e-10
     np.testing.assert_allclose(other.displacement, operator(other.pressure), rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(one.pressure, other.pressure, rtol=0.0, atol=1e-6 * one.pressure.max())
+
+
+@pytest.mark.parametrize("fixed_load", [True, False])
+def test_known_displacements_belong_to_their_changes_when_cells_enter_and_leave(fixed_load: bool) -> None:
+    """Those that enter were beside the contact, and those that leave stay beside it for as long as they are known."""
+    points, random = 16, np.random.default_rng(0)
+    q = np.hypot(np.fft.fftfreq(points)[:, None], np.fft.rfftfreq(points))
+    q[0, 0] = 1.0
+    operator = PeriodicOperator((0.01 + 1j) / q, (points, points))
+    chosen = np.zeros((points, points), dtype=bool)
+    chosen[4:10, 5:11] = True
+    contact = operator.backend.cells(chosen)
+    known = KnownChanges(contact, 4, np.float64, fixed_load=fixed_load)
+    for _ in range(5):  # the first is left out again
+        change = contact.scattered(random.standard_normal(len(contact)))
+        assert known.add(change, operator(change)) > 0.0
+    moved = chosen.copy()
+    moved[4, 6] = moved[9, 7] = False
+    moved[10, 5:9] = moved[7, 11] = True
+    known.move(operator.backend.cells(moved))
+    images = known.images[:, : moved.sum()]
+    np.testing.assert_allclose(images @ images.T, np.eye(4), rtol=0.0, atol=1e-12)
+    for change, image in zip(known.changes, images, strict=True):
+        pressure = np.zeros((points, points))
+        pressure[moved] = change[: moved.sum()]
+        pressure[known.beside.chosen] = change[moved.sum() :]
+        displacement = operator(pressure)[moved]
+        displacement -= displacement.mean() if fixed_load else 0.0
+        np.testing.assert_allclose(image, displacement, rtol=0.0, atol=1e-12)
 
 
 def test_complementarity_is_measured_in_the_given_depth() -> None:

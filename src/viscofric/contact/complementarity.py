@@ -21,6 +21,7 @@ solutions on a wrong set make all spots overshoot.
 
 from __future__ import annotations
 
+import functools
 import math
 import operator as operator_module
 from dataclasses import dataclass, replace
@@ -41,6 +42,8 @@ _LEAST_REDUCTION = 1e-7
 _LITTLE = 0.1
 # Part of the displacement of a change that is not a combination of others, below which it is only rounding errors.
 _NOTHING_NEW = 1e-4
+# Part of a change that must be left where cells have left the contact: otherwise its displacement is that of another.
+_MOSTLY = 0.87
 # Part of a gap from which on rounding errors in single precision matter to it.
 _MUCH_LESS = 1e-3
 # Part of the least residual so far below which there is headway.
@@ -243,7 +246,7 @@ def solve_many_spots(
     contact = backend.cells(pressure > 0.0)
     loaded, values = contact.indices, contact.gathered(pressure)
     gap, confirmed = _gap(backend, operator(pressure), height), True
-    known = KnownChanges(backend, directions)
+    known = KnownChanges(contact, directions, inner.dtype, fixed_load=load is not None)
     change = image = extended = None
     best, best_contact, best_values = math.inf, contact, values
     steps = since_best = 0
@@ -264,9 +267,9 @@ def solve_many_spots(
         if extended is None or len(cells) != len(former) or not bool(xp.all(cells.indices == former.indices)):
             contact = cells
             extended, collected = extension.on(contact), extension.collecting(contact)
-            change = None if image is None else known.move(former, contact, change)
+            known.move(contact)
         if image is not None:
-            fresh = known.add(change, _levelled(backend, contact.gathered(image), load))
+            fresh = known.add(former.scattered(change), image)
         residual = xp.astype(level - contact.gathered(gap), inner.dtype)
         combined, residual, missing = known.remove(_levelled(backend, residual, load))
         if fresh > 0.0:
@@ -344,62 +347,104 @@ def _look_at_gap(
 
 
 class KnownChanges:
-    """Changes of the pressure at the cells in contact, and the displacements that they cause there."""
+    """Changes of the pressure, and the displacements that they cause, at the cells in contact and at those beside them.
 
-    def __init__(self, backend: Backend, most: int) -> None:
-        self.backend, self.most = backend, most
-        self.changes: list[AnyArray] = []
-        self.images: list[AnyArray] = []  # orthonormal, but for changes of the set
+    The latter may come into contact next, and those that have left it may return: there, too, displacements must belong
+    to their changes, since otherwise every change of the set spoils all that is known.
+    """
 
-    def move(self, old: Cells, new: Cells, change: AnyArray) -> AnyArray:
-        """Go over to other cells, and return a change on these: what was not in contact before has not changed."""
-        xp = self.backend.xp
-        places = xp.clip(xp.searchsorted(old.indices, new.indices), max=len(old) - 1)
-        same = xp.astype(xp.take(old.indices, places) == new.indices, change.dtype)
-        for kind in (self.changes, self.images):
-            for number, one in enumerate(kind):  # one by one, so that few are there twice
-                kind[number] = same * xp.take(one, places)
-        return same * xp.take(change, places)
+    def __init__(self, contact: Cells, most: int, dtype: Any, *, fixed_load: bool) -> None:
+        self.most, self.fixed_load = most, fixed_load
+        self._take_place(contact)
+        # One in each row, at the cells in contact and then at those beside them.  Images are orthonormal on the contact
+        # and, with a load, have no mean there.
+        self.changes = self.images = contact.backend.zeros((0, len(contact) + len(self.beside)), dtype)
+
+    def _take_place(self, contact: Cells) -> None:
+        self.contact, self.backend, self.xp = contact, contact.backend, contact.backend.xp
+        near = [self.xp.roll(contact.chosen, step, axis=axis) for axis in (0, 1) for step in (1, -1)]
+        self.beside = self.backend.cells(functools.reduce(operator_module.or_, near) & ~contact.chosen)
+
+    def _gathered(self, field: AnyArray) -> AnyArray:
+        return self.xp.concat([self.contact.gathered(field), self.beside.gathered(field)])
+
+    def move(self, contact: Cells) -> None:
+        """Go over to another contact, with the changes that are mostly on it.
+
+        Cells that are new to it and to its surroundings have not changed.
+        """
+        xp, count, size = self.xp, len(self.contact), self.images.shape[1]
+        number = xp.astype(xp.arange(1, size + 1), xp.int32)
+        field = self.beside.inserted(self.contact.scattered(number[:count]), number[count:])
+        self._take_place(contact)
+        places = xp.astype(self._gathered(field), xp.int64)
+        known, places = xp.astype(places > 0, self.images.dtype), xp.clip(places - 1, min=0)
+        sizes = [_size(self.changes[row, :]) for row in range(self.changes.shape[0])]
+        # One after the other, so that not both are there twice.
+        self.changes = xp.take(self.changes, places, axis=1)
+        self.changes *= known
+        self.images = xp.take(self.images, places, axis=1)
+        self.images *= known
+        left = [_size(self.changes[row, : len(contact)]) >= _MOSTLY * size for row, size in enumerate(sizes)]
+        if not all(left):
+            rows = self.backend.asarray(np.flatnonzero(left))
+            self.changes, self.images = (xp.take(kind, rows, axis=0) for kind in (self.changes, self.images))
+        inside = self.images[:, : len(contact)]
+        if self.fixed_load:
+            self.images -= xp.mean(inside, axis=1)[:, None]
+        try:
+            factor = np.linalg.cholesky(self.backend.to_numpy(inside @ inside.T).astype(np.float64))
+        except np.linalg.LinAlgError:
+            self._forget()
+            return
+        again = xp.astype(self.backend.asarray(np.linalg.inv(factor)), self.images.dtype)
+        self.changes = again @ self.changes
+        self.images = again @ self.images
+
+    def _forget(self) -> None:
+        self.changes, self.images = self.changes[:0, :], self.images[:0, :]
 
     def add(self, change: AnyArray, image: AnyArray) -> float:
-        """Add a change and its image, less what others have of them; return the size of what is new of the image.
+        """Add a change and its image, both (nx, ny), less what others have of them.
 
-        Both are overwritten.
+        Returns the size of what is new of the image.
         """
+        xp, count = self.xp, len(self.contact)
+        change, image = self._gathered(change), self._gathered(image)
+        if self.fixed_load:
+            image -= xp.mean(image[:count])
         # The oldest is left out first: of it the new one keeps its part.
-        self.changes, self.images = self.changes[1 - self.most :], self.images[1 - self.most :]
-        first = length = math.sqrt(float(image @ image))
+        oldest = max(0, self.images.shape[0] - self.most + 1)
+        self.changes, self.images = self.changes[oldest:, :], self.images[oldest:, :]
+        first = length = _size(image[:count])
         for _ in range(2):
             whole = length
-            for known, its_image in zip(self.changes, self.images, strict=True):
-                overlap = its_image @ image
-                image -= overlap * its_image
-                change -= overlap * known
-            length = math.sqrt(float(image @ image))
+            overlaps = self.images[:, :count] @ image[:count]
+            image -= overlaps @ self.images
+            change -= overlaps @ self.changes
+            length = _size(image[:count])
             if length > _LITTLE * whole:
                 break
         if length <= _NOTHING_NEW * first:
-            # Images no longer belong to their changes where cells have left the contact: all are forgotten.
-            self.changes, self.images = [], []
+            self._forget()
             return 0.0
-        image /= length
-        change /= length
-        self.changes.append(change)
-        self.images.append(image)
+        self.changes = xp.concat([self.changes, change[None, :] / length])
+        self.images = xp.concat([self.images, image[None, :] / length])
         return length
 
-    def remove(self, residual: AnyArray) -> tuple[AnyArray | float, AnyArray, float]:
+    def remove(self, residual: AnyArray) -> tuple[AnyArray, AnyArray, float]:
         """Return the sum of changes that leaves least of a gap, what it leaves, and how much of the last is in it.
 
-        The gap is overwritten.
+        The gap is at the cells in contact, and is overwritten.
         """
-        total: AnyArray | float = 0.0
-        step: AnyArray | float = 0.0
-        for change, image in zip(self.changes, self.images, strict=True):
-            step = image @ residual
-            residual -= step * image
-            total = total + step * change
-        return total, residual, float(step)
+        changes, images = self.changes[:, : len(self.contact)], self.images[:, : len(self.contact)]
+        parts = images @ residual
+        residual -= parts @ images
+        return parts @ changes, residual, float(parts[-1]) if parts.shape[0] else 0.0
+
+
+def _size(values: AnyArray) -> float:
+    return math.sqrt(float(values @ values))
 
 
 def _levelled(backend: Backend, values: AnyArray, load: float | None) -> AnyArray:
