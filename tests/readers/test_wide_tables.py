@@ -227,6 +227,7 @@ SPEED = "speed (mm/s)"
         ([[SPEED, "COF 5 kg", "COF 10 N"]], "ambiguous-columns", "'COF 5 kg'"),  # weights, or loads as they are
         ([[SPEED, "5 N", "10 N"], ["mm/s", "N", "N"]], "wrong-unit", "'5 N'"),
         ([["", "Friction force (N)", ""], [SPEED, "5 N", "10 N"]], "quantity-unknown", "'Friction force (N)'"),
+        ([["", "temperature rise", ""], [SPEED, "5 N", "10 N"]], "quantity-unknown", "'temperature rise'"),
         ([["Reibkraft", "", ""], [SPEED, "5 N", "10 N"]], "quantity-unknown", "'Reibkraft'"),
         ([[SPEED, "friction force 5 N (N)", "friction force 10 N (N)"]], "missing-columns", "'friction force 5 N (N)'"),
         ([[SPEED, "NR 5 N", "SBR 5 N"]], "missing-columns", "'NR 5 N'"),
@@ -347,6 +348,8 @@ DMA_ROWS = [[1.0, 5.0, 0.5, 4.0, 0.4], [10.0, 6.0, 0.6, 5.0, 0.5]]
     [
         ([["f (Hz)", "E' 20°C (MPa)", "E'' 20°C (MPa)", "E' 40°C (MPa)", "E'' 40°C (MPa)"]], "1234"),
         ([["", "Temperature 20 °C", "", "Temperature 40 °C", ""], ["f", "E'", "E''", "E'", "E''"],
+          ["Hz", "MPa", "MPa", "MPa", "MPa"]], "1234"),
+        ([["f", "E'", "E''", "E'", "E''"], ["", "20 °C", "20 °C", "40 °C", "40 °C"],
           ["Hz", "MPa", "MPa", "MPa", "MPa"]], "1234"),
         ([["", "E' (MPa)", "", "E'' (MPa)", ""], ["f (Hz)", "20 °C", "40 °C", "20 °C", "40 °C"]], "1324"),
         ([["T (°C)", 20.0, "", 40.0, ""], ["f (Hz)", "E' (MPa)", "E'' (MPa)", "E' (MPa)", "E'' (MPa)"]], "1234"),

@@ -46,7 +46,7 @@ def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
     """Return rows with the place of their header, of up to three rows as one; None without any."""
     found = _header_of_one_row(rows, words)
     held = named(found.rows[found.header][1], words) if found else set()
-    if found and not words.missing(held):
+    if found and not words.missing(held) and not _repeats(found.rows[found.header][1], words):
         return found
     least, first = max(1, len(held)), _first_numbers(rows, words)
     for bottom in {*range(max(0, (first or 0) - _MOST_HEADER_ROWS), first or 0), *([found.header] if found else [])}:
@@ -60,6 +60,12 @@ def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
                 header = (rows[bottom][0], cells)
                 found, least = Found([*rows[:top], *above, header, *rows[bottom + 1 :]], top + len(above)), count
     return found
+
+
+def _repeats(cells: Sequence[str], words: Vocabulary) -> bool:
+    """Return whether columns of one quantity are not told apart by what their headings state."""
+    each = [(column.quantity, column.stated) for column in words.columns(cells) if column.quantity]
+    return len(set(each)) < len(each)
 
 
 def joined(band: Sequence[Sequence[str]], words: Vocabulary) -> list[str]:

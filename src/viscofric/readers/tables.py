@@ -329,10 +329,11 @@ def _insist_on_words(table: Table) -> None:
     alone = next((column for column in table.columns if column.alone), None)
     if alone is None:
         return
+    over = next((title[1] for title in table.titles if len(title) > 1), "")
     for cell in (cell.strip() for row in table.above for cell in row if cell.strip()):
         one = table.vocabulary.column(cell.partition(":")[0])
         unit = one.unit and not table.vocabulary.has_value(cell)
-        if not one.quantity and (unit or _NO_COEFFICIENT.search(cell)):
+        if not one.quantity and (unit or cell == over or _NO_COEFFICIENT.search(cell)):
             problem = f"heading {alone.heading!r} and those beside it name no quantity, and above them is {cell!r}; "
             right = f"write the quantity into each heading, such as 'COF {alone.heading}' for coefficients of friction."
             raise table.refused("quantity-unknown", problem + right)
@@ -452,7 +453,10 @@ def _by_headings(table: Table) -> Sets | None:
     shared = [place for place, column in enumerate(table.columns) if not column.stated]
     values = [{what: _value(text) for what, text in stated} for stated in each]
     above = [*(table.above[-1] if table.above else ()), *[""] * len(table.columns)]
-    words = [[above[place] for place in one if _says_more(above[place], table)] for one in sets]
+    said = [cell if _says_more(cell, table) else "" for cell in above]
+    if said[0] and sum(map(bool, said)) == 2:  # a label and its value, such as a date
+        said = [""] * len(said)
+    words = [[said[place] for place in one if said[place]] for one in sets]
     titles = [
         (dict(stated).get("temperature", ""), *dict.fromkeys(one)) for stated, one in zip(each, words, strict=True)
     ]
