@@ -12,6 +12,7 @@
 // curve.start()              from now on it is computed whenever its inputs have changed; curve.run(asked): now
 // curve.cancel(), resume()   keeps what is there, computes the rest; curve.put(asked, result); curve.progress; curve.ended
 // curve.result, current, error   the newest one, of whatever inputs; that of the inputs as they are, or null; why there is none
+// curve.shown                the newest one, null where the inputs as they are have an error
 //
 // isStale(result)            whether its inputs are others than those of the study and the page
 // result(name), newest(name)  what a job has of the inputs as they are, to its end, or null; what it has of whatever inputs
@@ -96,6 +97,9 @@ export class Job {
 
   get result() {
     return this.inputs.value ? (this.#found.value?.result ?? null) : null;
+  }
+  get shown() {
+    return this.error ? null : this.result;
   }
   get current() {
     return this.#ofNow(this.#found)?.result ?? null;

@@ -7,7 +7,7 @@ import { html, signal, view } from "../reactive.js";
 import { state } from "../state.js";
 import { Button, Card, Drop, Notes, Numbers, Pick, Progress, Table, shown } from "../views.js";
 import { Shifted, startShifted } from "./shifted.js";
-import { TESTS, emptyOf, failed, isMade, rubber, shownRubber, takeFactors } from "./source.js";
+import { TESTS, emptyOf, failed, isMade, rubber, takeFactors } from "./source.js";
 
 const FACTORS = ["shift-factors", "Shift factor against temperature"];
 const EMPTY = "DMA sweeps at several temperatures are shifted here. Add them in step 1, Data.";
@@ -92,7 +92,7 @@ rubber.start();
 startShifted();
 
 export default view(() => {
-  const of = shownRubber();
+  const of = rubber.shown;
   const none = of && !of.shift && "This material has no shift factors: it is valid at one temperature only.";
   return html`
     <p>All isotherms are shifted along the frequency axis at once, onto one master curve.</p>

@@ -9,7 +9,7 @@ import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Pick } from "../views.js";
 import { draggable, moveTrace } from "./drag.js";
-import { decades, named, rubber, shownRubber, worded } from "./source.js";
+import { decades, named, rubber, worded } from "./source.js";
 
 const QUANTITIES = [
   ["storage_modulus", "E′"],
@@ -22,9 +22,9 @@ const SETTLE = 400; // ms after the last key
 
 const quantity = signal("storage_modulus");
 const moved = signal(0); // decades, while the slider or the mouse moves it
-const isotherms = () => shownRubber()?.shift?.isotherms ?? [];
+const isotherms = () => rubber.shown?.shift?.isotherms ?? [];
 /** Whether isotherms can be moved: neither factors of a file nor those of several kinds of tests are. */
-const movable = () => !shownRubber()?.shift?.not_correctable;
+const movable = () => !rubber.shown?.shift?.not_correctable;
 /** The isotherm that can be moved: the one nearest to the chosen one, or else the first that is not the reference. */
 const chosen = computed(() => {
   const all = isotherms();
@@ -48,7 +48,7 @@ const misfits = new Job("isotherm_misfit", {
 export function startShifted() {
   misfits.start();
   watch(
-    () => [inputsOf(shownRubber()), chosen.value?.temperature].join(),
+    () => [inputsOf(rubber.shown), chosen.value?.temperature].join(),
     () => (moved.value = 0),
   );
 }

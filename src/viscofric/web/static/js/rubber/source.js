@@ -25,9 +25,6 @@ export const rubber = new Job("rubber", {
   },
 });
 
-/** What is shown of it: also that of earlier inputs, while another one is made. */
-export const shownRubber = () => (rubber.error ? null : rubber.result);
-
 /** What stands in an empty figure: these words, or that the error above says why there is none. */
 export const emptyOf = (words, job = rubber) => (job.error ? "No figure yet: see the message above." : words);
 

@@ -7,7 +7,7 @@ import { explain, page } from "../page.js";
 import { html, signal, view } from "../reactive.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Numbers, Pick, Progress, Table } from "../views.js";
-import { emptyOf, isMade, rubber, shownRubber, worded } from "./source.js";
+import { emptyOf, isMade, rubber, worded } from "./source.js";
 
 const chosen = signal(null); // temperature that the modulus is shown at, K; null is the reference
 const moduli = new Job("moduli", {
@@ -70,7 +70,7 @@ const Temperature = view(({ of: { shift, spectrum } }) => {
 
 /** The misfit beside the number of modes. */
 function misfit() {
-  const { rms_storage: storage, rms_loss: loss } = shownRubber()?.spectrum.fit ?? {};
+  const { rms_storage: storage, rms_loss: loss } = rubber.shown?.spectrum.fit ?? {};
   return storage ? `Misfit of E′, E″: ${storage.toFixed(3)}, ${loss.toFixed(3)} decades (rms).` : "";
 }
 
@@ -87,7 +87,7 @@ for (const job of [rubber, moduli]) job.start();
 const ended = () => (rubber.result?.no_band ? `No 95 % band: ${rubber.result.no_band}.` : "");
 
 export default view(() => {
-  const of = shownRubber();
+  const of = rubber.shown;
   const { fit, notes } = of?.spectrum ?? {};
   return html`
     <p>Modes fitted to the master curve, and the resulting E′ and E″ at any temperature within the shift factors.</p>

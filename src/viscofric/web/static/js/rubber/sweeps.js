@@ -10,7 +10,7 @@ import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Drop, Folded, Notes, Numbers, Progress, Radios, Table } from "../views.js";
 import { Amplitude, amplitude } from "./amplitude.js";
-import { FIRST_REFERENCE, TESTS, emptyOf, named, rubber, shownRubber, worded } from "./source.js";
+import { FIRST_REFERENCE, TESTS, emptyOf, named, rubber, worded } from "./source.js";
 import * as source from "./source.js";
 
 const READY = ["catalogue", "file"]; // sources that leave nothing to say
@@ -162,10 +162,10 @@ const ReadFiles = view(({ of }) => {
 });
 
 export default view(() => {
-  const of = sweeps.error ? null : sweeps.result;
+  const of = sweeps.shown;
   const said = source.failed.value?.message ?? (sweeps.error && explain(sweeps.error, "sweeps"));
   // a material without measured moduli has those of its spectrum
-  const drawn = [of, of && !isMeasured() ? shownRubber() : null];
+  const drawn = [of, of && !isMeasured() ? rubber.shown : null];
   return html`
     <div class="columns">
       <div>

@@ -5,7 +5,7 @@ import { announce } from "../page.js";
 import { html, view } from "../reactive.js";
 import { Card, Checks, Folded, Notes, Numbers, Table } from "../views.js";
 import { Identification, MasterCurve, master } from "./measurement_analysis.js";
-import { Run, Source, agreement, emptyOf, measured, shownMeasured } from "./measurement_source.js";
+import { Run, Source, agreement, emptyOf, measured } from "./measurement_source.js";
 
 agreement.done = ({ sentences }) => sentences.length && announce(sentences[0]);
 for (const job of [measured, agreement, master]) job.start();
@@ -14,10 +14,10 @@ const OTHERS = ["coulomb-friction", "four-runs", "force-cell-zero"];
 
 /** Measured friction beside the prediction. */
 const Comparison = view(() => {
-  const of = agreement.error ? null : agreement.result;
+  const of = agreement.shown;
   return html`<${Card} title="Measured against predicted">
     <${Run} job=${agreement} label="Predicting" />
-    <${Figure} id="measured-friction" title="Viscoelastic friction" of=${of ?? shownMeasured()}
+    <${Figure} id="measured-friction" title="Viscoelastic friction" of=${of ?? measured.shown}
       empty=${emptyOf("Drop the files of a traction test, or use the synthetic example.")} />
     <${Numbers} of=${of} />
     <${Notes} of=${of} list=${of ? [of.sentences[0], ...of.notes] : []} />
@@ -35,7 +35,7 @@ export default view(() => html`
     curve, and material identified from friction.
   </p>
   <div class="columns"><div><${Source} /></div><div><${Comparison} /></div></div>
-  <div class="grid thirds"><${Figures} of=${shownMeasured()} ids=${OTHERS} height=${300} /></div>
+  <div class="grid thirds"><${Figures} of=${measured.shown} ids=${OTHERS} height=${300} /></div>
   <${MasterCurve} />
   <${Identification} />
 `);

@@ -9,7 +9,7 @@ import { html, view } from "../reactive.js";
 import { state } from "../state.js";
 import * as units from "../units.js";
 import { Button, Card, Notes, Table } from "../views.js";
-import { Facts, Run, agreement, alone, emptyOf, ofMeasured, shownMeasured } from "./measurement_source.js";
+import { Facts, Run, agreement, alone, emptyOf, measured, ofMeasured } from "./measurement_source.js";
 
 const fields = page.start.forms.master;
 export const master = ofMeasured("master", () => ({ beside: !alone(), law: given(fields).law }));
@@ -25,10 +25,10 @@ function specOf(of, name) {
 
 /** The card of the friction master curve. */
 export const MasterCurve = view(() => {
-  const of = master.error ? null : master.result;
+  const of = master.shown;
   const { found, by_rubber: byRubber, refusal, notes = [] } = of ?? {};
   const drawn = found && (!byRubber || given(fields).shifted === "found") ? "found" : "by_rubber";
-  const there = Boolean(shownMeasured()?.curves);
+  const there = Boolean(measured.shown?.curves);
   const offered = { "@friction.beside": there, "@friction.shifted": found && byRubber, "@friction.law": found };
   const refused = refusal && `Shift factors cannot be determined from friction alone: ${refusal}`;
   return html`<${Card} title="Friction master curve">
@@ -53,7 +53,7 @@ const suggested = () => (master.current?.refusal && master.current.by_rubber ? "
 
 /** The temperature of the anchor where none was typed. */
 function middle() {
-  const isotherms = shownMeasured()?.curves ?? [];
+  const isotherms = measured.shown?.curves ?? [];
   const kelvin = isotherms[Math.floor(isotherms.length / 2)]?.temperature;
   return kelvin ? units.show(kelvin, "temperature") : "30 °C";
 }
@@ -84,11 +84,11 @@ async function take({ download }) {
 
 /** The card of the identification. */
 export const Identification = view(() => {
-  const of = identify.error ? null : identify.result;
+  const of = identify.shown;
   identify.done = ({ sentences: [first] }) => announce(`The material is identified. ${first}`);
   // which factors to use is not known before
   const known = master.current || master.error || master.ended;
-  if (!shownMeasured()?.curves)
+  if (!measured.shown?.curves)
     return html`<${Card} title="Material identified from friction">
       <p class="help">${emptyOf("Drop a traction test above: the modulus is inferred from its friction here.")}</p>
     <//>`;

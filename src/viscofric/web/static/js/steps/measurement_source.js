@@ -16,12 +16,9 @@ export const measured = new Job("measured", {
   inputs: () => (state.get("measurement") ? { study: state.study } : null),
 });
 
-/** What is shown of it: also that of earlier inputs, while it is read again. */
-export const shownMeasured = () => (measured.error ? null : measured.result);
-
 /** What stands in an empty figure: these words, or that the files that were dropped have no friction to draw yet. */
 export const emptyOf = (words) =>
-  shownMeasured()?.refusal ? "The friction of these files cannot be separated yet: see Measured friction." : words;
+  measured.shown?.refusal ? "The friction of these files cannot be separated yet: see Measured friction." : words;
 
 /** Whether friction is looked at alone, without the page's material. */
 export const alone = () => state.view("friction.beside", "rubber") === "nothing";
@@ -89,7 +86,7 @@ measured.done = (result) => {
 
 /** The view of the measurement's files, with its fields. */
 export const Source = view(() => {
-  const of = shownMeasured();
+  const of = measured.shown;
   const table = state.get("measurement");
   const { notes = [], steps = [], download } = of ?? {};
   const about = "More: zero, Coulomb friction, steps, outliers";
