@@ -48,7 +48,9 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
         return
     assert study is not None
     if study.is_dir():
-        raise click.UsageError(f"{study} is a folder; give a run file, or --results {study} for stored results.")
+        named = sorted(study.glob("*.toml"))
+        such = f" such as {named[0]}" if named else ""
+        raise click.UsageError(f"{study} is a folder; give a run file{such}, or --results {study} for stored results.")
     from viscofric.study.checking import check_study
     from viscofric.study.run_file.study import decoded, parse_study, read_study_text
 

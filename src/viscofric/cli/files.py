@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from viscofric.contact.solution import ContactSolution
 
 PICTURES, CSV, JSON, DATA = (".png", ".svg", ".pdf"), (".csv",), (".json",), (".nc", ".csv")
+_FILES = (*PICTURES, *JSON, *DATA, ".xlsx", ".html", ".toml")  # what no folder is named
 DASH = Path("-")
 _INPUT = "standard input"
 
@@ -54,9 +55,11 @@ class Named(click.Path):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path."""
-        found = super().convert(value, param, ctx)
+        found: Any = super().convert(value, param, ctx)
         if found == DASH:
             self.fail("`-` stands for standard input or output, which cannot be used here; give a name.", param, ctx)
+        if not self.file_okay and found.suffix.lower() in _FILES and not found.is_dir():
+            self.fail(f"{found} is written as a folder of files; give a name without {found.suffix}.", param, ctx)
         return found
 
 
@@ -73,7 +76,7 @@ class Source(click.Path):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path of the file to read."""
-        found = super().convert(value, param, ctx)
+        found: Any = super().convert(value, param, ctx)
         return _kept_input(ctx) if found == DASH and ctx is not None else found
 
 
