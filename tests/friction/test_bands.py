@@ -10,7 +10,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
-from viscofric.data import Isotherm, IsothermalSweeps
+from rheology.planted import planted_sweeps
 from viscofric.friction.bands import DrawnMaterials
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.notes import codes
@@ -25,13 +25,8 @@ CONDITIONS = ((303.15, 0.02), (363.15, 0.05))
 
 def measured_material(noise: float = 0.01, samples: int = 40, seed: int = 5):
     """Spectrum and shift factors from SYNTHETIC sweeps of the built-in rubber, and materials drawn about them."""
-    rubber, random = vf.synthetic_fluoroelastomer(), np.random.default_rng(seed)
-    omega = 2.0 * np.pi * np.logspace(-1.0, 1.0, 9)
-    isotherms = []
-    for kelvin in np.arange(273.15, 400.0, 10.0):
-        modulus, scatter = rubber.complex_modulus(omega, kelvin), 1.0 + noise * random.standard_normal((2, 9))
-        isotherms.append(Isotherm(kelvin, omega, modulus.real * scatter[0], modulus.imag * scatter[1]))
-    fit = vf.superpose(IsothermalSweeps(tuple(isotherms)), reference="30 degC")
+    made = planted_sweeps(seed, noise, celsius=np.arange(0.0, 121.0, 10.0), frequencies=np.logspace(-1.0, 1.0, 9))
+    fit = vf.superpose(made.sweeps, reference="30 degC")
     spectrum = vf.fit_retardation_spectrum(fit.master_curve)
     drawn = vf.sample_materials(fit, spectrum, samples=samples, seed=seed)
     return vf.Material(spectrum, fit.shift_factors), drawn

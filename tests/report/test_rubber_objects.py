@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -15,6 +16,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 import viscofric as vf
+from rheology.planted import planted_sweeps
 from viscofric.data import IsothermalSweeps
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
@@ -29,13 +31,8 @@ LEVEL_95 = 1.959963984540054
 
 def made_sweeps(celsius: Any = (10.0, 20.0, 30.0, 40.0, 50.0, 60.0), deformation: Any = "tension") -> IsothermalSweeps:
     """Sweeps of the synthetic fluoroelastomer without noise."""
-    rubber = vf.synthetic_fluoroelastomer()
-    omega = np.geomspace(0.63, 63.0, 9)
-    isotherms = []
-    for temperature in np.asarray(celsius) + 273.15:
-        modulus = rubber.complex_modulus(omega, float(temperature))
-        isotherms.append(vf.Isotherm(float(temperature), omega, modulus.real, modulus.imag))
-    return IsothermalSweeps(tuple(isotherms), deformation)
+    made = planted_sweeps(0, 0.0, celsius=celsius, frequencies=np.geomspace(0.1, 10.0, 9))
+    return replace(made.sweeps, deformation=deformation)
 
 
 @pytest.fixture(scope="module")
