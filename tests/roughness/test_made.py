@@ -92,6 +92,20 @@ def test_directions_without_waves_are_a_part_of_the_mean(aspect):
     assert spectrum.rms_height() == pytest.approx(surface.rms_height, rel=0.1)
 
 
+def test_copies_of_a_surface_and_ridges_keep_its_slope():
+    """Most waves, and of copies whole rings between the longest ones, are missing there."""
+    one = vf.self_affine(0.8, shape=(64, 64), spacing="8 um", shortest="64 um", rms_slope=0.2, seed=1)
+    line = vf.self_affine(0.8, shape=256, spacing="8 um", shortest="64 um", rms_slope=0.2, seed=1).heights.reshape(
+        -1, 1
+    )
+    for heights in (np.tile(one.heights, (3, 3)), np.repeat(line, 256, axis=1)):
+        surface = vf.Topography(heights, one.spacing, periodic=True)
+        spectrum = vf.roughness.power_spectrum(surface)
+        # Few waves lie in each ring; the longest ones, which carry the height, are interpolated.
+        assert spectrum.rms_slope() == pytest.approx(surface.rms_slope, rel=0.1)
+        assert spectrum.rms_height() == pytest.approx(surface.rms_height, rel=1.0 / 3.0)
+
+
 def test_few_points_a_decade_give_the_same_slope_and_friction():
     rubber, conditions = vf.synthetic_fluoroelastomer(), {"speeds": [0.01, 1.0], "pressure": 2e5, "temperatures": 303.0}
     # A whole surface without a bend, and a scan of one with it, whose points could hold shorter waves than there are.

@@ -265,9 +265,8 @@ def _rings(
     q, density, counts = q[within], density[within], counts[within]
     start = max(start, float(q.min()) - 0.5 * first)
     ring = np.floor(per_decade * np.log10(q / first) + 1e-6).astype(int)
-    kept = np.bincount(ring, loud[within]) > 0.0
-    q, density, counts, ring = (one[kept[ring]] for one in (q, density, counts, ring))
-    ring = np.unique(ring, return_inverse=True)[1]
+    # Rings without waves of the surface are a part of the one before.
+    ring = (np.cumsum(np.bincount(ring, loud[within]) > 0.0) - 1)[ring]
     mean_density = np.bincount(ring, counts * density) / np.bincount(ring, counts)
     # Where a power law has its mean over a ring, up to the fourth power of the ring's width, for any exponent.
     share = counts * np.sqrt(density)
