@@ -110,9 +110,9 @@ def read_friction_curves(
         ``speed``, ``temperature``, ``load`` and ``viscoelastic friction``, and optionally ``viscoelastic friction
         standard error``, ``… scatter``, ``… degrees of freedom``, ``replicates``, ``Coulomb friction``, its standard
         error, scatter and degrees of freedom, and ``slip``.  Units stand in the headings, such as ``speed (mm/s)``;
-        coefficients have none, or are in ``%``.  The load of a line contact is in N/m.  Without a column of
-        temperature, temperatures may stand in the headings of curves beside each other, such as ``viscoelastic
-        friction 25 °C``, or above tables.
+        coefficients have none, or are in ``%``.  The load of a line contact is in N/m.  Temperature, load
+        or speed without a column may stand in the headings of curves beside each other, such as ``viscoelastic
+        friction 25 °C`` or ``COF 5 N``, or above tables.
     columns : mapping, optional
         Headings that are not understood, by quantity: ``{"viscoelastic_friction": "mu_v", "speed": "v1 (mm/s)"}``.  A
         unit in brackets counts instead of that of the file; ``"#3 (N)"`` is the third column, ``"= 20 N"`` a value of
