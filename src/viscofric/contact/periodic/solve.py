@@ -60,7 +60,7 @@ _UNSURE_AT_EDGES = 0.25
 _FADING = 0.5**1.5
 #: Bytes of memory for each point while an elastic and a viscoelastic contact is solved with up to a fifth of the area
 #: in contact: those of the arrays and of the surface, and what the allocator keeps.  In full contact up to 30 more.
-BYTES_PER_POINT = (107, 133)
+BYTES_PER_POINT = (105, 120)
 
 
 @one_blas_thread
@@ -133,7 +133,7 @@ def solve_periodic(
 
     Notes
     -----
-    A viscoelastic contact needs about 130 bytes of memory per point: 2.2 GB for 4096², 9 GB for 8192².
+    A viscoelastic contact needs about 120 bytes of memory per point: 2 GB for 4096², 8 GB for 8192².
 
     û = 2(1−ν²) S(−q·v) p̂/|q| holds exactly for each wave, so that a table of moduli needs no modes.  The surface
     repeats itself and so does the pressure: an isolated contact is better solved by `solve_steady`.
