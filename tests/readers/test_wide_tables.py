@@ -215,6 +215,30 @@ SPEED = "speed (mm/s)"
 
 
 @pytest.mark.parametrize(
+    ("above", "header", "code"),
+    [
+        # a line above is none of the headings: columns and what they state are kept
+        (["Load", "10 N"], [SPEED, "temperature (°C)", "load (N)", "COF 20 °C", "COF 40 °C"], "missing-columns"),
+        (["Load 10 N, Temperature 20 °C"], [SPEED, "temperature (°C)", "COF", "preload (N)"], "missing-columns"),
+        (["Humidity", "50 %", "20 °C"], [SPEED, "COF 5 N", "COF 20 N"], "missing-columns"),
+        # what may not be the condition of all rows
+        (["Load: 5 N", "10 N"], [SPEED, "temperature (°C)", "COF"], "missing-columns"),
+        (["Sample", "F 5 N"], [SPEED, "temperature (°C)", "COF"], "missing-columns"),
+        (["Load: 1,000 N"], [SPEED, "temperature (°C)", "COF"], "ambiguous-decimals"),
+        (["Speed: 10 mm/s"], ["u (mm/s)", "temperature (°C)", "load (N)", "COF"], "ambiguous-columns"),
+        (["Temperature: 20 °C"], [SPEED, "chamber (°C)", "load (N)", "COF"], "ambiguous-columns"),
+    ],
+)
+@pytest.mark.parametrize("between", [[], [["Operator: nobody"]]])
+def test_lines_above_a_table_replace_none_of_its_columns(
+    tmp_path: Path, above: list[str], header: list[str], code: str, between: Rows
+) -> None:
+    rows = [[1.0, 20.0, 0.1, 0.2, 0.3][: len(header)], [10.0, 40.0, 0.2, 0.3, 0.4][: len(header)]]
+    with refused(code):
+        vf.read_friction_curves(saved(tmp_path, [above, *between, header, *rows]))
+
+
+@pytest.mark.parametrize(
     ("header", "code", "named"),
     [
         ([[SPEED, 5.0, 10.0]], "number-without-unit", "'5' and '10'"),
@@ -364,6 +388,12 @@ def test_sweeps_beside_each_other(tmp_path: Path, form: str, header: Rows, order
     assert sweeps.isotherms[1].loss_modulus == pytest.approx([4e5, 5e5])
 
 
+def test_columns_are_named_by_their_place_in_the_file(tmp_path: Path) -> None:
+    rows = [["Temperature (°C)", 20.0], ["f (Hz)", "E' (MPa)", "E'' (MPa)", "E' (MPa)", "E'' (MPa)"], *DMA_ROWS]
+    with refused("ambiguous-columns", None, "'#2'"):
+        vf.read_dma(saved(tmp_path, rows), deformation="tension")
+
+
 def test_traction_runs_beside_each_other(tmp_path: Path) -> None:
     header = ["rolling speed (mm/s)", "SRR (%)", "µ 40 °C 20 N", "µ 100 °C 20 N"]
     runs = vf.read_mtm(saved(tmp_path, [header, [100.0, 50.0, 0.1, 0.2], [200.0, -50.0, 0.1, 0.2]]))
@@ -398,12 +428,9 @@ def test_loads_in_older_units_and_masses_as_weights(tmp_path: Path, unit: str, n
 @pytest.mark.parametrize(
     ("unit", "metres"), [("µm/s", 1e-6), ("μm/s", 1e-6), ("mm/s", 1e-3), ("cm/s", 0.01), ("m/min", 1 / 60)]
 )
-@pytest.mark.parametrize("heading", ["v ({})", "v [{}]", "v / {}", "v, {}"])
+@pytest.mark.parametrize("heading", ["v ({})", "v [{}]", "v / {}", "v / ({})", "v/[{}]", "v, {}"])
 def test_units_of_speed_in_brackets_or_behind_a_mark(tmp_path: Path, unit: str, metres: float, heading: str) -> None:
     rows = [[heading.format(unit), "T (K)", "load (N)", "COF"], [3.0, 293.15, 5.0, 0.1]]
-    if unit == "m/min" and heading == "v, {}":
-        rows[0][0] = "v in m/s"
-        metres = 1.0
     assert vf.read_friction_curves(saved(tmp_path, rows)).speed == pytest.approx([3.0 * metres], rel=1e-12)
 
 

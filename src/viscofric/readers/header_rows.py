@@ -48,18 +48,31 @@ def header_of(rows: Sequence[NumberedRow], words: Vocabulary) -> Found | None:
     held = named(found.rows[found.header][1], words) if found else set()
     if found and not words.missing(held) and not _repeats(found.rows[found.header][1], words):
         return found
-    least, first = max(1, len(held)), _first_numbers(rows, words)
-    for bottom in {*range(max(0, (first or 0) - _MOST_HEADER_ROWS), first or 0), *([found.header] if found else [])}:
-        for top in range(max(0, bottom - _MOST_HEADER_ROWS + 1), bottom)[::-1]:
+    # The last rows of a header are those above the numbers, or the row found; the rows that name most together count.
+    first = _first_numbers(rows, words) or 0
+    bottoms = {*range(max(0, first - _MOST_HEADER_ROWS), first), *([found.header] if found else [])}
+    most = max(1, len(held))
+    for bottom in sorted(bottoms):
+        for top in reversed(range(max(0, bottom - _MOST_HEADER_ROWS + 1), bottom)):
             cells = joined([row for _, row in rows[top : bottom + 1]], words)
             if any(place_of(said, cells)[0] is None for said in words.user_columns.values()):
                 continue
             count = len(named(cells, words))
-            if count > least:
+            if count > most and _keeps(cells, rows[bottom][1], words):
                 above = [row for row in rows[top:bottom] if not any(map(is_number, row[1]))]
                 header = (rows[bottom][0], cells)
-                found, least = Found([*rows[:top], *above, header, *rows[bottom + 1 :]], top + len(above)), count
+                found = Found([*rows[:top], *above, header, *rows[bottom + 1 :]], top + len(above))
+                most = count
     return found
+
+
+def _keeps(cells: Sequence[str], lowest: Sequence[str], words: Vocabulary) -> bool:
+    """Return whether joined headings still name and state what the lowest of their rows does, column by column."""
+    # A line above a table ("Load;10 N") is none of its headings: "10 N temperature (°C)" would be no temperature.
+    return all(
+        not below.quantity or (below.quantity == one.quantity and {*below.stated} <= {*one.stated})
+        for one, below in zip(words.columns(cells), words.columns(lowest), strict=False)
+    )
 
 
 def _repeats(cells: Sequence[str], words: Vocabulary) -> bool:
@@ -105,21 +118,20 @@ def _under(upper: str, text: str, label: Column, words: Vocabulary) -> str:
     if is_number(upper) and label.quantity in words.conditions:  # under "load (N)", with 5 and 10 beside it
         upper = f"{upper} {label.unit}"
     over = words.column(upper)
-    if is_number(text) and over.quantity in words.conditions:
+    if is_number(text) and over.quantity in words.conditions:  # 5 and 10 below "load (N)"
         return f"{over.name} {text} {over.unit}".strip()
     (above, stated), (below, own) = words.stated_in(upper), words.stated_in(text)
     of_above, of_below = words.quantity_of_rest(above), words.quantity_of_rest(below)
-    if of_below:
-        values = " ".join(value for _, value in stated)
+    if of_below:  # a name of its own, to which only values above it belong: "COF" below "20 °C" or "COF 20 °C"
         if is_number(upper):
-            values = upper
-        return (
-            f"{values} {text}" if values and (not above.strip() or of_above == of_below or is_number(upper)) else text
-        )
-    if own and not below.strip():
+            return f"{upper} {text}"
+        belongs = not above.strip() or of_above == of_below
+        return " ".join([*(value for _, value in stated if belongs), text])
+    if own and not below.strip():  # values alone: "5 N" below "load", "COF" or "20 °C"
         if of_above in words.conditions:
             return f"{over.name} {text}"
         return f"{upper} {text}" if of_above or is_number(upper) or (stated and not above.strip()) else text
+    # "mm/s" below "speed", or the second half of a name
     return f"{upper} ({unit})" if over.quantity and not over.unit else f"{upper} {text}"
 
 

@@ -12,8 +12,8 @@ from typing import Any, Literal
 
 from viscofric.errors import InputError, brief, wrong_argument
 
-# "E' (MPa)", "T [degC]", then "E' / MPa", then "T_C", "f in Hz", "Temperature, °C": tried in this order.
-_BRACKETED = re.compile(r"^(?P<name>.*?)\s*[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
+# "E' (MPa)", "T [degC]", "v / (mm/s)", then "E' / MPa", then "T_C", "f in Hz", "Temperature, °C": tried in this order.
+_BRACKETED = re.compile(r"^(?P<name>.*?)\s*(?:(?<!\d)/\s*)?[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNIT = (
     r"(?i:°[CKF]|℃|deg[CFK]|[mkM]?Hz|rad[/_]?s(?:ec)?|[kMG]?Pa|[kM]?psi|bar|[mkM]?N/[mc]?m(?:\^?2|²)|dynes?/cm(?:\^?2|²)"

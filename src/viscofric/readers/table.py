@@ -348,7 +348,7 @@ def _insist_on_no_summaries(table: Table) -> None:
         row = rows[0] if rows else None
         if row is not None and len(kinds) > 1:
             said = f"{table.rows[row][place].strip()!r} in column {column.heading!r} marks a summary of other rows"
-            problem = f"{said}, which would count as a measurement; remove such rows."
+            problem = f"{said}, which would count as a measurement; remove such rows, or rename labels of measurements."
             raise DataFileError(table.path, problem, int(table.lines[row]), code="summary-row")
 
 

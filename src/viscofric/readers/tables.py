@@ -6,6 +6,7 @@ import csv
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -206,6 +207,7 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     if words.conditions and (block is None or any(column.stated for column in columns)):
         table = _below_each_other(table)
         table = _with_stated_above(table) if block is None else table
+        _insist_on_no_other_column(table)
         read = {*table.lines.tolist()}
         _insist_on_nothing_between(table, [row for row in kept if row[0] not in read])
     _insist_on_words(table)
@@ -229,9 +231,7 @@ def _insist_on_clear_headings(path: str, columns: Sequence[Column], words: Vocab
     for column in columns:
         number = next((_value(text)[0] for _, text in column.stated if LIKE_THOUSANDS.fullmatch(_value(text)[0])), "")
         if number:
-            problem = f"{number!r} in heading {column.heading!r} may be {number.replace(',', '.')} or "
-            right = f"{number.replace(',', '')}; write it with a point, or without a mark for thousands."
-            raise _unclear(path, columns, words, "ambiguous-decimals", problem + right)
+            raise _may_be_thousands(path, number, f"heading {column.heading!r}", columns, words)
     if not lacks or not held.isdisjoint(needed):
         return
     for column in (column for column in columns if column.heading and not column.quantity):
@@ -265,6 +265,14 @@ def _unclear(path: str, columns: Sequence[Column], words: Vocabulary, code: str,
     return DataFileError(path, Note(code, problem, values=words.header_values(columns, ())))
 
 
+def _may_be_thousands(
+    path: str, number: str, where: str, columns: Sequence[Column], words: Vocabulary
+) -> DataFileError:
+    problem = f"{number!r} in {where} may be {number.replace(',', '.')} or {number.replace(',', '')}; "
+    right = "write it with a point, or without a mark for thousands."
+    return _unclear(path, columns, words, "ambiguous-decimals", problem + right)
+
+
 def _with_stated_above(table: Table) -> Table:
     """Return the table with a column of each value that it needs and lacks and that one line above states alone."""
     words = table.vocabulary
@@ -280,8 +288,24 @@ def _with_stated_above(table: Table) -> Table:
         elif (what,) in words.needed and not table.has(what) and len(found) == 1:
             (value, line), *_ = found.items()
             number, unit = _value(value)
+            if LIKE_THOUSANDS.fullmatch(number):
+                raise _may_be_thousands(table.path, number, f"{line!r} above the table", table.columns, words)
             table = table.with_column(Column(line, what, unit, what, above=True), [number] * len(table.rows))
     return table
+
+
+def _insist_on_no_other_column(table: Table) -> None:
+    """Refuse a speed or temperature of all rows, stated above the table, beside an unknown column of such a unit."""
+    for place, one in enumerate(table.columns):
+        unit = {"speed": "m/s", "temperature": "K"}.get(one.quantity)
+        if unit is None or not (one.above or one.heading == OF_HEADINGS[one.quantity]):
+            continue
+        units = [(other, other.unit) for other in table.columns if not other.quantity and other.unit]
+        other = next((other for other, its in units if _in_si("1", its, unit) is not None), None)
+        if other and len({row[place] for row in table.rows}) == 1:
+            problem = f"a line above the table states one {one.quantity}, but column {other.heading!r} may hold others"
+            remedy = name_columns(table.vocabulary.key, [one.quantity])
+            raise table.refused("ambiguous-columns", problem, remedy, [one.quantity])
 
 
 def _insist_on_nothing_between(table: Table, others: Sequence[NumberedRow]) -> None:
@@ -300,14 +324,25 @@ def _insist_on_nothing_between(table: Table, others: Sequence[NumberedRow]) -> N
 def _stated_above(table: Table, what: str, rows: Sequence[Sequence[str]] | None = None) -> dict[str, str]:
     """Return the values of a quantity that lines or cells above a table state by its name and nothing else."""
     found = {}
-    for line in _lines_and_cells(table.above if rows is None else rows):
-        label, _, number = line.rpartition(" ")
-        named = heading(label.rstrip(":= "))
-        text = f"{named.name} {number} {named.unit}" if named.unit and is_number(number) else line
-        rest, stated = table.vocabulary.stated_in(text)
-        if not rest.strip() and len(stated) == 1 and stated[0][0] == what and text[:1].isalpha():
-            found[stated[0][1]] = line
+    for row in table.above if rows is None else rows:
+        cells = list(dict.fromkeys(cell.strip() for cell in row if cell.strip()))
+        every = {value for one, value in table.vocabulary.stated_in(" ".join(cells))[1] if one == what}
+        if len(every) > 1:  # "Load: 5 N" with "10 N" beside it
+            continue
+        for line in _lines_of(cells, table):
+            label, _, number = line.rpartition(" ")
+            named = heading(label.rstrip(":= "))
+            text = f"{named.name} {number} {named.unit}" if named.unit and is_number(number) else line
+            rest, stated = table.vocabulary.stated_in(text)
+            if not rest.strip() and len(stated) == 1 and stated[0][0] == what and text[:1].isalpha():
+                found[stated[0][1]] = line
     return found
+
+
+def _lines_of(cells: Sequence[str], table: Table) -> list[str]:
+    """Return the cells of a row as one line, and each by itself, but no names such as ``F 5 N`` behind ``Sample``."""
+    others = [cell for before, cell in pairwise(cells) if re.search("[:=]", cell) or not _says_more(before, table)]
+    return [" ".join(cells), *cells[:1], *others]
 
 
 def _comparable(number: str, unit: str) -> tuple[float, str]:
@@ -337,12 +372,6 @@ def _insist_on_words(table: Table) -> None:
             problem = f"heading {alone.heading!r} and those beside it name no quantity, and above them is {cell!r}; "
             right = f"write the quantity into each heading, such as 'COF {alone.heading}' for coefficients of friction."
             raise table.refused("quantity-unknown", problem + right)
-
-
-def _lines_and_cells(rows: Sequence[Sequence[str]]) -> set[str]:
-    """Return each row of cells as a line, and each cell by itself."""
-    filled = [list(dict.fromkeys(cell.strip() for cell in row if cell.strip())) for row in rows]
-    return {" ".join(cells) for cells in filled} | {cell for cells in filled for cell in cells}
 
 
 def _insist_on_one_value(table: Table) -> None:
@@ -384,7 +413,8 @@ def _below_each_other(table: Table) -> Table:
     columns = [[table.columns[place] for place in (*shared, *one)] for one in sets]
     kinds = [[(c.quantity, c.unit, c.base, c.alone, deformation_of(c.name)) for c in one] for one in columns]
     alike = all(set(values) == set(stated[0]) for values in stated) and all(one == kinds[0] for one in kinds)
-    if not alike:
+    once = all(len({table.columns[place].quantity for place in one}) == len(one) for one in sets)
+    if not alike or not once:
         return table
     of_sets = {what: _in_one_unit([values[what] for values in stated]) for what in stated[0]}
     if len(set(zip(*(cells for _, cells in of_sets.values()), strict=False))) < len(sets):
