@@ -149,6 +149,14 @@ def test_given_errors_that_are_too_small_are_enlarged() -> None:
     assert codes(found.notes) == {"errors-enlarged"}
 
 
+def test_a_given_error_of_one_point_is_not_enlarged_by_chance() -> None:
+    """The modulus is off by 1.5 standard errors, as one in seven is; rows without errors do not show that it is."""
+    modulus = float(abs(RUBBER.complex_modulus(1.0, KELVIN)))
+    anchor = vf.friction.ModulusAnchor(modulus * 1.0075, 1.0, KELVIN, error=0.005)
+    found = vf.identify_from_indentation([creep(noise=0.002), anchor], BALL, samples=20, modes=10)
+    assert found.error_scale == 1.0
+
+
 def test_a_given_error_that_all_rows_share_is_noted() -> None:
     """A load cell that is wrong by 2 % scatters no row: its error belongs in load_error."""
     exact = creep(noise=0.004)

@@ -19,7 +19,7 @@ from viscofric.friction.curve_checks import (
 )
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import Findings, Posterior, level_family, limits
-from viscofric.friction.identification.iteration import Weighed, freedom_of, leverage_of, most_evident, weighed
+from viscofric.friction.identification.iteration import Weighed, freedom_of, leverage_of, misfit, most_evident, weighed
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import Problem
 from viscofric.friction.identification.result import (
@@ -42,9 +42,7 @@ SHARED = Remedy(
     "; give the shared part as --common-error, --level-error, --drift-error or --coulomb-level-error.",
     page="; viscofric identify has options for the shared part.",
 )
-#: Residuals this many standard deviations above their expectation enlarge the errors.
-DOUBTFUL = 3.0
-#: … and this many times as large as the errors, and larger than the limit of identification, they indicate a model that
+#: Residuals this many times as large as the errors, and larger than the limit of identification, indicate a model that
 #: fails, not scatter: if successive residuals are correlated, and in any case.
 MODEL_FAILS, MODEL_FAILS_ANYHOW = 3.0, 10.0
 #: Successive residuals are correlated from this many standard deviations of von Neumann's ratio on.
@@ -135,9 +133,8 @@ def _with_enlarged_errors(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Pr
     best = most_evident(fits)
     points = best.problem.points
     away = _residuals(best)
-    freedom = max(freedom_of(best, len(points)), 1.0)
-    ratio = float(away @ away) / freedom
-    if ratio <= 1.0 + DOUBTFUL * np.sqrt(2.0 / freedom):
+    ratio, doubtful = misfit(best, away)
+    if not doubtful:
         return fits, 1.0
     scale = float(np.sqrt(ratio))
     return weighed(best.problem.with_errors(scale * points.error), best.minimum.place), scale

@@ -8,7 +8,7 @@ from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, Mask
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.friction.identification.posterior import Minimum, Residuals, descend, log_evidence
 from viscofric.friction.identification.problem import ROUGHNESS, SpectrumProblem
@@ -33,6 +33,8 @@ LEAST_GAIN, GOOD_GAIN = 0.1, 0.7
 #: Least factor of the damping if a step is rejected.
 GROWTH = 4.0
 HALVINGS = 4
+#: Residuals whose χ² is this many standard deviations above its expectation enlarge the errors.
+DOUBTFUL = 3.0
 
 
 AnyProblem = TypeVar("AnyProblem", bound=SpectrumProblem)
@@ -73,9 +75,19 @@ def most_evident(fits: list[Weighed[AnyProblem]]) -> Weighed[AnyProblem]:
     return max(fits, key=lambda fit: fit.log_evidence)
 
 
-def freedom_of(best: Weighed[Any], count: int) -> float:
-    """Return the number of points, the first `count` residuals, minus the trace of the hat matrix."""
-    return count - float(np.sum(leverage_of(best, count)))
+def freedom_of(best: Weighed[Any], count: int, points: Mask | None = None) -> float:
+    """Return the number of points, the first `count` residuals, minus the trace of the hat matrix.
+
+    Of some of the points (count,), their number minus their part of the trace.
+    """
+    return float(np.sum(1.0 - leverage_of(best, count), where=True if points is None else points))
+
+
+def misfit(best: Weighed[Any], residuals: Array, points: Mask | None = None) -> tuple[float, bool]:
+    """Return the mean square of residuals (n,) of points relative to its expectation, and whether it is no chance."""
+    freedom = max(freedom_of(best, len(residuals), points), 1.0)
+    ratio = float(np.sum(residuals**2, where=True if points is None else points)) / freedom
+    return ratio, ratio > 1.0 + DOUBTFUL * np.sqrt(2.0 / freedom)
 
 
 def leverage_of(best: Weighed[Any], count: int) -> Array:

@@ -137,7 +137,7 @@ def _shared(best: Weighed[IndentationProblem], residuals: Array, error_scale: fl
     given = np.repeat([one.error is not None for one in contacts], [len(one) for one in contacts])
     if error_scale > 1.0 or not np.any(given):
         return ()
-    freedom = freedom_of(best, len(given)) * float(np.mean(given))
+    freedom = freedom_of(best, len(given), given)
     example = "which radius_error, load_error and zero_error account for"
     return too_small(residuals[: len(given)][given], freedom, example)
 

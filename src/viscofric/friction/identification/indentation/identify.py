@@ -8,18 +8,17 @@ from typing import get_args
 import numpy as np
 
 from viscofric.arguments import insist_on, text
-from viscofric.arrays import Array, Mask
+from viscofric.arrays import Array
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import InputError, wrong_argument
-from viscofric.friction.identification.conclusions import DOUBTFUL
 from viscofric.friction.identification.identify import check_counts
 from viscofric.friction.identification.indentation.conclusions import conclude
 from viscofric.friction.identification.indentation.contact import Shared
 from viscofric.friction.identification.indentation.problem import IndentationProblem, fitted_by_springs
 from viscofric.friction.identification.indentation.result import MaterialFromIndentation
 from viscofric.friction.identification.indentation.setting_up import Record, problem_of, shifts_of, usable_records
-from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident, weighed
+from viscofric.friction.identification.iteration import Weighed, freedom_of, misfit, most_evident, weighed
 from viscofric.friction.identification.posterior import descend
 from viscofric.motion.springs import is_body_of_revolution
 from viscofric.rheology.shifts.shift_law import ShiftLaw
@@ -206,8 +205,9 @@ def _fitted(problem: IndentationProblem) -> tuple[list[Weighed[IndentationProble
     given, scale = most_evident(fits).problem.errors, 1.0
     for _ in range(PASSES):
         best = most_evident(fits)
-        ratio = _ratio(best, ~unknown)
-        if scale == 1.0 and ratio <= 1.0 + DOUBTFUL * np.sqrt(2.0 / len(unknown)):
+        away = best.problem.measured(best.minimum.place)[0]
+        ratio, doubtful = misfit(best, away, ~unknown)
+        if scale == 1.0 and not doubtful:
             break
         scale *= max(float(np.sqrt(ratio)), 1.0 / scale)
         larger = np.where(unknown, given, scale * given)
@@ -222,13 +222,6 @@ def _settled(problem: IndentationProblem, start: Array) -> list[Weighed[Indentat
     if not any(contact.by_springs for contact in problem.contacts):
         return weighed(problem, descend(problem, start, metric=problem.metric).place)
     return fitted_by_springs(problem, start)
-
-
-def _ratio(best: Weighed[IndentationProblem], given: Mask) -> float:
-    """Return the mean square of the residuals with given errors, relative to its expectation."""
-    away = best.problem.measured(best.minimum.place)[0]
-    left = max(freedom_of(best, len(away)), 1.0) / len(away)
-    return float(np.mean(away[given] ** 2)) / left
 
 
 def _errors(best: Weighed[IndentationProblem]) -> Array:
