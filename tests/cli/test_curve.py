@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from click.testing import CliRunner, Result
 import viscofric as vf
 from viscofric.cli import main
 from viscofric.cli.speed_options import chosen_speeds
+from viscofric.rheology.spectra.quality import SpectrumFit
 
 DMA = str(files("viscofric") / "example" / "dma.csv")
 RUBBER = ("--material", "synthetic fluoroelastomer")
@@ -59,6 +61,19 @@ def test_json_shows_inputs_and_points() -> None:
     assert point["viscoelastic"] == alone.friction_coefficient
     assert point["temperature"] == pytest.approx(313.15)
     assert found["inputs"]["material"]["E0"] == 1e6
+
+
+def test_points_at_frequencies_that_were_not_measured_are_marked(tmp_path: Path) -> None:
+    solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
+    fit = SpectrumFit(None, None, True, True, (100.0, 2e3))
+    vf.write_card(vf.Material(replace(solid, fit=fit)), tmp_path / "rubber.json", format="json")
+    words = ("--material", tmp_path / "rubber.json", "--ball", "10 mm", "--load", "1 N", "--accuracy", "0.1")
+    done = call(*words, "--speed", "1 m/s, 10 m/s", "--out", tmp_path / "curves.csv")  # contacts of about 1 mm
+    assert done.exit_code == 0, done.output
+    measured, beyond = done.stdout.split("\n\n")[1].splitlines()[1:]
+    assert (measured.endswith("*"), beyond.endswith("*")) == (False, True)
+    curves = vf.read_friction_curves(tmp_path / "curves.csv")
+    assert curves.within_measured_frequencies.tolist() == [1.0, 0.0]
 
 
 @pytest.mark.slow

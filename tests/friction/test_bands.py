@@ -62,7 +62,7 @@ def test_friction_beyond_the_measured_frequencies_has_a_note(exact: bool) -> Non
     law = vf.Arrhenius(activation_energy=1.286e5, reference="30 degC")
     material = vf.Material(replace(solid, fit=fit), shift=law)
 
-    def noted(speeds: list[float], celsius: float) -> list[object]:
+    def noted(speeds: list[float], celsius: float, **heated: object) -> list[object]:
         curves = vf.predict_friction(
             material,
             vf.Ball("10 mm"),
@@ -71,12 +71,18 @@ def test_friction_beyond_the_measured_frequencies_has_a_note(exact: bool) -> Non
             load="1 N",
             exact=exact,
             accuracy=0.1,
+            **heated,
         )
-        return [note.values["points"] for note in curves.notes if note.code == "beyond-measured"]
+        beyond = np.count_nonzero(curves.within_measured_frequencies == 0.0)
+        counted = [note.values["points"] for note in curves.notes if note.code == "beyond-measured"]
+        assert counted == [beyond] * bool(beyond)
+        return counted
 
     assert noted([0.5, 1.0], 30.0) == []
     assert noted([1.0, 10.0], 30.0) == [1]
     assert noted([1.0, 30.0, 100.0, 1000.0], 60.0) == [2]
+    body = vf.ThermalProperties("0.2 W/m/K", "1000 kg/m**3", "2000 J/kg/K", "rubber")
+    assert noted([1.0, 10.0], 30.0, heating=vf.Heating(rubber=body, counterface=body)) == [1]
 
 
 def test_a_contact_and_curves_of_contacts_note_frequencies_that_were_not_measured() -> None:
@@ -88,7 +94,9 @@ def test_a_contact_and_curves_of_contacts_note_frequencies_that_were_not_measure
         for speed in (0.5, 1.0, 10.0, 20.0)
     ]
     assert [[note.code for note in one.warnings] for one in contacts] == [[], [], *2 * [["beyond-measured"]]]
-    (note,) = vf.FrictionCurves.from_solutions(contacts).notes
+    curves = vf.FrictionCurves.from_solutions(contacts)
+    assert curves.within_measured_frequencies.tolist() == [1.0, 1.0, 0.0, 0.0]
+    (note,) = curves.notes
     assert (note.code, note.values["contacts"], note.values["of"]) == ("beyond-measured", 2, 4)
     assert not vf.solve_steady(material, vf.Ball("10 mm"), speed=math.inf, load="1 N", accuracy=0.1).warnings
 

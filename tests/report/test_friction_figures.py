@@ -96,6 +96,18 @@ def test_band_of_each_temperature_is_that_of_the_prediction(axes: Axes) -> None:
         np.testing.assert_allclose(limits, np.stack([0.9 * friction, 1.2 * friction], axis=1), rtol=1e-9)
 
 
+def test_lines_and_bands_are_faint_at_frequencies_that_were_not_measured(axes: Axes) -> None:
+    banded = with_band(curves(coulomb=False)).at_temperature(KELVIN[0])
+    found = replace(banded, within_measured_frequencies=np.array([1.0, 1.0, 1.0, 1.0, 0.0, 0.0]))
+    report.plot_friction_curves(axes, found)
+    assert legend_of(axes)[0].endswith("thin: frequencies not measured")
+    faint, full = (line for line in axes.lines if len(line.get_xdata()))
+    assert faint.get_linewidth() < full.get_linewidth()
+    np.testing.assert_array_equal(np.isfinite(full.get_ydata()), found.within_measured_frequencies == 1.0)
+    right = sorted(band.get_paths()[0].vertices[:, 0].max() for band in bands(axes))
+    np.testing.assert_allclose(right, 1e3 * found.speed[[3, 5]])
+
+
 def test_bands_of_results_are_drawn_and_those_without_are_not(axes: Axes, tree: xr.DataTree) -> None:
     prediction = tree["prediction_master"].to_dataset()
     report.plot_friction_master_curve(axes, prediction)

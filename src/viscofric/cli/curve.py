@@ -190,12 +190,17 @@ def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
 
     click.echo(f"{name}{rubber.mark}, {significant(float(curves.load[0]), 4)} {curves.load_unit}\n")
     kelvins = list(dict.fromkeys(curves.temperature.tolist()))
+    measured = curves.within_measured_frequencies
+    beyond = [] if measured is None else [value == 0.0 for value in measured.tolist()]
     count = len(curves) // len(kelvins)
     columns = [["speed (mm/s)", *(significant(1e3 * speed, 4) for speed in curves.speed[:count].tolist())]]
     for number, kelvin in enumerate(kelvins):
         rows = slice(number * count, (number + 1) * count)
         heading = f"μ at {shown_celsius(kelvin, 'z.4g')} °C"
-        columns.append([heading, *(significant(value, 4) for value in curves.viscoelastic[rows].tolist())])
+        friction = [significant(value, 4) for value in curves.viscoelastic[rows].tolist()]
+        if any(beyond):  # in every line, so that the digits stay below each other
+            friction = [f"{one} {'*' if mark else ' '}" for one, mark in zip(friction, beyond[rows], strict=True)]
+        columns.append([heading, *friction])
         if curves.viscoelastic_lower is not None and curves.viscoelastic_upper is not None:
             ends = zip(curves.viscoelastic_lower[rows].tolist(), curves.viscoelastic_upper[rows].tolist(), strict=True)
             columns.append(["95 % band", *(f"{significant(low, 4)} to {significant(high, 4)}" for low, high in ends)])
@@ -203,3 +208,5 @@ def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
     click.echo("\n".join(aligned(zip(*columns, strict=True))))
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
     click.echo(f"\nnumerical error  {percent(worst)} at most")
+    if any(beyond):
+        click.echo("marked *         frequencies not measured")

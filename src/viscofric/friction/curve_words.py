@@ -43,6 +43,7 @@ COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "material_error": ("", "material standard error", ("material error", "friction material error")),
     "viscoelastic_lower": ("", "viscoelastic friction lower limit", ("viscoelastic lower", "friction lower")),
     "viscoelastic_upper": ("", "viscoelastic friction upper limit", ("viscoelastic upper", "friction upper")),
+    "within_measured_frequencies": ("", "within measured frequencies", ()),
 }
 #: Without these there are no friction curves.
 _NEEDED = ("speed", "temperature", "load", "viscoelastic")
@@ -88,6 +89,7 @@ LABELS = {
     "material_error": ("1", "standard error of the friction coefficient due to material uncertainty"),
     "viscoelastic_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
     "viscoelastic_upper": ("1", "upper end of the 95 % band of the friction coefficient"),
+    "within_measured_frequencies": ("1", "1: reduced frequency αv/a within the measured range; 0: beyond it"),
     "mean_pressure": ("Pa", "mean contact pressure"),
     "mean_pressure_error": ("Pa", "error estimate of the mean contact pressure"),
     "viscoelastic_freedom": ("1", "degrees of freedom behind the standard error of viscoelastic friction"),

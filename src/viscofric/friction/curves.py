@@ -70,6 +70,9 @@ class FrictionCurves(Plotted):
         Standard error of predicted friction due to the errors of the material, of spectrum and shift factors.
     viscoelastic_lower, viscoelastic_upper : (n,) array or None
         95 % limits of predicted friction due to the errors of the material.
+    within_measured_frequencies : (n,) array or None
+        1 where the frequency of a solved contact was measured; 0 where friction and its limits belong to an
+        extrapolated modulus.  None where measured, or where the frequencies are not known.
     viscoelastic_freedom, coulomb_freedom : (n,) array or None
         Degrees of freedom behind the standard errors of measured friction, infinite where these are known exactly;
         `interval` uses them.
@@ -127,6 +130,7 @@ class FrictionCurves(Plotted):
     assumption: str = ""
     mean_pressure: Array | None = None
     mean_pressure_error: Array | None = None
+    within_measured_frequencies: Array | None = None
 
     def __post_init__(self) -> None:
         check_choice(self.load_unit, "load_unit", "N", "N/m")

@@ -13,7 +13,7 @@ from viscofric.contact.heated_curve import States, heat_columns, solve_states
 from viscofric.contact.settings import ContactSettings
 from viscofric.contact.steady import thermal_contact
 from viscofric.datasets import Dataset
-from viscofric.friction.cases.record import Record, beyond_range, columns_of_records, indenter_record
+from viscofric.friction.cases.record import Record, columns_of_contacts, indenter_record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.planning.shared import SharedContacts
 from viscofric.heat.heating import Heating
@@ -89,8 +89,7 @@ def predict_heated(
         columns |= {"coulomb": np.full(len(every), heating.coulomb), "slip": np.array(slip)}
     unit = contacts[0]["indenter"].geometry.load_unit
     records = [_record(one) for one in states]
-    friction = columns_of_records(records, unit)
-    friction["notes"] += beyond_range(material, records, friction["temperature"] + columns["temperature_rise"])
+    friction = columns_of_contacts(material, records, unit, columns["temperature_rise"])
     return HeatedFrictionCurves(**friction, source="predicted", **columns)
 
 

@@ -17,7 +17,7 @@ from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
-from viscofric.friction.cases.record import beyond_range, columns_of_records, indenter_record
+from viscofric.friction.cases.record import columns_of_contacts, indenter_record
 from viscofric.friction.coulomb import check_interface, shear_notes, with_interface
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
@@ -104,7 +104,7 @@ def predict_friction(
         Load after load and temperature after temperature in the order given, each with all speeds; with samples also
         `material_error`, `viscoelastic_lower` and `viscoelastic_upper`; with heating `HeatedFrictionCurves`.
         The note `beyond-measured` counts the contacts at frequencies beyond those of the material's measurement: there
-        neither friction nor its limits are measured.
+        neither friction nor its limits are measured; `within_measured_frequencies` says which.
 
     Raises
     ------
@@ -251,8 +251,7 @@ def _isothermal(
     elif records is None:
         pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
         records = [indenter_record(one, kelvin, known) for (one, known), kelvin in zip(pairs, kelvins, strict=True)]
-    columns = columns_of_records(records, contacts[0]["indenter"].geometry.load_unit)
-    columns["notes"] += beyond_range(material, records, kelvins)
+    columns = columns_of_contacts(material, records, contacts[0]["indenter"].geometry.load_unit)
     curves = FrictionCurves(**columns, source="predicted")
     if drawn is None:
         return curves

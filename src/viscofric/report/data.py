@@ -196,8 +196,7 @@ def predicted(source: Friction) -> Predicted:
     if not of_study:
         friction = ("viscoelastic", "viscoelastic_lower", "viscoelastic_upper")
     columns = [values(data, name) for name in ("speed", "temperature", "load", *friction)]
-    none = np.zeros(columns[0].shape, dtype=bool)
-    return Predicted._make([*columns, is_extrapolated(data) if of_study else none])
+    return Predicted._make([*columns, is_extrapolated(data)])
 
 
 class Measured(NamedTuple):

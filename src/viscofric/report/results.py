@@ -136,7 +136,8 @@ def is_wide(tree: DataTree, cases: Dataset) -> Mask:
 
 def is_extrapolated(cases: Dataset) -> Mask:
     """Whether each case rests on frequencies that were not measured; not where it was not solved."""
-    friction = "predicted" if "predicted" in cases.variables else "friction_coefficient"
+    names = "predicted", "friction_coefficient", "viscoelastic"
+    friction = next((name for name in names if name in cases.variables), names[0])
     return np.asarray((values(cases, "within_measured_frequencies") == 0.0) & np.isfinite(values(cases, friction)))
 
 

@@ -311,6 +311,8 @@ def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
         units.pop() if units else "N",
     )
     beyond = [[note for note in map(note_of, solution.warnings) if note.code == BEYOND] for solution in solved]
+    if any(beyond):
+        columns["within_measured_frequencies"] = np.array([0.0 if one else 1.0 for one in beyond])
     return columns | {"notes": (*columns["notes"], *counted(beyond))}
 
 
@@ -336,10 +338,15 @@ def columns_of_records(records: Sequence[Record], load_unit: str) -> dict[str, A
     }
 
 
-def beyond_range(material: Material, records: Sequence[Record], kelvins: Array) -> tuple[Note, ...]:
-    """Return a note on contacts, at these temperatures (n,), whose frequencies the material was not measured at."""
+def columns_of_contacts(
+    material: Material, records: Sequence[Record], load_unit: str, warmer: Array | float = 0.0
+) -> dict[str, Any]:
+    """Return what `columns_of_records` does, and which frequencies were measured, of contacts warmer by (n,), K."""
+    columns = columns_of_records(records, load_unit)
     fit: SpectrumFit | None = getattr(material.spectrum, "fit", None)
     if fit is None:  # a table of moduli has notes of its own
-        return ()
-    alpha = 1.0 if material.shift is None else material.shift(kelvins)
-    return fit.beyond(alpha * np.array([record.frequency for record in records]), "reduced frequency αv/a")
+        return columns
+    alpha = 1.0 if material.shift is None else material.shift(columns["temperature"] + warmer)
+    frequency = alpha * np.array([record.frequency for record in records])
+    columns["notes"] += fit.beyond(frequency, "reduced frequency αv/a")
+    return columns | {"within_measured_frequencies": fit.covers(frequency).astype(float)}

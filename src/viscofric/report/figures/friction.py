@@ -35,6 +35,7 @@ _BAND = 0.18  # how much of a band's colour covers what lies below it
 _MILLIMETRES = 1e3
 _WIDTH, _HEIGHT = 7.4, 4.0
 _HEADROOM = 1.08  # over the highest number, where the axis begins at zero
+_THIN = "thin: frequencies not measured"
 
 
 def plot_friction_curves(
@@ -79,6 +80,7 @@ def plot_friction_curves(
     title = [] if points is None else [f"points: {style.origin(synthetic)} ± scatter"]
     if lines is not None:
         title.append(("lines: predicted" if title else "predicted") + (", 95 % bands" if lines.has_band else ""))
+        title += [_THIN] if lines.extrapolated.any() else []
     _finish(axes, handles[::-1], "\n".join(title), r"viscoelastic friction coefficient $\mu$")
 
 
@@ -212,6 +214,10 @@ def _plot_line(axes: Axes, lines: Predicted, label: str) -> list[Any]:
 def _plot_band(axes: Axes, lines: Predicted, colour: Any, alpha: float) -> None:
     if lines.has_band:
         shade = {"color": colour, "alpha": alpha * (2.0 * _BAND if colour == style.GREY else _BAND), "linewidth": 0.0}
+        if lines.extrapolated.any():  # half as dark there
+            shade["alpha"] *= 0.5
+            sound = np.where(lines.extrapolated, np.nan, lines.lower)
+            axes.fill_between(_MILLIMETRES * lines.speed, sound, lines.upper, zorder=1, **shade)
         axes.fill_between(_MILLIMETRES * lines.speed, lines.lower, lines.upper, zorder=1, **shade)
 
 

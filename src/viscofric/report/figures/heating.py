@@ -16,7 +16,7 @@ from viscofric.errors import InputError
 from viscofric.report.data import as_dataset
 from viscofric.report.figures import style
 from viscofric.report.figures.interface import plot_friction_parts
-from viscofric.report.results import group, nominal_temperatures, number, values
+from viscofric.report.results import group, is_extrapolated, nominal_temperatures, number, values
 from viscofric.report.sweeps import axis_of, best_estimate, thinned
 from viscofric.report.texts.numbers import short
 
@@ -70,6 +70,15 @@ def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | Dataset) -> 
         axes.plot(speed, hot, color=style.VERMILION, marker="s", markersize=3, label="heated, speed falling")
     else:
         axes.plot(speed, warm, color=style.INK, marker="o", markersize=3, label="heated")
+    if np.any(beyond := is_extrapolated(data)):
+        ring: dict[str, Any] = {
+            "linestyle": "none",
+            "marker": "o",
+            "markersize": 7,
+            "markerfacecolor": "none",
+            "color": style.GREY,
+        }
+        axes.plot(speed[beyond], warm[beyond], label="frequencies not measured", **ring)
     axes.set(xscale="log", ylabel=r"viscoelastic friction $\mu$")
     axes.set_ylim(0.0, 1.08 * float(np.nanmax(np.concatenate([isothermal, cold, hot]))))
     axes.set_xlabel(r"speed $v$ (mm/s)" + style.at_temperature(kelvin))
