@@ -214,6 +214,28 @@ def test_what_cannot_be_predicted_is_refused_and_what_fails_is_named():
             vf.roughness.pressure_distribution(solution, edges)
 
 
+def test_pieces_of_one_scan_that_overlap_are_noted():
+    """Each levelled and tapered by itself, as a scan is prepared; the interval of their mean is too narrow."""
+    scan = road(128, 3, waves=32)
+
+    def noted(*starts: int) -> list[object]:
+        pieces = [scan.crop(x=(one * step, (one + 63) * step)).remove("tilt").window() for one in starts]
+        found = vf.predict_rough_friction(RUBBER, pieces, speeds=0.1, pressure="20 kPa", tolerance=1e-4)
+        return [note.values["pairs"] for note in found.notes if note.code == "overlapping-surfaces"]
+
+    step = scan.spacing[0]
+    assert noted(0, 64) == []
+    assert noted(0, 24, 64) == [2]
+
+
+def test_a_surface_that_is_moved_by_part_of_its_period_is_noted():
+    one, other = road(64, 0), road(64, 1)
+    moved = replace(one, heights=np.roll(one.heights, (11, 5), (0, 1)))
+    found = vf.predict_rough_friction(RUBBER, [one, other, moved], speeds=0.1, pressure="20 kPa", tolerance=1e-4)
+    (note,) = (note for note in found.notes if note.code == "overlapping-surfaces")
+    assert note.values == {"pairs": 1, "of": 3, "first": 1, "second": 3}
+
+
 @pytest.mark.slow  # six contacts of 512² points
 def test_elastic_contact_area_grows_with_the_load_as_published():
     """A E* h'/F = κ of 2.0 to 2.2 (S. Hyun, M. O. Robbins, Tribol. Int. 40 (2007) 1413; V. A. Yastrebov et al., 2017).

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypedDict, Unpack
 
 import numpy as np
+import scipy.fft
 
 from viscofric.arguments import insist_on_function
 from viscofric.arrays import Array
@@ -269,7 +270,7 @@ def predict_rough_friction(
     shape = len(kelvins), len(velocities), len(named)
     numbers: dict[str, Any] = {name: np.array([getattr(one, name) for one in found]) for name in Numbers._fields[:-1]}
     numbers = {name: column.reshape(shape) for name, column in (numbers | columns).items()}
-    numbers["notes"] = counted([one.notes for one in found])
+    numbers["notes"] = (*counted([one.notes for one in found]), *_overlaps(named))
     kelvin_or_nan = np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins])
     if interface is not None:
         warm = kelvin_or_nan[:, None, None] + numbers.get("face_rise", np.zeros(shape))
@@ -292,6 +293,61 @@ def predict_rough_friction(
         surfaces=tuple(name for name, _ in named),
         **numbers,
     )
+
+
+#: Curvatures that differ by less than this part are the same; two surfaces overlap if this part of their square is,
+#: and more on few points, of which some agree by chance: independent ones reach 0.18 of 64 points, 0.02 of 64².
+_SAME, _SHARED, _BY_CHANCE = 0.02, 0.05, 1.2
+#: Largest maxima of the correlation of two surfaces that are tried as their distance.
+_TRIED = 4
+
+
+def _overlaps(surfaces: Sequence[tuple[str, PeriodicSurface]]) -> tuple[Note, ...]:
+    """Return a note if surfaces have heights in common, as overlapping pieces of one scan do."""
+    pairs = [
+        (first, second)
+        for second, (_, other) in enumerate(surfaces)
+        for first, (_, one) in enumerate(surfaces[:second])
+        if np.allclose(one.spacing, other.spacing, rtol=1e-9, atol=0.0)
+        and _in_common(_curvature(one.z), _curvature(other.z))
+    ]
+    if not pairs:
+        return ()
+    count, (first, second) = len(surfaces) * (len(surfaces) - 1) // 2, pairs[0]
+    said = (
+        f"{len(pairs)} of {count} pairs of surfaces have heights in common, such as numbers {first + 1} and "
+        f"{second + 1} ({surfaces[first][0]!r} and {surfaces[second][0]!r}): the interval counts surfaces as "
+        "independent, and is too narrow; give pieces of a scan that do not overlap."
+    )
+    values = {"pairs": len(pairs), "of": count, "first": first + 1, "second": second + 1}
+    return (Note("overlapping-surfaces", said, values=values),)
+
+
+def _curvature(heights: Array) -> Array:
+    """Return differences of heights to those around them, which levelling hardly changes."""
+    axes = [axis for axis in range(2) if heights.shape[axis] > 1]
+    return np.asarray(sum(np.roll(heights, 1, axis) + np.roll(heights, -1, axis) - 2.0 * heights for axis in axes))
+
+
+def _in_common(one: Array, other: Array) -> bool:
+    """Whether curvatures of two surfaces agree after some shift, over part of them and beyond chance."""
+    shape = np.maximum(one.shape, other.shape)
+    first, second = (np.pad(each, list(zip((0, 0), shape - each.shape, strict=True))) for each in (one, other))
+    product = scipy.fft.rfft2(first) * np.conj(scipy.fft.rfft2(second))
+    correlation = scipy.fft.irfft2(product, tuple(shape)).ravel()
+    power = np.square(second)
+    least = (_SHARED + _BY_CHANCE / math.sqrt(min(one.size, other.size))) * power.sum()
+
+    def shared(shift: Any) -> float:
+        same = np.abs(np.roll(first, shift, (0, 1)) - second) <= _SAME * np.abs(second)
+        return float(power.sum(where=same))
+
+    tried = min(_TRIED, len(correlation))
+    places = np.argpartition(correlation, -tried)[-tried:]
+    places = places[correlation[places] > least]
+    shifts = -np.transpose(np.unravel_index(places, tuple(shape)))
+    # Heights in coarse steps agree at any shift.
+    return any(shared(shift) - shared(shift + 5) > least for shift in shifts)
 
 
 def _named(surfaces: object) -> list[tuple[str, PeriodicSurface]]:
