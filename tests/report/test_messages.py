@@ -11,7 +11,7 @@ import xarray as xr
 
 from report.test_friction_results import column, with_friction_shifts
 from report.test_studies import STUDIES, rough
-from viscofric.notes import Note, records
+from viscofric.notes import Note, Remedy, records
 from viscofric.report.captions import captions
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
 from viscofric.report.texts.study import grouped_failures, key_numbers, scope
@@ -34,6 +34,14 @@ def test_few_failures_are_reported_one_by_one() -> None:
         "30 °C, 20 mm/s: no.",
     ]
     assert grouped_failures([Note("", "no."), Note("", "no.")], 5) == ["2 times: no."]
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_remedies_of_failures_are_those_of_who_reads_them(count: int) -> None:
+    failures = [Note("sharp-edge", "has a sharp edge; ", "30 °C", Remedy("python.", run_file="file.", page="page."))]
+    (of_run_file,), (of_page,) = (grouped_failures(count * failures, 5, reader) for reader in ("run_file", "page"))
+    assert (of_run_file[-5:], of_page[-5:]) == ("file.", "page.")
+    assert grouped_failures(count * failures, 5) == [of_run_file]
 
 
 def test_different_reasons_of_one_code_are_different_lines() -> None:

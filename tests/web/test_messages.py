@@ -18,6 +18,7 @@ from viscofric.study.run_file.study import TABLES
 from viscofric.web.forms import FORMS
 from viscofric.web.jobs.context import beside_field
 from viscofric.web.study_text import DocumentError, study_of
+from viscofric.web.workspace import Workspace
 
 _ROWS = [f"{T},{f},{2.0 * f**0.2 * 10 ** (-0.01 * T)},0.3" for T in (20, 30, 40) for f in (0.1, 0.3, 1, 3, 10)]
 _TESTS = ["temperature (degC),disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)", "20,100,90,25,0.4"]
@@ -120,3 +121,30 @@ def test_every_field_of_the_page_that_a_remedy_names_is_there() -> None:
     in_forms = {(field["path"], field["label"]) for fields in FORMS.values() for field in fields}
     assert [label for _, label in named - in_forms if f'label: "{label}"' not in written] == []
     assert [field for field, _ in named if field.partition(".")[2] not in keys(TABLES[field.partition(".")[0]])] == []
+
+
+def test_all_notes_of_jobs_are_in_the_words_of_the_page() -> None:
+    folder = Path(vf.__file__).parent / "web" / "jobs"
+    calls = [
+        (path.name, ast.unparse(call))
+        for path in folder.glob("*.py")
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) and call.func.id == "listed"
+    ]
+    assert len(calls) > 10
+    assert [one for one in calls if not one[1].endswith(", 'page')")] == []
+
+
+@pytest.mark.parametrize(("limit", "most"), [("MOST_FILES", 1), ("_MOST_BYTES", 10)])
+def test_too_many_files_are_refused_with_what_the_page_can_do(
+    limit: str, most: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    workspace = Workspace(tmp_path)
+    workspace.store("a", b"0" * 10)
+    monkeypatch.setattr(f"viscofric.web.workspace.{limit}", most)
+    with pytest.raises(vf.ViscofricError) as caught:
+        workspace.store("b", b"0")
+    buttons = re.findall("“([^”]*)”", caught.value.words("page"))
+    header = (Path(vf.__file__).parent / "web" / "static" / "js" / "header.js").read_text(encoding="utf-8")
+    assert buttons
+    assert [one for one in buttons if f"<span>{one}</span>" not in header] == []

@@ -23,6 +23,8 @@ KEY = r"^[A-Za-z0-9_-]{8,64}$"
 LARGEST_UPLOAD = 20_000_000  # bytes
 MOST_FILES = 200
 _MOST_BYTES = 200_000_000  # of all files of a workspace
+#: What to do about too many files: the page removes none, and a saved project has those that its study names.
+_FEWER_FILES = "use “Save project”, and “Open project” in a new tab: it has only the files that the project uses."
 _MOST_WORKSPACES = 50
 _LONGEST_NAME = 150  # bytes
 _PREFIX = "viscofric-web-"
@@ -91,12 +93,12 @@ class Workspace:
             )
         if len(others) >= MOST_FILES:
             raise InputError(
-                f"There are {len(others)} files already, and no more can be kept; remove some first.",
-                code="too-many-files",
+                f"This tab has {len(others)} files already, and can keep no more; {_FEWER_FILES}", code="too-many-files"
             )
         if sum(others) + len(content) > _MOST_BYTES:
             raise InputError(
-                f"All files together have more than {_MOST_BYTES / 1e6:.0f} MB; remove some first.", code="no-space"
+                f"All files of this tab together have more than {_MOST_BYTES / 1e6:.0f} MB; {_FEWER_FILES}",
+                code="no-space",
             )
         handle, temporary = tempfile.mkstemp(dir=self.files, prefix=".")
         with os.fdopen(handle, "wb") as file:

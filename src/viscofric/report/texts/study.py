@@ -13,7 +13,7 @@ from viscofric.arrays import Array
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.datasets import Dataset, DataTree
 from viscofric.files import parse_toml
-from viscofric.notes import Note
+from viscofric.notes import Note, Reader
 from viscofric.report.results import (
     group,
     is_extrapolated,
@@ -354,7 +354,7 @@ _ONE_REASON = frozenset(
 )
 
 
-def grouped_failures(failures: Sequence[Note], most: int) -> list[str]:
+def grouped_failures(failures: Sequence[Note], most: int, reader: Reader = "run_file") -> list[str]:
     """Return failures as at most so many lines: those of one reason together, with their cases."""
     kinds: dict[tuple[str, str], list[Note]] = {}
     for failure in failures:
@@ -364,13 +364,14 @@ def grouped_failures(failures: Sequence[Note], most: int) -> list[str]:
     if len(shown) > most:
         shown = shown[: most - 1]
     left = len(failures) - sum(map(len, shown))
-    return [*map(_line, shown), *([f"{left} more cases, for other reasons: see the report."] if left else [])]
+    lines = [_line(cases, reader) for cases in shown]
+    return [*lines, *([f"{left} more cases, for other reasons: see the report."] if left else [])]
 
 
-def _line(cases: list[Note]) -> str:
+def _line(cases: list[Note], reader: Reader) -> str:
     places = [one.where for one in cases if one.where]
     if len(cases) == 1 or not places:
-        return (f"{len(cases)} times: " if len(cases) > 1 else "") + cases[0]
+        return (f"{len(cases)} times: " if len(cases) > 1 else "") + cases[0].words(reader)
     more = f"; and {len(places) - _SHOWN_PLACES} more" if len(places) > _SHOWN_PLACES else ""
-    reason = Note(cases[0].code, cases[0].text, remedy=cases[0].remedy).words("run_file")
+    reason = Note(cases[0].code, cases[0].text, remedy=cases[0].remedy).words(reader)
     return f"{len(cases)} cases ({'; '.join(places[:_SHOWN_PLACES])}{more}): {reason}"

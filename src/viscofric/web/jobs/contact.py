@@ -171,7 +171,7 @@ def pictures(
         "speed": case.speed,
         "temperature": case.temperature,
         # Warnings on the material itself belong to other steps.
-        **listed("warnings", [*solution.warnings, *(note for note in doubts if note.code == "extrapolated")]),
+        **listed("warnings", [*solution.warnings, *(note for note in doubts if note.code == "extrapolated")], "page"),
     }
     drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
     found: dict[str, Any] = drawn(rubber, case, solution)

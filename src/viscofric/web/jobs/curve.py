@@ -90,7 +90,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         **found,
         **_parts(found),
         "master": master_curve(contacts, along),
-        **listed("failures", [one.note for one in requested.failures]),
+        **listed("failures", [one.note for one in requested.failures], "page"),
         "missing": _missing([one.note for one in requested.failures], len(found["speed"])),
         **listed(
             "warnings",
@@ -99,6 +99,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
                 *doubts((requested,), contacts.rubbers),
                 *_unresolved(found["doubts"]),
             ],
+            "page",
         ),
         **listed("notes", [*_notes(contacts, checked), *said], "page"),
         "checks": plain([one.record("page") for one in assumption_checks(contacts, requested, at_points, law)]),
@@ -112,7 +113,7 @@ def _missing(failures: list[Note], count: int) -> list[str]:
     from viscofric.report.texts.study import grouped_failures
 
     said = f"{len(failures)} of {count} conditions have no solution."
-    return [said, *grouped_failures(failures, _MOST_REASONS)]
+    return [said, *grouped_failures(failures, _MOST_REASONS, "page")]
 
 
 def _unresolved(doubts_of: list[list[str]]) -> list[Note]:

@@ -115,7 +115,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         "steps": whole.steps,
         "rejected_steps": whole.rejected_steps,
         "temperature_of_contact": plain(case.temperature),
-        **listed("warnings", dict.fromkeys(warnings)),
+        **listed("warnings", dict.fromkeys(warnings), "page"),
         **listed("notes", dict.fromkeys(notes), "page"),
     }
 

@@ -45,7 +45,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     context.progress(1, 2, f"drawing the rubber {wanted.draws} times for its 95 % bands")
     drawn = friction_bands(study, context)
     if drawn.samples is None:
-        return reply | {"band": None, "no_band": " ".join(drawn.notes)}
+        return reply | {"band": None, "no_band": " ".join(note_of(one).words("page") for one in drawn.notes)}
     found |= {"band": plain(band_numbers(drawn.samples, frequencies(rubber))), "no_band": ""}
     return found | _view(found)
 

@@ -67,7 +67,7 @@ def _modes(material: Material) -> tuple[RetardationSpectrum | None, tuple[str, .
         modes = material.modes_at()
         return modes, material.notes_on_modes
     except InputError as error:
-        return None, (str(error),)
+        return None, (error.note,)
 
 
 def _curve(rubber: Rubber) -> MasterCurve | None:

@@ -188,7 +188,7 @@ export default view(() => {
       </div>
     </div>
     <div class="grid thirds">
-      <${Figures} ids=${FIGURES} of=${drawn} 
+      <${Figures} ids=${FIGURES} of=${drawn}
         empty=${emptyOf("Drop DMA sweeps above, or choose a material of the catalogue.", sweeps)} />
     </div>
   `;
