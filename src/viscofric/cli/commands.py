@@ -35,8 +35,8 @@ class Command(click.Command):
             for one in self.params:
                 single = isinstance(one, click.Option) and not (one.is_flag or one.multiple)
                 if single and (times := order.count(one)) > 1:
-                    several = "several values as one list, where --help says so"
-                    raise click.UsageError(f"{one.opts[0]} is given {times} times; give it once ({several}).", ctx)
+                    said = f"{' / '.join(one.opts)} is given {times} times; give it once"
+                    raise click.UsageError(f"{said} (several values as one list, where --help says so).", ctx)
         return super().parse_args(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:
