@@ -19,6 +19,7 @@ from cli.refusals import refusal
 from readers.samples import workbook
 from study.sweeps import made_results
 from viscofric.cli import main, run
+from viscofric.cli.files import OUT, Written
 
 SOLID = ["--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms"]
 CATALOGUE = ["--material", "synthetic fluoroelastomer"]
@@ -184,18 +185,23 @@ def test_a_remedy_for_columns_names_no_option_that_the_command_lacks(
     assert named <= options(ALL[" ".join(words[: 2 if words[0] == "material" else 1])])
 
 
-def test_a_table_that_cannot_be_written_is_one_sentence(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", sorted(set(ALL) - NO_OUT))
+def test_what_cannot_be_written_is_refused_before_the_work(name: str, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("no folder")
-    curves = tmp_path / "curves.csv"
-    curves.write_text("speed (m/s),temperature (K),load (N),viscoelastic\n0.1,300,5,0.1\n0.2,300,5,0.2\n")
-    target = str(tmp_path / "file" / "table.csv")
-    for arguments, status in (
-        (["compare", str(curves), str(curves), "--out", target], 2),
-        (["verify", "--only", "hertz-ball", "--out", target], 1),
-    ):
-        done = CliRunner().invoke(main, arguments)
-        assert (done.exit_code, done.stderr.count("\n")) == (status, 1), done.stderr
-        assert target in done.stderr
+    command = ALL[name]
+    written = [one for one in command.params if isinstance(one.type, Written)]
+    assert "out" in {one.name for one in written}
+    for parameter in written:
+        with click.Context(command) as ctx, pytest.raises(click.BadParameter, match="Not a directory"):
+            parameter.type.convert(str(tmp_path / "file" / "new" / "result"), parameter, ctx)
+    assert sorted(tmp_path.iterdir()) == [tmp_path / "file"]
+
+
+def test_a_device_is_not_replaced_by_a_table() -> None:
+    done = CliRunner().invoke(main, ["solve", *SOLID, *BALL, "--out", "/dev/null"])
+    assert (done.exit_code, Path("/dev/null").is_char_device()) == (2, True)
+    with pytest.raises(click.BadParameter, match="device"):
+        OUT.convert("/dev/null", None, None)
 
 
 def test_only_tables_are_printed_in_place_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

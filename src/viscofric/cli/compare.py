@@ -39,7 +39,7 @@ Example:
 def command(first: Path, second: Path, tolerance: float | None, out: Path | None, as_json: bool) -> None:
     """Compare two results case by case: folders of studies, results.nc files or tables of friction curves (CSV).
 
-    Exit status: 0 equal, 1 different, 2 not comparable.
+    Exit status: 0 equal, 1 different, 2 not comparable, or a result is missing or damaged.
     """
     from viscofric.errors import ViscofricError
     from viscofric.study.results.results import compare_results

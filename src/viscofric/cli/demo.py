@@ -8,7 +8,8 @@ from pathlib import Path
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option
+from viscofric.cli.files import FOLDER
+from viscofric.cli.output import RUN_JSON, json_option, out_option
 
 
 @as_command("demo")

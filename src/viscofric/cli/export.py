@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.files import DASH, check_ending
+from viscofric.cli.files import DASH, Written, check_ending
 from viscofric.cli.output import json_option, out_option, print_json
 
 # format -> how its file's name ends
@@ -34,7 +34,7 @@ Example:
 @out_option(
     "Output file; `-` prints a csv [default: results.csv, results.xlsx, prediction.nc or prediction.zarr in the "
     "results folder].",
-    click.Path(path_type=Path, allow_dash=True),
+    Written(allow_dash=True),
 )
 @json_option("Print the written files as JSON.")
 def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bool) -> None:

@@ -6,7 +6,7 @@ import io
 import sys
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, TemporaryFile
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -56,16 +56,44 @@ class Named(click.Path):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path."""
         found: Any = super().convert(value, param, ctx)
-        if found == DASH:
+        if found == DASH and not self.allow_dash:
             self.fail("`-` stands for standard input or output, which cannot be used here; give a name.", param, ctx)
         if not self.file_okay and found.suffix.lower() in _FILES and not found.is_dir():
             self.fail(f"{found} is written as a folder of files; give a name without {found.suffix}.", param, ctx)
         return found
 
 
-#: A file to be written, or to be read.
+class Written(Named):
+    """A file or a folder to be written; where that is not possible, the command stops before it has computed."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path."""
+        found: Any = super().convert(value, param, ctx)
+        try:
+            if found != DASH:
+                _insist_on_writable(found)
+        except OSError as error:
+            from viscofric.errors import not_written
+
+            self.fail(str(not_written(found, error)), param, ctx)
+        return found
+
+
+def _insist_on_writable(path: Path) -> None:
+    """Raise `OSError` where a folder to be written, or the nearest one above that exists, takes no files."""
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise OSError("it is a device or a pipe")
+    above = next(one for one in path.absolute().parents if one.exists())
+    with TemporaryFile(dir=path if path.is_dir() else above):
+        pass
+
+
+#: A file to be read.
 FILE = Named(dir_okay=False)
-OUT = click.Path(path_type=Path, dir_okay=False, allow_dash=True)
+#: Files to be written, of which `OUT` may be `-`.
+WRITTEN = Written(dir_okay=False)
+OUT = Written(dir_okay=False, allow_dash=True)
+FOLDER = Written(file_okay=False)
 
 
 class Source(click.Path):

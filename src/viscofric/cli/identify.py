@@ -9,7 +9,7 @@ import click
 from viscofric.cli.commands import as_command, together
 from viscofric.cli.contact_options import chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
-from viscofric.cli.files import FILE, JSON, Source, plainly, refuse_to_overwrite
+from viscofric.cli.files import JSON, WRITTEN, Source, plainly, refuse_to_overwrite
 from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
 from viscofric.cli.output import (
     answer,
@@ -167,7 +167,7 @@ _shared_options = together(
 @click.option("--workers", type=int, default=1, show_default=True, help="Number of processes.")
 @click.option("--name", default="rubber identified from friction", show_default=True, help="Name of the material.")
 @separation_options
-@out_option("Write the material (JSON), for `solve`, run files and `material`.", FILE, endings=JSON)
+@out_option("Write the material (JSON), for `solve`, run files and `material`.", WRITTEN, endings=JSON)
 @picture_option("Draw the modulus with its limits")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
 @synthetic_option

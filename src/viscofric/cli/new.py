@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.files import refusal
-from viscofric.cli.output import FOLDER, json_option, out_option, print_json
+from viscofric.cli.files import FOLDER, refusal
+from viscofric.cli.output import json_option, out_option, print_json
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable

@@ -13,10 +13,8 @@ from typing import Any
 import click
 
 from viscofric.cli.commands import Decorator
-from viscofric.cli.files import DASH, FILE, OUT, PICTURES, Named, check_ending, to_be_written
+from viscofric.cli.files import DASH, OUT, PICTURES, WRITTEN, check_ending, to_be_written
 from viscofric.cli.overview import TYPED
-
-FOLDER = Named(file_okay=False)
 
 #: Help of `--json` where a study runs.
 RUN_JSON = "Print progress as JSON, one object a line; the last one has the outcome."
@@ -48,7 +46,7 @@ def picture_option(words: str) -> Decorator:
         check_ending(value, "--picture", PICTURES)
         return value
 
-    return click.option("--picture", type=FILE, callback=checked, help=f"{words} (PNG, SVG or PDF).")
+    return click.option("--picture", type=WRITTEN, callback=checked, help=f"{words} (PNG, SVG or PDF).")
 
 
 #: Where data may be synthetic that do not say so themselves.

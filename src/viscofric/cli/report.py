@@ -8,7 +8,8 @@ from pathlib import Path
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.output import FOLDER, json_option, out_option, pdf_option, print_json, print_written
+from viscofric.cli.files import FOLDER
+from viscofric.cli.output import json_option, out_option, pdf_option, print_json, print_written
 
 
 @as_command("report", reader="run_file")

@@ -11,7 +11,8 @@ import click
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
-from viscofric.cli.output import FOLDER, RUN_JSON, json_option, out_option, pdf_option, print_written
+from viscofric.cli.files import FOLDER
+from viscofric.cli.output import RUN_JSON, json_option, out_option, pdf_option, print_written
 from viscofric.notes import listed
 
 if TYPE_CHECKING:

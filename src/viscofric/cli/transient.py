@@ -22,7 +22,7 @@ from viscofric.cli.contact_options import (
     surface_options,
 )
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import DATA, FILE, PICTURES, Source, check_ending, refuse_to_overwrite, write_dataset
+from viscofric.cli.files import DATA, PICTURES, WRITTEN, Source, check_ending, refuse_to_overwrite, write_dataset
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.history_options import chosen_history, chosen_times, history_options
 from viscofric.cli.output import (
@@ -80,12 +80,12 @@ Examples:
     help="With --cycle: Coulomb friction coefficient; its shear is left out, a note has the effect [default: none].",
 )
 @click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
-@click.option("--save-state", "state", type=FILE, help="Write the last state (.npz) for --resume.")
+@click.option("--save-state", "state", type=WRITTEN, help="Write the last state (.npz) for --resume.")
 @json_option("Print inputs and results over time as JSON, in SI units.")
 @out_option("Write the results over time (.csv or .nc); `-` prints the table.", endings=DATA)
 @picture_option("Draw forces, indentation, contact and pressures")
-@click.option("--pressures", type=FILE, help="Draw the pressure at --times, or at five times (PNG, SVG or PDF).")
-@click.option("--animation", type=FILE, help="Draw the pressure over time beside the friction (GIF).")
+@click.option("--pressures", type=WRITTEN, help="Draw the pressure at --times, or at five times (PNG, SVG or PDF).")
+@click.option("--animation", type=WRITTEN, help="Draw the pressure over time beside the friction (GIF).")
 def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     """Solve one contact over time: loading, dwell, start, sliding, return.
 

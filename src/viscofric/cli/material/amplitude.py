@@ -9,7 +9,7 @@ import click
 from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
-from viscofric.cli.files import FILE, Source, refuse_to_overwrite
+from viscofric.cli.files import WRITTEN, Source, refuse_to_overwrite
 from viscofric.cli.output import (
     drawing,
     json_option,
@@ -53,7 +53,7 @@ _PERCENT = click.FloatRange(0.0, 1000.0)
 @synthetic_option
 @picture_option("Draw the sweep")
 @json_option("Print everything as JSON, in SI units.")
-@out_option("Write the scaled material (JSON), for run files and the other commands.", FILE)
+@out_option("Write the scaled material (JSON), for run files and the other commands.", WRITTEN)
 def command(files: tuple[Path, ...], as_json: bool, picture: Path | None, out: Path | None, **chosen: Any) -> None:
     """Print the linear range and Kraus's law of an amplitude sweep in FILES.
 

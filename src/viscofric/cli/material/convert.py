@@ -9,7 +9,7 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import FILE, refuse_to_overwrite
+from viscofric.cli.files import WRITTEN, refuse_to_overwrite
 from viscofric.cli.output import json_option, out_option, print_json
 
 if TYPE_CHECKING:
@@ -21,8 +21,8 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "js
 
 @as_command("convert")
 @click.argument("rubber", metavar="MATERIAL")
-@click.argument("output", required=False, type=FILE)
-@out_option("File to write, instead of OUTPUT.", FILE)
+@click.argument("output", required=False, type=WRITTEN)
+@out_option("File to write, instead of OUTPUT.", WRITTEN)
 @json_option("Print the written file and the notes as JSON.")
 @click.option("--format", "form", type=click.Choice(FORMATS), required=True, help="Format of the card.")
 @click.option(

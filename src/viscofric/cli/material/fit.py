@@ -10,10 +10,9 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
-from viscofric.cli.files import FILE
+from viscofric.cli.files import FILE, FOLDER
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
 from viscofric.cli.output import (
-    FOLDER,
     json_option,
     out_option,
     print_json,

@@ -9,7 +9,7 @@ import click
 from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, indenter_options
 from viscofric.cli.errors import typed_as
-from viscofric.cli.files import CSV, FILE, JSON, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.files import CSV, JSON, WRITTEN, Source, check_ending, refuse_to_overwrite
 from viscofric.cli.output import (
     answer,
     drawing,
@@ -80,8 +80,8 @@ Example:
 @click.option("--samples", type=int, default=200, show_default=True, help="Number of uncertainty samples.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Random seed of the samples.")
 @click.option("--name", default="identified from indentation", show_default=True, help="Name of the material.")
-@out_option("Write the material (JSON), for `solve`, run files and `material`.", FILE, endings=JSON)
-@click.option("--csv", "table", type=FILE, help="Write the moduli with their 95 % limits (CSV).")
+@out_option("Write the material (JSON), for `solve`, run files and `material`.", WRITTEN, endings=JSON)
+@click.option("--csv", "table", type=WRITTEN, help="Write the moduli with their 95 % limits (CSV).")
 @picture_option("Draw the moduli with their limits, and every fit")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
 @synthetic_option

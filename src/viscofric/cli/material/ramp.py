@@ -9,9 +9,8 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import Source
+from viscofric.cli.files import FOLDER, Source
 from viscofric.cli.output import (
-    FOLDER,
     json_option,
     out_option,
     print_json,
