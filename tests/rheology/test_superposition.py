@@ -297,6 +297,9 @@ def test_sweeps_that_do_not_overlap_are_refused_with_both_temperatures():
         below, above = (0.0, 60.0) if len(celsius) == 2 else (20.0, 80.0)
         assert f"{below:.1f} °C" in str(caught.value)
         assert f"{above:.1f} °C" in str(caught.value)
+        # what may be kept is named where there is such a range
+        kept = "0.0 °C to 20.0 °C, 80.0 °C to 100.0 °C"
+        assert (kept in str(caught.value)) == (len(celsius) > 2)
 
 
 def test_single_isotherms_beyond_the_ends_are_left_out_with_a_note():

@@ -104,7 +104,9 @@ def join_isotherms(
     first, last = int(np.argmax(joined)), len(joined) - int(np.argmax(joined[::-1]))
     broken = np.flatnonzero(~joined[first:last])
     if broken.size:
-        raise SuperpositionError(_gap(isotherms, first + int(broken[0])), code="no-overlap")
+        steps = [(isotherms[place].temperature, isotherms[place + 1].temperature) for place in np.flatnonzero(joined)]
+        keep = f"keep one of the ranges that overlap ({ranges(steps)}) and leave out the other temperatures, or "
+        raise SuperpositionError(_gap(isotherms, first + int(broken[0]), keep), code="no-overlap")
     notes = tuple(
         Note("left-out", f"The isotherm at {shown(isotherms[place].temperature)} was left out: {_gap(isotherms, gap)}")
         for place, gap in [(p, p) for p in range(first)] + [(p, p - 1) for p in range(last + 1, len(isotherms))]
@@ -121,10 +123,10 @@ def as_given(isotherms: tuple[Tested, ...], logs: list[LogSweep], shift: ShiftLa
     return JoinedIsotherms(isotherms, logs, joins, ())
 
 
-def _gap(isotherms: Sequence[Isotherm | StepTest], place: int) -> str:
+def _gap(isotherms: Sequence[Isotherm | StepTest], place: int, remedy: str = "") -> str:
     colder, warmer = isotherms[place], isotherms[place + 1]
     return (
         f"the isotherms at {shown(colder.temperature)} and {shown(warmer.temperature)} do not overlap "
         f"(no shift brings their moduli within {LARGEST_MISFIT:g} decades of each other); "
-        "measure in between, or over more frequencies or times."
+        f"{remedy}measure in between, or over more frequencies or times."
     )
