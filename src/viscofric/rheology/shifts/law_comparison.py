@@ -310,8 +310,9 @@ def _notes(chosen: LawRow[ParametricLaw], rows: list[LawRow[ParametricLaw]], tab
         text = f"The factors have no standard errors; laws are taken to hold to about {law_fitting.USUAL_MISFIT:g} "
         yield Note("factors-without-errors", text + "decades.")
     elif chosen.scatter > stated:
-        text = f"The factors scatter about it by {chosen.scatter:.2g} decades, more than their uncertainties of about "
-        yield Note("law-scatter", text + f"{stated:.2g} explain.")
+        text = f"The factors scatter about it by {chosen.scatter:.2g} decades, more than the uncertainty of about "
+        text += f"{stated:.2g} from one temperature to the next explains; the standard errors of the factors add up "
+        yield Note("law-scatter", text + "from the reference.")
     if any(row.kind == "wlf" for row in fitted):
         yield Note(
             "vft-is-wlf", "VFT is the same curve as WLF with other constants; it is not counted as a separate law."
