@@ -12,6 +12,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric import read_dma
+from viscofric.web.jobs import recognise
 from viscofric.web.jobs.context import Context, JobError
 from web.rubber_workspace import EXAMPLE, SWEEPS, done, workspace_with
 
@@ -51,6 +52,18 @@ def test_synthetic_example_is_reported_as_the_reader_takes_it(workspace: Context
         # numbers are sent with six digits
         np.testing.assert_allclose(reported["angular_frequency"], read.angular_frequency, rtol=5e-6)
         np.testing.assert_allclose(reported["loss_tangent"], read.loss_modulus / read.storage_modulus, rtol=5e-6)
+
+
+@pytest.mark.parametrize(
+    ("remark", "made_up"), [("# SYNTHETIC data", True), ("# a synthetic rubber, measured", False), ("", False)]
+)
+def test_sweeps_that_say_that_they_were_made_up_are_called_synthetic(
+    workspace: Context, remark: str, made_up: bool
+) -> None:
+    rows = table("T (degC),f (Hz),E' (MPa),E'' (MPa)")
+    (workspace.files / "own.csv").write_text(f"{remark}\n{rows}")
+    job = recognise.Options(files=["own.csv"])
+    assert recognise.run({}, job, workspace) == {"kinds": {"dma": ["own.csv"]}, "synthetic": made_up}
 
 
 def test_left_out_readings_and_outliers_are_flagged_with_their_place(workspace: Context) -> None:

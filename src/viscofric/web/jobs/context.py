@@ -12,7 +12,8 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
-from viscofric.errors import ViscofricError
+from viscofric.errors import DataFileError, ViscofricError
+from viscofric.files import read_text
 from viscofric.notes import Note
 
 _BETWEEN_SENT = 0.05  # s, of progress: a browser shows no more
@@ -58,3 +59,13 @@ class Context:
     def part(self, part: dict[str, Any]) -> None:
         """Hand over a part of the result that can be shown already."""
         self.send("part", {"part": part})
+
+
+def is_made_up(path: Path) -> bool:
+    """Whether a file says of itself that it was not measured."""
+    try:
+        remarks = [line for line in read_text(str(path)).splitlines()[:50] if line.startswith("#")]
+    except DataFileError:
+        return False
+    # a synthetic rubber may well be measured
+    return any(words in line.lower() for line in remarks for words in ("synthetic data", "(synthetic material)"))

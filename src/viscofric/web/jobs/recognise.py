@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import Field
 
-from viscofric.web.jobs.context import Context, JobOptions
+from viscofric.web.jobs.context import Context, JobOptions, is_made_up
 from viscofric.web.jobs.rubbers import insist_on_uploads
 
 
@@ -18,9 +18,10 @@ class Options(JobOptions):
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
-    """Sort uploaded files by the kind of test that they hold."""
+    """Sort uploaded files by the kind of test that they hold; say whether one of them was made up."""
     from viscofric.readers.recognise import by_kind
 
     insist_on_uploads("material", tuple(map(Path, options.files)), context.files)
-    found = by_kind([context.files / name for name in options.files])
-    return {"kinds": {kind: [path.name for path in paths] for kind, paths in found.items()}}
+    files = [context.files / name for name in options.files]
+    kinds = {kind: [path.name for path in paths] for kind, paths in by_kind(files).items()}
+    return {"kinds": kinds, "synthetic": any(map(is_made_up, files))}

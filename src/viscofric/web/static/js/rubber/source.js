@@ -87,37 +87,40 @@ export function choose(source, value, { origin, ...beside } = {}) {
 /** Names of all files of a key of [material]. */
 export const filesOf = (key) => [first()[key] ?? []].flat();
 
-/** Upload files of tests; {key of [material]: names}.  A file that is not recognised belongs to the source that is chosen. */
+/** Upload files of tests; {key of [material]: names}, and the origin of data that say that they were made up.
+    A file that is not recognised belongs to the source that is chosen. */
 async function sorted(files) {
   const names = (await api.uploadFiles(files)).sort(inOrder);
-  let kinds;
+  let kinds, synthetic;
   try {
-    ({ kinds } = await api.runJob("recognise", { options: { files: names } }));
+    ({ kinds, synthetic } = await api.runJob("recognise", { options: { files: names } }));
   } catch {
     kinds = { [TESTS.includes(shownSource()) ? shownSource() : "dma"]: names }; // reading it says what is wrong
   }
   // an amplitude sweep is no source: it stays with the material, which may be scaled to a strain by it
   const { amplitude, ...others } = kinds;
   if (amplitude) state.set("material.amplitude_sweep", one(amplitude));
-  return others;
+  return { kinds: others, origin: synthetic ? "synthetic" : undefined };
 }
 
 /** Tests of another rubber. */
 export const takeTests = (files) =>
   attempt(async () => {
-    const kinds = await sorted(files);
+    const { kinds, origin } = await sorted(files);
     const [source, ...others] = TESTS.filter((key) => kinds[key]);
-    if (source) choose(source, kinds[source], Object.fromEntries(others.map((key) => [key, one(kinds[key])])));
+    const beside = Object.fromEntries(others.map((key) => [key, one(kinds[key])]));
+    if (source) choose(source, kinds[source], { origin, ...beside });
   });
 
 /** More tests of the same specimen. */
 export const addTests = (files) =>
   attempt(async () => {
-    const more = Object.entries(await sorted(files)).map(([key, names]) => [
+    const { kinds, origin } = await sorted(files);
+    const more = Object.entries(kinds).map(([key, names]) => [
       `material.${key}`,
       one([...new Set([...filesOf(key), ...names])].sort(inOrder)),
     ]);
-    if (more.length) state.change(Object.fromEntries(more));
+    if (more.length) state.change({ ...Object.fromEntries(more), ...(origin && { data_origin: origin }) });
   });
 
 /** The one file of a source. */
