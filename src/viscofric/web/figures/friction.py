@@ -164,7 +164,7 @@ def _factors(found: dict[str, Any], **more: Any) -> spec.Spec:
     if own:
         traces.append(dots(own["factors"], "from friction", colour="blue"))
     at = spec.quantity((own or found["by_rubber"])["reference"], "temperature")
-    caption = (own or {}).get("agreement") or ""
+    caption = own.get("agreement") or "" if own else "Of the page's material; friction determines none here."
     return spec.figure("Shift factors", spec.TEMPERATURE, spec.axis(f"log₁₀ α, 0 at {at}"), traces, caption, **more)
 
 

@@ -40,9 +40,7 @@ export const agreement = ofMeasured("agreement", () => (alone() ? null : {}), { 
 
 /** Progress and errors of a job. */
 export const Run = view(({ job, label }) => {
-  const { error } = job;
-  const message = error && error.message.charAt(0).toUpperCase() + error.message.slice(1);
-  const list = error ? [explain({ field: error.field, message }, "measurement")] : [];
+  const list = job.error ? [explain(job.error, "measurement")] : []; // it may begin with the name of a file
   return html`<${Progress} job=${job} label=${label} /><${Notes} kind="error" aria-live="assertive" list=${list} />`;
 });
 
