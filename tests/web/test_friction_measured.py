@@ -64,6 +64,15 @@ def test_friction_curves_are_recognised_and_can_be_fetched(context: Context) -> 
     np.testing.assert_array_equal(fetched.viscoelastic, curves().viscoelastic)
 
 
+def test_bars_of_repetitions_are_explained_where_there_are_any(context: Context) -> None:
+    rows = "speed (m/s),temperature (K),load (N),viscoelastic\n0.1,300,5,0.1\n0.2,300,5,0.2\n"
+    (context.files / "single.csv").write_text(rows)
+    for name, repeated in (("curves.csv", True), ("single.csv", False)):
+        figure = done("measured", context, STUDY, files=[name])["figures"]["measured-friction"]
+        assert any(one.get("error") for one in figure["traces"]) == repeated
+        assert ("standard deviation" in figure["caption"]) == repeated
+
+
 def test_settings_of_the_separation_stay_and_count(context: Context) -> None:
     before = {"measurement": {"mtm": "other.csv", "zero": "0.5 N"}}
     found = done("measured", context, before, files=["mtm.csv"])

@@ -13,7 +13,7 @@ _OTHERS = {
         "Coulomb friction",
         ("coulomb", "coulomb_scatter", 1.0),
         spec.axis("Coulomb friction coefficient", zero=1.08),
-        "Measured, with the standard deviation of the repetitions.",
+        "Measured{scatter}.",
     ),
     "four-runs": (
         "Check of the four configurations",
@@ -36,6 +36,11 @@ def _known(curve: dict[str, Any], name: str) -> bool:
     return any(one is not None for one in curve.get(name) or ())
 
 
+def _scatter(curves: list[dict[str, Any]], bars: str) -> str:
+    """Return what bars of measured points are, where there are any."""
+    return ", with the standard deviation of the repetitions" if any(_known(one, bars) for one in curves) else ""
+
+
 def _kept(values: list[float | None], rows: Any) -> list[float | None]:
     return [one if row else None for one, row in zip(values, rows, strict=True)]
 
@@ -48,9 +53,8 @@ def measured_figures(found: dict[str, Any]) -> dict[str, spec.Spec]:
         marks = [{"y": 0.0}] if name == "four-runs" else []
         traces = [one for curve in known for one in _measured(curve, column, bars, factor)]
         if known:
-            figures[name] = spec.figure(
-                title, spec.SPEED, y, traces, caption, marks=marks, synthetic=found["synthetic"]
-            )
+            words = caption.format(scatter=_scatter(known, bars))
+            figures[name] = spec.figure(title, spec.SPEED, y, traces, words, marks=marks, synthetic=found["synthetic"])
     return figures | {"measured-friction": _friction(found["curves"], synthetic=found["synthetic"])}
 
 
@@ -74,7 +78,7 @@ def _friction(curves: list[dict[str, Any]], agreement: dict[str, Any] | None = N
         near = [words for kelvin, words in doubts.items() if abs(kelvin - curve["temperature"]) < _SAME]
         measured += _measured(curve, "viscoelastic", "viscoelastic_scatter", doubts=near[0] if near else None)
     band = ", with the 95 % band of its uncertainty" if agreement and agreement["band"] else ""
-    caption = "Points: measured, with the standard deviation of the repetitions."
+    caption = f"Points: measured{_scatter(curves, 'viscoelastic_scatter')}."
     caption += f" Lines: predicted for the page's material{band}." if lines else ""
     if any(any(words) for words in doubts.values()):
         caption += " Open points: the prediction there is doubtful; hover to see why."
