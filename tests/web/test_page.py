@@ -136,7 +136,7 @@ _FIGURE = """(({render, html}, figure, place = document.createElement('div')) =>
   document.querySelector('#step-export').append(place);
   render(html`<${page.figures.Figure} ...${figure} />`, place);
 })(page.reactive, {
-  id: 'drawn', title: 'Two curves', caption: 'Of a test', synthetic: true,
+  id: 'drawn', title: 'Two curves', caption: 'Of a test', hint: 'Click it', synthetic: true,
   x: {label: 'speed', kind: 'speed', log: true}, y: {label: 'friction'},
   traces: [303.15, 363.15].map((temperature) => ({name: page.units.show(temperature, 'temperature'), temperature,
     x: [0.001, 0.1], y: [0.01, 0.02], lower: [0.009, 0.018], upper: [0.011, null]}))})"""
@@ -159,6 +159,8 @@ def test_figures_come_with_their_numbers_and_as_files(drawing: Tab) -> None:
         files[form] = download.value.path().read_bytes()
     rows = files["CSV"].decode().splitlines()
     assert rows[0] == "# Two curves (synthetic material)"
+    assert rows[1] == "# Of a test"  # what can be done on the page is no remark of a file
+    assert "Click it" in figure.locator("figcaption").inner_text()
     assert rows[2].startswith('speed (mm/s),"friction, 30\u00a0°C","lower friction, 30\u00a0°C"')
     assert rows[4] == "100,0.02,0.018,,0.02,0.018,"
     assert b"Two curves" in files["SVG"]

@@ -5,7 +5,7 @@
 //   traces=${[{name, x, y, mode: "lines" | "markers" | "lines+markers", temperature | colour, dash, symbol, size, width, open,
 //              lower, upper (a band around y), error (bars), hidden, legend: false, text, group, decoration, fill}, …]}
 //   look=${of all traces} temperatures=${all that share colours} marks=${[{x | y, label}, …]} map=${{x, y, z: [[…]], smooth}} z=${axis of the map}
-//   height=${400} empty="text without data" synthetic onClick=${(point) => …} onPlot=${(plot) => …} />
+//   height=${400} empty="text without data" hint="what can be done with it here" synthetic onClick=${(point) => …} onPlot=${(plot) => …} />
 //
 // What is not given is that of the result: of.figures[id], or `spec`.  All numbers are SI; columns may be paths into the result
 // ("profile.x"), and words may hold quantities (units.js: filled).  An axis is {label, kind, log, range: [from, to], equal, zero:
@@ -266,6 +266,7 @@ export const Figure = view((given, self) => {
     <figcaption>
       <span class="badge small" hidden=${!there || !spec.synthetic}>synthetic</span>
       <span class="figure-caption" hidden=${!spec.caption}>${spec.caption}</span>
+      <span class="figure-hint" hidden=${!spec.hint}>${spec.caption ? " " : ""}${spec.hint}</span>
       ${strong && html`<${Button} kind="quiet small" symbol="close" onClick=${() => pick(null)}>${units.show(spec.picked, "temperature")} picked<//>`}
     </figcaption>
     <div class="figure-table" hidden=${!self.open}>

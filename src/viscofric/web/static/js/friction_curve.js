@@ -155,8 +155,7 @@ function caption(shownCurve, shifted) {
     shifted &&
       "Each temperature is shifted by its shift factor: where the curves coincide, time–temperature superposition holds.",
     known,
-    whole && doubts.some((words) => words.length > 0) && "Ringed points are doubtful; hover to see why.",
-    "Click a point to see its contact below.",
+    whole && doubts.some((words) => words.length > 0) && "Ringed points are doubtful.",
   ];
   return parts.filter(Boolean).join(" ");
 }
@@ -177,6 +176,7 @@ function drawing(shownCurve, live) {
     of: shownCurve,
     title: `${axis.label[0].toUpperCase()}${axis.label.slice(1)} against ${shifted ? "reduced speed" : "speed"}`,
     caption: curve.error ? "Previous curve." : caption(shownCurve, shifted),
+    hint: !curve.error && hasPoints(shownCurve) && "Click a point to see its contact below; hover to see its numbers and doubts.",
     x: { label: speed, kind: "speed", log: true, range: speedsOf(shownCurve, look) },
     y: { ...axis, log: state.view("curve.log", false), zero: 1.06 },
     temperatures: shownCurve.temperature,
