@@ -41,7 +41,7 @@ LEAST_FREEDOM = 1e-6
 #: More outliers than this part of the points are scatter, and the mean square of normal scatter without them.
 MOST_OUTLYING, INNER_SQUARE = 0.1, 0.623
 #: Points count less from this many standard errors on.  Of normal scatter: the mean of squared distances as they count,
-#: and by how much the variance of what is fitted grows.
+#: and the variance of what is fitted over that of the points' weights.
 TAILS, MEAN_SQUARE, TAILS_COST = 2.0, 0.921, 1.0195
 #: Most rounds in which they are found, and the relative change of a variance that is none.
 ROUNDS, SETTLED = 10, 0.1

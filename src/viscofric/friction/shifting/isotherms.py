@@ -61,22 +61,28 @@ class FrictionIsotherm:
         return Smoother.fitted(*columns).curves(*columns)
 
     @cached_property
-    def without_an_end(self) -> tuple[FrictionIsotherm, ...]:
-        """The same without its first or its last point, where the others determine a curve."""
+    def _with_and_without_an_end(self) -> tuple[Curves, ...]:
+        """The curve, and those without the first or the last point, where the others determine a curve."""
         if len(self) <= _FEWEST_FOR_SCATTER:
-            return ()
+            return (self.curves,)
         apart = 1.0 + (_LEFT_OUT - 1.0) * np.eye(len(self))[[0, -1]]
-        return tuple(replace(self, larger=self.larger * end) for end in apart)
+        return self.curves, *(replace(self, larger=self.larger * end).curves for end in apart)
 
-    def read(self, speed: Array) -> tuple[Array, Array]:
-        """Return the curve at log10 speeds (k, m) within the range, and the covariance of each m values (k, m, m)."""
+    def read(self, speed: Array) -> list[tuple[Array, Array]]:
+        """Return the curve at log10 speeds (k, m) within the range, and the covariance of each m values (k, m, m).
+
+        After it the same of the curves without the first and without the last point, where these are determined.
+        """
         from scipy.interpolate import BSpline
 
-        smoother, curves = self.curves.smoother, self.curves
+        smoother = self.curves.smoother  # knots depend on the speeds only
         inside = np.clip(speed, self.speed[0], self.speed[-1]).ravel()
         basis = BSpline.design_matrix(inside, smoother.knots, smoother.degree).toarray().reshape(*speed.shape, -1)
-        spread = basis @ curves.inverse[0] @ np.swapaxes(basis, -1, -2)
-        return basis @ curves.coefficients[:, 0], spread
+        turned = np.swapaxes(basis, -1, -2)
+        return [
+            (basis @ curves.coefficients[:, 0], basis @ curves.inverse[0] @ turned)
+            for curves in self._with_and_without_an_end
+        ]
 
     def raised(self, part: float) -> FrictionIsotherm:
         """Return the same with all friction larger by a relative amount."""

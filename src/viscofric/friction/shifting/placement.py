@@ -98,21 +98,20 @@ def _steps(colder: FrictionIsotherm, warmer: FrictionIsotherm) -> Array:
 
 def _chi2(colder: FrictionIsotherm, warmer: FrictionIsotherm, steps: Array, scale: float) -> Array:
     """Compare two curves at steps, with all points, or without an end: its own curve does not show one that is off."""
-    chi2 = _chi2_of_all(colder, warmer, steps, scale)
-    others = [(one, warmer) for one in colder.without_an_end] + [(colder, one) for one in warmer.without_an_end]
-    for one, other in others:
-        chi2 = np.minimum(chi2, _chi2_of_all(one, other, steps, scale) + ONE_OUTLIER)
-    return chi2
-
-
-def _chi2_of_all(colder: FrictionIsotherm, warmer: FrictionIsotherm, steps: Array, scale: float) -> Array:
     low = np.maximum(colder.speed[0] + steps, warmer.speed[0])
     high = np.minimum(colder.speed[-1] + steps, warmer.speed[-1])
     places = low[:, None] + (high - low)[:, None] * PLACES
-    one, one_spread = colder.read(places - steps[:, None])
-    other, other_spread = warmer.read(places)
-    spread = scale * (one_spread + other_spread) + READING**2 * np.eye(len(PLACES))
-    difference = one - other
+    first, *colder_without = colder.read(places - steps[:, None])
+    second, *warmer_without = warmer.read(places)
+    chi2 = _apart(first, second, scale)
+    for one, other in [(one, second) for one in colder_without] + [(first, other) for other in warmer_without]:
+        chi2 = np.minimum(chi2, _apart(one, other, scale) + ONE_OUTLIER)
+    return chi2
+
+
+def _apart(one: tuple[Array, Array], other: tuple[Array, Array], scale: float) -> Array:
+    """Return χ² of values (k, m) of two curves with their covariances."""
+    difference, spread = one[0] - other[0], scale * (one[1] + other[1]) + READING**2 * np.eye(len(PLACES))
     return np.asarray(np.einsum("si,si->s", difference, np.linalg.solve(spread, difference[..., None])[..., 0]))
 
 
