@@ -12,6 +12,8 @@ from refusals import refused
 from rheology.planted import EXAMPLE_PROGRAMME, planted_sweeps, synthetic_soft_rubber
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.notes import codes, note_of
+from viscofric.rheology.shifts.law_comparison import course_notes
+from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.spectra.modulus_misfit import STIFFEST
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.overlap import LogSweep, overlap_quality, parted
@@ -236,6 +238,15 @@ def test_every_result_is_shown_in_a_few_lines():
     ]
     assert all("array" not in text and len(text) < 400 for text in shown), shown
     assert shown[0].startswith("Superposition\n  isotherms       26\n  temperature     26 from −20 to 200 °C")
+
+
+@pytest.mark.parametrize("count", [6, 8, 12])
+def test_factors_of_wlf_near_its_pole_have_no_note(count: int) -> None:
+    """Polynomials in 1/T do not follow it over 90 K: exact factors were said to scatter."""
+    kelvin = 273.15 + np.linspace(-10.0, 80.0, count)
+    values = np.asarray(WLF(8.86, 101.6, 323.15).at_reference(float(kelvin[0])).log10(kelvin))
+    errors = 1e-4 * np.minimum.outer(np.arange(count), np.arange(count))  # 0.01 decades a step
+    assert course_notes(kelvin, values, errors) == ()
 
 
 @pytest.mark.parametrize(("off", "code"), [(0.0, None), (3.0, "temperature-off"), (-5.0, "temperature-off")])

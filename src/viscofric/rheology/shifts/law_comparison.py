@@ -37,6 +37,8 @@ BEYOND = 10.0  # K
 ROUNDING = 1e-3
 #: Probability of a note on factors off their course by chance, and the degrees of freedom that this needs.
 BY_CHANCE, FEWEST_FREE = 0.01, 2
+#: Poles of courses below the lowest temperature, K.
+_BELOW = np.geomspace(10.0, 160.0, 17)
 #: Laws that are compared, those of physics with the fewest constants first.
 _COMPARED = ("arrhenius", "wlf", "wlf+arrhenius", "polynomial")
 
@@ -169,8 +171,9 @@ def compare_laws(table: FactorTable) -> LawComparison[ParametricLaw]:
 
 def course_notes(temperatures: Array, values: Array, covariance: Array) -> tuple[Note, ...]:
     """Return a note if one of n factors lies off the course of the others, or if all scatter about any course."""
-    # Courses are polynomials in 1/T. One temperature is off if the others without it scatter by so much less that
-    # chance explains it in one table of a hundred (Student's t). At an end it may be a change of law.
+    # Courses are polynomials in 1/(T − T₀), with the T₀ of several that suits best: those in 1/T alone do not follow
+    # WLF near its pole. One temperature is off if the others without it scatter by so much less that chance explains it
+    # in one table of a hundred (Student's t). At an end it may be a change of law.
     from scipy.special import gammaincc, stdtr
 
     found, courses = [], []
@@ -178,12 +181,15 @@ def course_notes(temperatures: Array, values: Array, covariance: Array) -> tuple
         freedom = len(values) - 2 - degree
         if freedom < FEWEST_FREE:
             break
-        whole, course = _course(temperatures, values, covariance, degree)
+        poles = (0.0, *(temperatures.min() - _BELOW))
+        tried = [(pole, *_course(temperatures, values, covariance, degree, pole)) for pole in poles]
+        pole, whole, course = min(tried, key=lambda one: one[1])
         scatter = float(np.sqrt(np.sum((values - course(temperatures)) ** 2) / (freedom + 1)))
         courses.append((float(gammaincc(0.5 * (freedom + 1), 0.5 * whole)), -scatter))
         for place in range(1, len(values) - 1):
             others = np.arange(len(values)) != place
-            rest, course = _course(temperatures[others], values[others], covariance[np.ix_(others, others)], degree)
+            kept = temperatures[others], values[others], covariance[np.ix_(others, others)]
+            rest, course = _course(*kept, degree, pole)
             better = np.sqrt(max(whole - rest, 0.0) / max(1.0, rest / freedom))
             found.append((float(stdtr(freedom, -better)), place, course))
     likely, scatter = max(courses, default=(1.0, 0.0))
@@ -210,15 +216,16 @@ def course_notes(temperatures: Array, values: Array, covariance: Array) -> tuple
 
 
 def _course(
-    temperatures: Array, values: Array, covariance: Array, degree: int
+    temperatures: Array, values: Array, covariance: Array, degree: int, pole: float
 ) -> tuple[float, Callable[[Array], Array]]:
-    """Return χ² of values about a polynomial in 1/T, and the polynomial."""
+    """Return χ² of values about a polynomial in 1/(T − pole), and the polynomial."""
     middle = float(temperatures.mean())
     table = FactorTable.of(temperatures, values, covariance, middle)
     whiten = table.whitening(law_fitting.SMALLEST_MISFIT**2)
 
     def powers(kelvin: Array) -> Array:
-        return np.stack([(1e3 / kelvin - 1e3 / middle) ** power for power in range(1, degree + 1)], axis=-1)
+        place = (kelvin - middle) / (kelvin - pole)  # linear in the inverse
+        return np.stack([place**power for power in range(1, degree + 1)], axis=-1)
 
     found = law_fitting.linear(whiten(powers(temperatures)), whiten(values))
     level = float(np.mean(values - powers(temperatures) @ found.parameters))
