@@ -450,7 +450,7 @@ def test_odd_bodies_are_refused_in_a_sentence(server: Server, body: bytes) -> No
 def test_odd_studies_end_in_a_sentence(server: Server, study: dict[str, object]) -> None:
     with server.client("workspace-odd") as client:
         content = json.dumps({"study": study})
-        answer = client.post("/api/jobs/export-run-file", content=content, headers={"Content-Type": "application/json"})
+        answer = client.post("/api/jobs/curve", content=content, headers={"Content-Type": "application/json"})
         last = json.loads(answer.text.splitlines()[-1])
         assert answer.status_code == 422 or last["event"] == "error"
         assert last["message"]
