@@ -14,7 +14,7 @@ from refusals import refused
 from viscofric.datasets import plain
 from viscofric.errors import DataFileError, StudyError
 from viscofric.study.run_file.study import TABLES, Study
-from viscofric.web.jobs.context import Context
+from viscofric.web.jobs.context import Context, JobError
 from viscofric.web.study_files import FILE_KEYS, check_confined, opened_study
 
 EXAMPLE = Path(__import__("viscofric").__file__).parent / "example"
@@ -93,8 +93,11 @@ def test_every_key_of_a_run_file_that_names_files_is_known() -> None:
     assert {name: keys for name, keys in found.items() if keys} == FILE_KEYS
 
 
-def test_files_with_plain_names_are_among_the_pages() -> None:
+def test_only_files_with_plain_names_are_among_the_pages() -> None:
     check_confined({"material": {"dma": ["a.csv", "b*.csv"]}, "measurement": {"mtm": "c.csv"}, "surface": 3})
+    for elsewhere in ("../dma.csv", "/etc/hosts", "..\\dma.csv", "C:\\dma.csv", "..", "**"):
+        with refused("file-not-here", JobError, naming="material.dma"):
+            check_confined({"material": {"dma": ["a.csv", elsewhere]}})
 
 
 def test_run_file_opens_with_its_files_under_plain_names(tmp_path: Path) -> None:

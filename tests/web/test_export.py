@@ -13,7 +13,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
-from viscofric.errors import StudyError
+from viscofric.errors import DataFileError, StudyError
 from viscofric.rheology.cards import read_card
 from viscofric.web.jobs import curve, export_card, export_run_file, export_study, open_run_file
 from viscofric.web.jobs.rubbers import made_rubber
@@ -150,6 +150,12 @@ def test_what_a_program_cannot_take_is_reported_in_a_sentence(desk: Desk) -> Non
     fitted = desk.run(export_card, SWEEPS, format="abaqus", law="wlf")
     assert "*TRS, DEFINITION=WLF" in fitted["text"]
     assert fitted["notes"] == []
+
+
+def test_a_file_that_is_gone_is_named(desk: Desk) -> None:
+    (desk.context.files / "dma.csv").unlink()
+    with refused("no-file", DataFileError, naming="dma.csv"):
+        desk.run(export_study, SWEEPS)
 
 
 @pytest.mark.apart

@@ -113,6 +113,7 @@ def test_a_test_that_cannot_be_separated_says_what_to_do_on_the_page(context: Co
         (["curves.csv", "mtm.csv"], "mixed-files"),
         (["dma.csv"], "dma-sweeps"),
         (["none.csv"], "file-not-here"),
+        ([__file__], "file-not-here"),
     ],
 )
 def test_files_that_are_no_measurement_are_refused(context: Context, files: list[str], code: str) -> None:

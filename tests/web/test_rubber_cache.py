@@ -106,6 +106,7 @@ def test_rubber_to_solve_with_refuses_a_temperature_without_shift_factor(workspa
         ({}, ("contradiction", "material")),
         ({"dma": "dma.csv"}, ("contradiction", "reference_temperature")),
         ({**SWEEPS, "deformation": "torsion"}, ("literal-error", "material.deformation", "'torsion'")),
+        ({**SWEEPS, "dma": __file__}, ("file-not-here", "material.dma", "test_rubber_cache.py")),
         ({**SWEEPS, "dma": ["dma.csv", "b.csv"]}, ("file-not-here", "material.dma", "'b.csv'")),
         ({**SWEEPS, "fixed_shift_factors": {"cold": 1.0}}, ("no-number", "material.fixed_shift_factors", "'cold'")),
         ({"file": "rubber.json"}, ("file-not-here", "material.file", "'rubber.json'")),
