@@ -17,10 +17,11 @@ from click.testing import CliRunner, Result
 
 from cli.refusals import refusal, refusal_of
 from marks import apart
-from viscofric import open_results
+from viscofric import open_results, report
 from viscofric.cli import main
 from viscofric.cli.run import NOT_ACCURATE, print_outcome
 from viscofric.notes import Note
+from viscofric.study import execution
 from viscofric.study.results.file import save_results
 
 EXAMPLE = Path(str(files("viscofric"))) / "example"
@@ -220,6 +221,14 @@ def test_check_of_results_names_what_is_damaged(finished: Path) -> None:
     assert (found["cases"], list(found["damaged"])) == (1, [str(case)])
     for wrong in (["check"], ["check", finished, "--results", finished]):
         assert call(*wrong).exit_code == 2
+
+
+@pytest.mark.slow
+def test_results_that_are_removed_before_the_end_are_an_error(finished: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    results = open_results(finished)
+    monkeypatch.setattr(execution, "run_study", lambda study, **how: results)
+    monkeypatch.setattr(report, "write_figures_and_report", lambda tree, folder: ([], folder / "gone.html"))
+    assert refusal("run", "study.toml")[:2] == (1, "removed")
 
 
 def test_errors_are_reported_without_an_empty_line_before_them(tmp_path: Path) -> None:

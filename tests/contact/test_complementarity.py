@@ -179,6 +179,11 @@ def test_complementarity_is_measured_in_the_given_depth() -> None:
     assert solution.complementarity == pytest.approx(worst / 50.0, rel=1e-6)  # round-off in a small gap
 
 
+def test_too_few_products_do_not_converge() -> None:
+    operator = HalfSpaceOperator(WINDOW, MATERIALS["one mode"])
+    assert not solve_complementarity(operator, PARABOLOID, 100.0, np.ones(WINDOW.shape), most_products=3).converged
+
+
 def test_patience_ends_with_the_best_that_was_met() -> None:
     operator = HalfSpaceOperator(WINDOW, MATERIALS["one mode"])
     solution = solve_complementarity(

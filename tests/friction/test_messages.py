@@ -279,10 +279,14 @@ def test_identification_says() -> None:
         "The anchor or prior differs from the fit by 5 of its standard errors: it contradicts the friction or itself.",
     )
     band = SimpleNamespace(low=1.0, high=10.0)
-    found = SimpleNamespace(material=RUBBER, identified=band, middle=3.0, known=(), METHOD="friction", UNMEASURED="")
-    (origin,) = with_origin(found, "curves.csv").spectrum.fit.notes
-    assert origin == "The material was identified from friction (curves.csv); none of its moduli was measured."
-    assert origin.code == "identified-from-friction"
+    found = SimpleNamespace(
+        material=RUBBER, identified=band, middle=3.0, known=("Known.",), METHOD="friction", UNMEASURED=""
+    )
+    for source, behind in (("curves.csv", " (curves.csv)"), ("", "")):
+        origin, *known = with_origin(found, source).spectrum.fit.notes
+        assert origin == f"The material was identified from friction{behind}; none of its moduli was measured."
+        assert origin.code == "identified-from-friction"
+        assert known == ["Known."]
 
 
 def test_points_of_friction_say() -> None:

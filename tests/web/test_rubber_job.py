@@ -184,6 +184,11 @@ def test_modulus_at_another_temperature(workspace: Context, rubber: Any) -> None
     ]
 
 
+def test_a_rubber_without_shift_factors_has_no_moduli_at_another_temperature(workspace: Context) -> None:
+    with refused("no-shift", JobError):
+        done("moduli", workspace, {"catalogue": "VHB 4910"}, options={"temperature": "60 degC"})
+
+
 @pytest.mark.parametrize("name", ["VHB 4910", "PVB interlayer", "synthetic fluoroelastomer"])
 def test_rubbers_of_the_catalogue_have_moduli_and_modes(workspace: Context, name: str) -> None:
     found = done("rubber", workspace, {"catalogue": name})

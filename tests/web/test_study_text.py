@@ -77,9 +77,10 @@ def test_every_mistake_stands_beside_its_field(tmp_path: Path) -> None:
     [
         (changed(conditions={**FIRST_STUDY["conditions"], "load": None}), "conditions.load"),
         (changed(title="\ud800"), None),
+        (changed(material={"dma": "../dma.csv", "reference_temperature": "30 degC"}), None),
         (changed(material=[[[[[[[[[[[[["deep"]]]]]]]]]]]]]), "material"),
     ],
-    ids=["null", "half a character", "deep"],
+    ids=["null", "half a character", "folder above", "deep"],
 )
 def test_what_no_run_file_of_the_page_can_hold_is_refused(
     document: dict[str, Any], field: str | None, tmp_path: Path
