@@ -114,6 +114,16 @@ def test_report_prints_a_pdf(finished: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert (finished / "report.pdf").read_text() == "%PDF\n"
 
 
+@pytest.mark.slow
+def test_the_record_of_a_run_names_its_pdf(finished: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    put_browser(finished.parent, monkeypatch)
+    results = open_results(finished)
+    monkeypatch.setattr(execution, "run_study", lambda study, **how: results)
+    monkeypatch.setattr(report, "write_figures_and_report", lambda tree, folder: ([], folder / "report.html"))
+    done = call("run", "study.toml", "--pdf", "--json")
+    assert json.loads(done.stdout.splitlines()[-1])["pdf"] == str(finished / "report.pdf")
+
+
 def sweeps(*rows: str) -> str:
     return "\n".join(["temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)", *rows])
 

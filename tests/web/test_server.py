@@ -1,4 +1,4 @@
-"""The page is served, told what is wrong in sentences, and reproduces what the command line says."""
+"""A job of the page that is served answers with its result."""
 
 from __future__ import annotations
 
