@@ -65,7 +65,6 @@ _HEATED = "--heating steel"
 _SLID = "--slide '1 mm' --speed '20 mm/s'"
 _SIZE = "--anchor-area '2 mm^2' --anchor-load '1 N' --anchor-speed '1 mm/s' --anchor-temperature '30 degC'"
 _MODULUS = "--anchor-modulus '2 MPa' --anchor-frequency '1 Hz' --anchor-temperature '30 degC'"
-_OSCILLATION = "--depth '100 um' --amplitude '2 um'"
 #: What an option leaves no place for, besides what `GROUPS` has.
 REPLACES = {
     "--history": {"--load", "--dwell", "--temperature"},

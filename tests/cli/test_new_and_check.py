@@ -102,6 +102,14 @@ def test_check_shows_what_is_wrong_with_every_data_file(tmp_path: Path) -> None:
     assert all(name in found.sentence for name in ("no.csv", "none.csv"))
 
 
+@pytest.mark.slow
+def test_check_shows_a_temperature_without_a_shift_factor(tmp_path: Path) -> None:
+    call("new", tmp_path, "--template", "ball")
+    text = (tmp_path / "study.toml").read_text(encoding="utf-8").replace('"90 degC"', '"400 degC"')
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    assert refusal("check", tmp_path / "study.toml")[:3] == (1, "outside-measured", "conditions.temperature")
+
+
 def test_schema_is_printed_or_written_beside_the_run_file(tmp_path: Path) -> None:
     printed = call("new", "--schema")
     assert printed.exit_code == 0
