@@ -84,8 +84,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         )
     if not requested.records:
         first = requested.failures[0]
-        said = f"No case could be solved; the first one failed: {first.note.words('page')}"
-        raise JobError(said, code=first.code)
+        reason = f"No case could be solved; the first one failed: {first.note.words('page')}"
+        raise JobError(reason, code=first.code)
     found = {**layout, **columns(contacts, requested), **more}
     return {
         **found,
