@@ -123,7 +123,7 @@ class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
                 code="outside-measured",
                 remedy=Remedy(
                     "; fit a law (such as WLF or Arrhenius) to extrapolate",
-                    page="; leave it out, or use a law under “Shift” to extrapolate",
+                    page="; leave it out, or, with sweeps, use a law under “Shift” to extrapolate",
                     field="conditions.temperature",
                 )
                 + f"{kelvin_hint(wanted)}.",
