@@ -44,7 +44,7 @@ COLUMNS = {
 MORE_COLUMNS = (
     *("coulomb", "coulomb_error", "coulomb_scatter", "consistency", "consistency_error", "slip", "offset"),
     *("material_error", "viscoelastic_lower", "viscoelastic_upper", "viscoelastic_freedom", "coulomb_freedom"),
-    *("mean_pressure", "mean_pressure_error"),
+    *("mean_pressure", "mean_pressure_error", "within_measured_frequencies"),
 )
 #: Columns of friction curves that hold pure numbers.
 PURE_COLUMNS = {*MORE_COLUMNS, "viscoelastic", "viscoelastic_error", "viscoelastic_scatter"} - {
@@ -440,7 +440,7 @@ CALLS: dict[str, Any] = {
         "rubber"), "counterbody": vf.ThermalProperties(0.25, 2170.0, 1010.0, "PTFE")},
     "FrictionCurves": lambda: {**COLUMNS, **{name: np.full(N, 0.01) for name in MORE_COLUMNS}, "viscoelastic_upper":
         np.full(N, 0.03), "viscoelastic_freedom": np.full(N, 8.0), "coulomb_freedom": np.full(N, 8.0), "source": "",
-        "notes": (), "load_unit": "N", "assumption": ""},
+        "within_measured_frequencies": np.ones(N), "notes": (), "load_unit": "N", "assumption": ""},
     "FrictionCurves.from_solutions": lambda: (vf.FrictionCurves, {"solutions": [contact()], "source": "predicted"}),
     "FrictionCurves.interval": lambda: (curves(), {"level": 0.9, "of": "viscoelastic"}),
     "FrictionCurves.at_temperature": lambda: (curves(), {"temperature": 300.0}),
