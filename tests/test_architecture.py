@@ -432,6 +432,7 @@ FOREIGN_TEXT = (
     "viscofric.report.figures.saving",
     "viscofric.report.html",
     "viscofric.web.access",
+    "viscofric.web.jobs.context",
     "viscofric.web.study_text",
     "viscofric.web.workspace",
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 import shutil
@@ -19,7 +20,7 @@ from cli.refusals import refusal
 from readers.samples import workbook
 from study.sweeps import made_results
 from viscofric.cli import main, run
-from viscofric.cli.files import OUT, Written
+from viscofric.cli.files import FOLDER, OUT, Written
 
 SOLID = ["--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms"]
 CATALOGUE = ["--material", "synthetic fluoroelastomer"]
@@ -202,6 +203,11 @@ def test_a_device_is_not_replaced_by_a_table() -> None:
     assert (done.exit_code, Path("/dev/null").is_char_device()) == (2, True)
     with pytest.raises(click.BadParameter, match="device"):
         OUT.convert("/dev/null", None, None)
+
+
+def test_the_highest_folder_can_be_named() -> None:
+    with contextlib.suppress(click.BadParameter):  # where it takes no files
+        assert FOLDER.convert("/", None, None) == Path("/")
 
 
 def test_only_tables_are_printed_in_place_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

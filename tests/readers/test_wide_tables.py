@@ -290,6 +290,10 @@ def test_lines_between_rows_do_not_state_other_conditions_than_the_headings(tmp_
     with refused("values-contradict", 3, "'Load: 10 N'"):
         path = saved(tmp_path, [["specimen", "speed (mm/s)", "COF 5 N"], row[:3], ["Load: 10 N", "", ""], row[:3]])
         vf.read_friction_curves(path, columns={"temperature": "= 20 degC"})
+    with refused("values-contradict", 3, "'Load: 10 N'"):
+        between = ["Load: 10 N", "was 20 N", ""]
+        path = saved(tmp_path, [["specimen", "speed (mm/s)", "COF 5 N"], row[:3], between, row[:3]])
+        vf.read_friction_curves(path, columns={"temperature": "= 20 degC"})
 
 
 def test_columns_of_two_compounds_beside_each_other_are_not_joined(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric.notes import codes
 from viscofric.roughness.ensemble import solve_one
 
 RUBBER = vf.Material.standard_linear_solid("1 MPa", "20 MPa", "1 ms")
@@ -226,6 +227,10 @@ def test_pieces_of_one_scan_that_overlap_are_noted():
     step = scan.spacing[0]
     assert noted(0, 64) == []
     assert noted(0, 24, 64) == [2]
+    piece = scan.crop(x=(10 * step, 73 * step), y=(10 * step, 73 * step)).window()
+    for both in ([scan.window(), piece], [piece, scan.window()]):
+        found = vf.predict_rough_friction(RUBBER, both, speeds=0.1, pressure="20 kPa", tolerance=1e-4)
+        assert "overlapping-surfaces" in codes(found.notes)
 
 
 def test_a_surface_that_is_moved_by_part_of_its_period_is_noted():

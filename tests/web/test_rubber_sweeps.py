@@ -55,7 +55,14 @@ def test_synthetic_example_is_reported_as_the_reader_takes_it(workspace: Context
 
 
 @pytest.mark.parametrize(
-    ("remark", "made_up"), [("# SYNTHETIC data", True), ("# a synthetic rubber, measured", False), ("", False)]
+    ("remark", "made_up"),
+    [
+        ("# SYNTHETIC data", True),
+        ("# data: synthetic", True),
+        ("# SYNTHETIC: friction of an assumed material", True),
+        ("# a synthetic rubber, measured", False),
+        ("", False),
+    ],
 )
 def test_sweeps_that_say_that_they_were_made_up_are_called_synthetic(
     workspace: Context, remark: str, made_up: bool

@@ -82,9 +82,9 @@ class Written(Named):
 def _insist_on_writable(path: Path) -> None:
     """Raise `OSError` where a folder to be written, or the nearest one above that exists, takes no files."""
     if path.exists() and not (path.is_file() or path.is_dir()):
-        raise OSError("it is a device or a pipe")
-    above = next(one for one in path.absolute().parents if one.exists())
-    with TemporaryFile(dir=path if path.is_dir() else above):
+        raise OSError("it is a device or a pipe; give the name of a file")
+    here = path.absolute()
+    with TemporaryFile(dir=here if here.is_dir() else next(one for one in here.parents if one.exists())):
         pass
 
 

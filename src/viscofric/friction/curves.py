@@ -71,8 +71,8 @@ class FrictionCurves(Plotted):
     viscoelastic_lower, viscoelastic_upper : (n,) array or None
         95 % limits of predicted friction due to the errors of the material.
     within_measured_frequencies : (n,) array or None
-        1 where the frequency of a solved contact was measured; 0 where friction and its limits belong to an
-        extrapolated modulus.  None where measured, or where the frequencies are not known.
+        0 for contacts at frequencies that were not measured, where friction and its limits belong to an extrapolated
+        modulus; 1 for others.  None where friction was measured, or where no contact is known to be such.
     viscoelastic_freedom, coulomb_freedom : (n,) array or None
         Degrees of freedom behind the standard errors of measured friction, infinite where these are known exactly;
         `interval` uses them.

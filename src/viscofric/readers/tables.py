@@ -285,12 +285,14 @@ def _with_stated_above(table: Table) -> Table:
                 if _comparable(*_value(value)) not in held:
                     problem = f"{line!r} above the table contradicts the {what} in its headings; delete one of them."
                     raise table.refused("values-contradict", problem)
-        elif (what,) in words.needed and not table.has(what) and len(found) == 1:
-            (value, line), *_ = found.items()
-            number, unit = _value(value)
-            if LIKE_THOUSANDS.fullmatch(number):
-                raise _may_be_thousands(table.path, number, f"{line!r} above the table", table.columns, words)
-            table = table.with_column(Column(line, what, unit, what, above=True), [number] * len(table.rows))
+        elif (what,) in words.needed and not table.has(what):
+            sole = [] if what in words.constants else [*_stated_above(table, what, alone=True).items()]
+            if len(sole) == 1:
+                ((value, line),) = sole
+                number, unit = _value(value)
+                if LIKE_THOUSANDS.fullmatch(number):
+                    raise _may_be_thousands(table.path, number, f"{line!r} above the table", table.columns, words)
+                table = table.with_column(Column(line, what, unit, what, above=True), [number] * len(table.rows))
     return table
 
 
@@ -303,7 +305,8 @@ def _insist_on_no_other_column(table: Table) -> None:
         units = [(other, other.unit) for other in table.columns if not other.quantity and other.unit]
         other = next((other for other, its in units if _in_si("1", its, unit) is not None), None)
         if other and len({row[place] for row in table.rows}) == 1:
-            problem = f"a line above the table states one {one.quantity}, but column {other.heading!r} may hold others"
+            stated = f"a heading or a line above the table states one {one.quantity}"
+            problem = f"{stated}, but column {other.heading!r} may hold others"
             remedy = name_columns(table.vocabulary.key, [one.quantity])
             raise table.refused("ambiguous-columns", problem, remedy, [one.quantity])
 
@@ -321,13 +324,18 @@ def _insist_on_nothing_between(table: Table, others: Sequence[NumberedRow]) -> N
                     raise DataFileError(table.path, problem, number, code="values-contradict")
 
 
-def _stated_above(table: Table, what: str, rows: Sequence[Sequence[str]] | None = None) -> dict[str, str]:
-    """Return the values of a quantity that lines or cells above a table state by its name and nothing else."""
+def _stated_above(
+    table: Table, what: str, rows: Sequence[Sequence[str]] | None = None, *, alone: bool = False
+) -> dict[str, str]:
+    """Return the values of a quantity that lines or cells above a table state by its name and nothing else.
+
+    `alone`: only those of lines that state no other value of it.
+    """
     found = {}
     for row in table.above if rows is None else rows:
         cells = list(dict.fromkeys(cell.strip() for cell in row if cell.strip()))
         every = {value for one, value in table.vocabulary.stated_in(" ".join(cells))[1] if one == what}
-        if len(every) > 1:  # "Load: 5 N" with "10 N" beside it
+        if alone and len(every) > 1:  # "Load: 5 N" with "10 N" beside it
             continue
         for line in _lines_of(cells, table):
             label, _, number = line.rpartition(" ")

@@ -251,6 +251,7 @@ def predict_rough_friction(
             progress(done, total)
 
     report(0)
+    shared = _overlaps(named)  # before hours of contacts, which it does not need
     columns: dict[str, Any] = {}
     doubts: tuple[Note, ...] = ()
     with tempfile.TemporaryDirectory(prefix="viscofric-") as folder:
@@ -270,7 +271,7 @@ def predict_rough_friction(
     shape = len(kelvins), len(velocities), len(named)
     numbers: dict[str, Any] = {name: np.array([getattr(one, name) for one in found]) for name in Numbers._fields[:-1]}
     numbers = {name: column.reshape(shape) for name, column in (numbers | columns).items()}
-    numbers["notes"] = (*counted([one.notes for one in found]), *_overlaps(named))
+    numbers["notes"] = (*counted([one.notes for one in found]), *shared)
     kelvin_or_nan = np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins])
     if interface is not None:
         warm = kelvin_or_nan[:, None, None] + numbers.get("face_rise", np.zeros(shape))
@@ -295,29 +296,34 @@ def predict_rough_friction(
     )
 
 
-#: Curvatures that differ by less than this part are the same; two surfaces overlap if this part of their square is,
-#: and more on few points, of which some agree by chance: independent ones reach 0.18 of 64 points, 0.02 of 64².
-_SAME, _SHARED, _BY_CHANCE = 0.02, 0.05, 1.2
+#: Curvatures that differ by less than this part of the second one are the same.
+_SAME = 0.02
+#: Part of the sum of squared curvatures that must be the same where two surfaces overlap.
+_SHARED = 0.05
+#: Of n points so much more, over √n: some agree by chance; independent surfaces reach 0.18 of 64 points, 0.02 of 64².
+_BY_CHANCE = 1.2
 #: Largest maxima of the correlation of two surfaces that are tried as their distance.
 _TRIED = 4
 
 
 def _overlaps(surfaces: Sequence[tuple[str, PeriodicSurface]]) -> tuple[Note, ...]:
-    """Return a note if surfaces have heights in common, as overlapping pieces of one scan do."""
+    """Return a note if surfaces seem to have heights in common, as overlapping pieces of one scan do."""
+    # So do surfaces made of equal caps or dimples, some of which always coincide: hence "seem".
+    curvatures = [_curvature(surface.z) for _, surface in surfaces]
     pairs = [
         (first, second)
         for second, (_, other) in enumerate(surfaces)
         for first, (_, one) in enumerate(surfaces[:second])
         if np.allclose(one.spacing, other.spacing, rtol=1e-9, atol=0.0)
-        and _in_common(_curvature(one.z), _curvature(other.z))
+        and _in_common(curvatures[first], curvatures[second])
     ]
     if not pairs:
         return ()
     count, (first, second) = len(surfaces) * (len(surfaces) - 1) // 2, pairs[0]
     said = (
-        f"{len(pairs)} of {count} pairs of surfaces have heights in common, such as numbers {first + 1} and "
+        f"{len(pairs)} of {count} pairs of surfaces seem to have heights in common, such as numbers {first + 1} and "
         f"{second + 1} ({surfaces[first][0]!r} and {surfaces[second][0]!r}): the interval counts surfaces as "
-        "independent, and is too narrow; give pieces of a scan that do not overlap."
+        "independent, and is then too narrow; give independent surfaces, such as pieces of a scan that do not overlap."
     )
     values = {"pairs": len(pairs), "of": count, "first": first + 1, "second": second + 1}
     return (Note("overlapping-surfaces", said, values=values),)
@@ -330,13 +336,15 @@ def _curvature(heights: Array) -> Array:
 
 
 def _in_common(one: Array, other: Array) -> bool:
-    """Whether curvatures of two surfaces agree after some shift, over part of them and beyond chance."""
+    """Whether curvatures of two surfaces agree after some shift, over part of the smaller one and beyond chance."""
+    if one.size < other.size:
+        one, other = other, one
     shape = np.maximum(one.shape, other.shape)
     first, second = (np.pad(each, list(zip((0, 0), shape - each.shape, strict=True))) for each in (one, other))
     product = scipy.fft.rfft2(first) * np.conj(scipy.fft.rfft2(second))
     correlation = scipy.fft.irfft2(product, tuple(shape)).ravel()
     power = np.square(second)
-    least = (_SHARED + _BY_CHANCE / math.sqrt(min(one.size, other.size))) * power.sum()
+    least = (_SHARED + _BY_CHANCE / math.sqrt(other.size)) * power.sum()
 
     def shared(shift: Any) -> float:
         same = np.abs(np.roll(first, shift, (0, 1)) - second) <= _SAME * np.abs(second)

@@ -84,7 +84,7 @@ def freedom_of(best: Weighed[Any], count: int, points: Mask | None = None) -> fl
 
 
 def misfit(best: Weighed[Any], residuals: Array, points: Mask | None = None) -> tuple[float, bool]:
-    """Return the mean square of residuals (n,) of points relative to its expectation, and whether it is no chance."""
+    """Return the mean square of residuals (n,) of points over its expectation, and whether that is beyond chance."""
     freedom = max(freedom_of(best, len(residuals), points), 1.0)
     ratio = float(np.sum(residuals**2, where=True if points is None else points)) / freedom
     return ratio, ratio > 1.0 + DOUBTFUL * np.sqrt(2.0 / freedom)

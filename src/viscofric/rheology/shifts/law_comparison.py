@@ -37,7 +37,8 @@ BEYOND = 10.0  # K
 ROUNDING = 1e-3
 #: Probability of a note on factors off their course by chance, and the degrees of freedom that this needs.
 BY_CHANCE, FEWEST_FREE = 0.01, 2
-#: Poles of courses below the lowest temperature, K.
+#: Distances of the poles of courses below the lowest temperature, K.  The one that fits best is chosen, and not counted
+#: among the constants: the note comes a little late.
 _BELOW = np.geomspace(10.0, 160.0, 17)
 #: Laws that are compared, those of physics with the fewest constants first.
 _COMPARED = ("arrhenius", "wlf", "wlf+arrhenius", "polynomial")

@@ -105,7 +105,7 @@ def join_isotherms(
     broken = np.flatnonzero(~joined[first:last])
     if broken.size:
         steps = [(isotherms[place].temperature, isotherms[place + 1].temperature) for place in np.flatnonzero(joined)]
-        keep = f"keep one of the ranges that overlap ({ranges(steps)}) and leave out the other temperatures, or "
+        keep = f"keep one of the ranges within which isotherms overlap ({ranges(steps)}) and leave out the others, or "
         raise SuperpositionError(_gap(isotherms, first + int(broken[0]), keep), code="no-overlap")
     notes = tuple(
         Note("left-out", f"The isotherm at {shown(isotherms[place].temperature)} was left out: {_gap(isotherms, gap)}")

@@ -81,7 +81,8 @@ def _friction(curves: list[dict[str, Any]], agreement: dict[str, Any] | None = N
     caption = f"Points: measured{_scatter(curves, 'viscoelastic_scatter')}."
     caption += f" Lines: predicted for the page's material{band}." if lines else ""
     if any(any(words) for words in doubts.values()):
-        caption += " Open points: the prediction there is doubtful; hover to see why."
+        caption += " Open points: the prediction there is doubtful."
+        more["hint"] = "Hover over open points to see why."
     return spec.figure("Viscoelastic friction", spec.SPEED, _VISCOELASTIC, [*lines, *measured], caption, **more)
 
 
@@ -168,7 +169,11 @@ def _factors(found: dict[str, Any], **more: Any) -> spec.Spec:
     if own:
         traces.append(dots(own["factors"], "from friction", colour="blue"))
     at = spec.quantity((own or found["by_rubber"])["reference"], "temperature")
-    caption = own.get("agreement") or "" if own else "Of the page's material; friction determines none here."
+    caption = (
+        own.get("agreement") or ""
+        if own
+        else "These are the shift factors of the page's material; friction determines none here."
+    )
     return spec.figure("Shift factors", spec.TEMPERATURE, spec.axis(f"log₁₀ α, 0 at {at}"), traces, caption, **more)
 
 

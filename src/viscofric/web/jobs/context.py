@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -17,6 +18,8 @@ from viscofric.files import read_text
 from viscofric.notes import Note
 
 _BETWEEN_SENT = 0.05  # s, of progress: a browser shows no more
+#: In remarks of files, unless it is the kind of a substance, which may well be measured.
+_SYNTHETIC = re.compile(r"\bsynthetic\b(?!\s+(rubber|elastomer|polymer|oil|grease|lubricant))", re.IGNORECASE)
 
 
 class JobOptions(BaseModel):
@@ -67,5 +70,4 @@ def is_made_up(path: Path) -> bool:
         remarks = [line for line in read_text(str(path)).splitlines()[:50] if line.startswith("#")]
     except DataFileError:
         return False
-    # a synthetic rubber may well be measured
-    return any(words in line.lower() for line in remarks for words in ("synthetic data", "(synthetic material)"))
+    return any(map(_SYNTHETIC.search, remarks))

@@ -110,6 +110,7 @@ export const takeTests = (files) =>
     const [source, ...others] = TESTS.filter((key) => kinds[key]);
     const beside = Object.fromEntries(others.map((key) => [key, one(kinds[key])]));
     if (source) choose(source, kinds[source], { origin, ...beside });
+    else if (origin) state.set("data_origin", origin);
   });
 
 /** More tests of the same specimen. */
@@ -120,7 +121,7 @@ export const addTests = (files) =>
       `material.${key}`,
       one([...new Set([...filesOf(key), ...names])].sort(inOrder)),
     ]);
-    if (more.length) state.change({ ...Object.fromEntries(more), ...(origin && { data_origin: origin }) });
+    if (more.length || origin) state.change({ ...Object.fromEntries(more), ...(origin && { data_origin: origin }) });
   });
 
 /** The one file of a source. */
