@@ -177,23 +177,33 @@ def course_notes(temperatures: Array, values: Array, covariance: Array) -> tuple
     # in one table of a hundred (Student's t). At an end it may be a change of law.
     from scipy.special import gammaincc, stdtr
 
+    degrees = [
+        degree
+        for degree in range(2, max(LARGEST_DEGREE, len(values) // 3) + 1)
+        if len(values) - 2 - degree >= FEWEST_FREE
+    ]
+
+    def chance_of(degree: int, chi2: float) -> float:
+        return float(gammaincc(0.5 * (len(values) - 1 - degree), 0.5 * chi2))
+
+    factors = temperatures, values, covariance
+    # One that suits is enough, and is most often found at once.
+    if any(chance_of(degree, _course(*factors, degree, 0.0)[0]) >= BY_CHANCE for degree in degrees) or not degrees:
+        return ()
     found, courses = [], []
-    for degree in range(2, max(LARGEST_DEGREE, len(values) // 3) + 1):
+    for degree in degrees:
         freedom = len(values) - 2 - degree
-        if freedom < FEWEST_FREE:
-            break
-        poles = (0.0, *(temperatures.min() - _BELOW))
-        tried = [(pole, *_course(temperatures, values, covariance, degree, pole)) for pole in poles]
+        tried = [(pole, *_course(*factors, degree, pole)) for pole in (0.0, *(temperatures.min() - _BELOW))]
         pole, whole, course = min(tried, key=lambda one: one[1])
         scatter = float(np.sqrt(np.sum((values - course(temperatures)) ** 2) / (freedom + 1)))
-        courses.append((float(gammaincc(0.5 * (freedom + 1), 0.5 * whole)), -scatter))
+        courses.append((chance_of(degree, whole), -scatter))
         for place in range(1, len(values) - 1):
             others = np.arange(len(values)) != place
             kept = temperatures[others], values[others], covariance[np.ix_(others, others)]
             rest, course = _course(*kept, degree, pole)
             better = np.sqrt(max(whole - rest, 0.0) / max(1.0, rest / freedom))
             found.append((float(stdtr(freedom, -better)), place, course))
-    likely, scatter = max(courses, default=(1.0, 0.0))
+    likely, scatter = max(courses)
     if likely >= BY_CHANCE:
         return ()
     chance, place, course = min(found, key=lambda one: one[0])
