@@ -276,19 +276,18 @@ def _may_be_thousands(
 def _with_stated_above(table: Table) -> Table:
     """Return the table with a column of each value that it needs and lacks and that one line above states alone."""
     words = table.vocabulary
-    for what in words.conditions:
-        found = {} if what in words.constants else _stated_above(table, what)
+    for what in (one for one in words.conditions if one not in words.constants):
         place = next((n for n, one in enumerate(table.columns) if one.heading == OF_HEADINGS[what]), None)
         if place is not None:
             held = {_comparable(row[place], table.columns[place].unit) for row in table.rows}
-            for value, line in found.items():
+            for value, line in _stated_above(table, what).items():
                 if _comparable(*_value(value)) not in held:
                     problem = f"{line!r} above the table contradicts the {what} in its headings; delete one of them."
                     raise table.refused("values-contradict", problem)
         elif (what,) in words.needed and not table.has(what):
-            sole = [] if what in words.constants else [*_stated_above(table, what, alone=True).items()]
-            if len(sole) == 1:
-                ((value, line),) = sole
+            found = _stated_above(table, what, alone=True)
+            if len(found) == 1:
+                ((value, line),) = found.items()
                 number, unit = _value(value)
                 if LIKE_THOUSANDS.fullmatch(number):
                     raise _may_be_thousands(table.path, number, f"{line!r} above the table", table.columns, words)
@@ -353,9 +352,13 @@ def _lines_of(cells: Sequence[str], table: Table) -> list[str]:
     return [" ".join(cells), *cells[:1], *others]
 
 
+#: SI units of what headings may state.
+_SI_OF_CONDITIONS = ("K", "rad/s", "N", "N/m", "m/s")
+
+
 def _comparable(number: str, unit: str) -> tuple[float, str]:
     """Return a value in an SI unit where there is one."""
-    for si in ("K", "rad/s", "N", "N/m", "m/s"):
+    for si in _SI_OF_CONDITIONS:
         if (value := _in_si(number, unit, si)) is not None:
             return float(f"{value:.9g}"), si
     return float(number.replace(",", ".")), unit
@@ -459,7 +462,7 @@ def _in_one_unit(values: Sequence[Value]) -> tuple[str, list[str]]:
     (_, first), *_ = values
     if all(unit == first for _, unit in values):
         return first, [f"{float(number.replace(',', '.')):.12g}" for number, _ in values]
-    for unit in ("K", "rad/s", "N", "N/m", "m/s"):
+    for unit in _SI_OF_CONDITIONS:
         found = [one for number, its in values if (one := _in_si(number, its, unit)) is not None]
         if len(found) == len(values):
             return unit, [f"{one:.12g}" for one in found]
