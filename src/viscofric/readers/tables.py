@@ -405,11 +405,8 @@ def _insist_on_one_value(table: Table) -> None:
 
 def _si_value(stated: re.Match[str], unit: str) -> float | None:
     """Return a number with its unit in an SI unit, None if it is of another kind."""
-    try:
-        factor, offset = unit_conversion(stated["unit"], unit)
-        return float(f"{factor * float(stated['number'].replace(',', '.')) + offset:.9g}")
-    except (InputError, ValueError):
-        return None
+    value = _converted(stated["number"], stated["unit"], unit)
+    return None if value is None else float(f"{value:.9g}")
 
 
 def _below_each_other(table: Table) -> Table:
@@ -470,17 +467,20 @@ def _in_one_unit(values: Sequence[Value]) -> tuple[str, list[str]]:
 
 
 def _in_si(number: str, unit: str, si: str) -> float | None:
-    """Return a value in an SI unit, None if it is of another kind."""
-    plain = float(number.replace(",", "."))
-    if unit in MASSES:  # among weights
+    """Return a value in an SI unit, None if it is of another kind, or a mass among weights."""
+    if unit in MASSES:
         return None
     if si == "rad/s":
         factor = to_rad_per_second(unit, angular=False)
-        return None if factor is None else factor * plain
+        return None if factor is None else factor * float(number.replace(",", "."))
+    return _converted(number, unit, si)
+
+
+def _converted(number: str, unit: str, si: str) -> float | None:
     try:
         factor, offset = unit_conversion(unit, si)
-        return factor * plain + offset
-    except InputError:
+        return factor * float(number.replace(",", ".")) + offset
+    except (InputError, ValueError):
         return None
 
 
