@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 import viscofric as vf
 from gallery import HERTZ_RADIUS, broad_spectrum_37, low_speed_friction, standard_linear_solid
 from marks import apart, slow
+from viscofric.arrays import gauss
 from viscofric.contact.free.balance import lag, opening
 from viscofric.contact.free.estimates import FEWEST_GRIDS, FRICTION_FLOOR, friction_estimate
 from viscofric.contact.free.geometry import LINE, POINT, Geometry
@@ -89,8 +92,8 @@ def test_lag_is_that_of_a_finer_rule(modulus_ratio: float, error: float, monkeyp
         for length in np.logspace(-8, 8, 33)
     ]
     found = [[lag(solid, 1.0, cut) for cut in LINE.cuts] for solid in solids]
-    places, weights = np.polynomial.legendre.leggauss(600)
-    monkeypatch.setattr("viscofric.contact.free.balance._PLACES", places)
+    logarithms, weights = gauss(600, (0.0, math.log(1e13)))
+    monkeypatch.setattr("viscofric.contact.free.balance._LOGARITHMS", logarithms)
     monkeypatch.setattr("viscofric.contact.free.balance._WEIGHTS", weights)
     np.testing.assert_allclose(found, [[lag(solid, 1.0, cut) for cut in LINE.cuts] for solid in solids], rtol=error)
 

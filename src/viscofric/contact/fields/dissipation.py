@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import non_negative_fit
+from viscofric.arrays import gauss, non_negative_fit
 from viscofric.contact.fields.stress import rectangle_corners, strip_ends
 from viscofric.contact.fields.subsurface import line_stress, stress_layer
 
@@ -89,10 +89,9 @@ def dissipation(
     radius or half-width, m.  The memory of the stress ahead of the cells is included, but not the loss released ahead
     of, beside or behind them: the sum is less than the work of friction.
     """
-    node, weight = np.polynomial.legendre.leggauss(_DEPTHS)
-    share = 0.5 * (1.0 + node)
+    share, weight = gauss(_DEPTHS)
     depths = size * share / (1.0 - share)
-    thickness = 0.5 * weight * size / np.square(1.0 - share)
+    thickness = weight * size / np.square(1.0 - share)
     step, width = float(x[1] - x[0]), float(y[1] - y[0]) if len(y) > 1 else 1.0
     few = modes.merged(0.05 * size / speed, 50.0 * size / speed, _ON_CELLS)
     ahead = x[-1] + step * (_GROWTH ** np.arange(_AHEAD + 1.0) - 1.0)[::-1]

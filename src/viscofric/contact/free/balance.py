@@ -32,6 +32,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from viscofric.arrays import gauss
 from viscofric.contact.operators.convolution import bent_share
 
 if TYPE_CHECKING:
@@ -44,8 +45,7 @@ if TYPE_CHECKING:
 
 # Gauss's rule for the wavenumber's logarithm beyond the cut, and the range that it covers; right to 1e-7 for E∞/E0 up
 # to 1e4, to 3e-7 up to 1e8.
-_PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(80)
-_LONGEST = math.log(1e13)
+_LOGARITHMS, _WEIGHTS = gauss(80, (0.0, math.log(1e13)))
 
 
 def opening(window: Grid, pressure: Array, gap: Array) -> float:
@@ -80,7 +80,7 @@ def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
 
 def _left_out(material: SteadyMaterial, spacing: float, cut: float) -> tuple[Array, ComplexArray, Array, Array]:
     """Return, of the waves beyond the cut: wavenumber, S, what of the loss is found from bends, over q, and weight."""
-    wavenumber = cut / spacing * np.exp(0.5 * _LONGEST * (1.0 + _PLACES))
+    wavenumber = cut / spacing * np.exp(_LOGARITHMS)
     lengths, compliances = material.memory_lengths, material.compliances
     phase = np.outer(lengths, wavenumber)
     wave = 1.0 / (1.0 + phase**2)

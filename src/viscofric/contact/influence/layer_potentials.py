@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from viscofric.arrays import gauss
 from viscofric.contact.bodies import Layer, half_space_coupling
 from viscofric.contact.influence.line import strip_potential, strip_shear
 from viscofric.contact.influence.potentials import (
@@ -116,9 +117,7 @@ def _shear_taken_by_base(poisson_ratio: float, bonded: bool, line: bool) -> _Tab
 
 def _waves() -> tuple[Array, Array]:
     """Return wave numbers times H, and weights of the integral over them."""
-    points, weights = np.polynomial.legendre.leggauss(_POINTS)
-    half = 0.5 * np.diff(_WAVE_PANELS)[:, None]
-    return (_WAVE_PANELS[:-1, None] + half * (1.0 + points)).ravel(), (half * weights).ravel()
+    return gauss(_POINTS, _WAVE_PANELS)
 
 
 def _tabulated(taken: Callable[[Array], Array], left: Callable[[Array, Array], Array]) -> _Table:
@@ -146,9 +145,7 @@ def _cell_rule(length: float) -> tuple[Array, Array]:
     distance = 4.0 * panels / length
     ellipse = distance + math.hypot(distance, 1.0)
     order = max(2, math.ceil(-0.5 * math.log(_ACCURACY) / math.log(ellipse)))
-    points, weights = np.polynomial.legendre.leggauss(order)
-    starts = np.arange(panels)[:, None]
-    return ((starts + 0.5 * (points + 1.0)) / panels - 0.5).ravel(), np.tile(0.5 * weights / panels, panels)
+    return gauss(order, np.arange(panels + 1.0) / panels - 0.5)
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from scipy.special import eval_legendre
 
+from viscofric.arrays import gauss, lagrange
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -52,8 +54,7 @@ def applied(weights: Inexact, values: Array) -> Inexact:
 @lru_cache(maxsize=1)
 def gauss_points() -> tuple[Array, Array]:
     """Gauss points on [0, 1], and the weights."""
-    t, weight = np.polynomial.legendre.leggauss(ORDER)
-    return 0.5 * (t + 1.0), 0.5 * weight
+    return gauss(ORDER)
 
 
 @lru_cache(maxsize=1)
@@ -62,13 +63,12 @@ def _of_polynomials() -> tuple[Array, Array, Array]:
 
     The last for integrals without an end, ∫_0^∞ ε e^(−ε s) s^k ds = k!/ε^k.
     """
-    t, weight = np.polynomial.legendre.leggauss(ORDER)
+    (t, weight), (fine, fine_weight) = gauss_points(), gauss(_FINE)
     degree = np.arange(ORDER)
-    to_legendre = (degree[:, None] + 0.5) * weight * eval_legendre(degree[:, None], t)
-    fine, fine_weight = np.polynomial.legendre.leggauss(_FINE)
-    integrals = 0.5 * fine_weight[:, None] * eval_legendre(degree, fine[:, None])
+    to_legendre = (2.0 * degree[:, None] + 1.0) * weight * eval_legendre(degree[:, None], 2.0 * t - 1.0)
+    integrals = fine_weight[:, None] * eval_legendre(degree, 2.0 * fine[:, None] - 1.0)
     powers = [[(-1.0) ** (n + k) * math.comb(n, k) * math.perm(n + k, k) for n in degree] for k in degree]
-    return 0.5 * (fine + 1.0), integrals @ to_legendre, np.array(powers) @ to_legendre
+    return fine, integrals @ to_legendre, np.array(powers) @ to_legendre
 
 
 def product_weights(rate: Inexact) -> Inexact:
@@ -104,7 +104,7 @@ def _exponential(rate: Inexact, points: Array) -> Inexact:
 
 def panel_points(edges: Array) -> Array:
     """Gauss points on panels, (n order,), from the panels' n + 1 edges."""
-    return np.asarray((edges[:-1, None] + np.diff(edges)[:, None] * gauss_points()[0]).ravel())
+    return gauss(ORDER, edges)[0]
 
 
 def panel_weights(edges: Array, rate: Inexact) -> Inexact:
@@ -124,9 +124,4 @@ def lattice_interpolation() -> tuple[Indices, Array]:
     Gauss points.
     """
     nodes = np.arange(ORDER) - (ORDER // 2 - 1)
-    points = gauss_points()[0]
-    matrix = np.ones((ORDER, ORDER))
-    for k, node in enumerate(nodes):
-        for other in nodes[nodes != node]:
-            matrix[:, k] *= (points - other) / (node - other)
-    return nodes, matrix
+    return nodes, lagrange(nodes.astype(float), gauss_points()[0])

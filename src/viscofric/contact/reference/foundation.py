@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import gauss
 from viscofric.errors import InputError
 from viscofric.units import positive
 
@@ -106,8 +107,8 @@ def rolling_foundation_ball(
     force, R, H, M = _numbers(load, "N", radius, thickness, foundation)
     a0 = (4.0 * force * R * H / (math.pi * M)) ** 0.25
     strips = _Strips.of(a0, M, glassy_foundation, tau, speed)
-    t, w = np.polynomial.legendre.leggauss(_STRIPS)
-    cosine, weight = np.cos(0.25 * np.pi * (t + 1.0)), 0.5 * np.pi * w  # both halves of the ball
+    angle, weight = gauss(_STRIPS, (0.0, 0.5 * np.pi))
+    cosine, weight = np.cos(angle), 2.0 * weight  # both halves of the ball
 
     def sums(a: float) -> Array:
         return strips.sums(a * cosine) @ (weight * a * cosine)

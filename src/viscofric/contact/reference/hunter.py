@@ -35,6 +35,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import i0e, i1e, ive, k0e, k1e
 
+from viscofric.arrays import gauss
 from viscofric.contact.reference._checks import plane_strain_modulus
 from viscofric.contact.reference.hertz import HertzLineContact, hertz_line
 from viscofric.errors import InputError
@@ -176,10 +177,7 @@ class _Contact:
 @lru_cache(maxsize=1)
 def _graded_rule() -> tuple[Array, Array]:
     """Points and weights on [0, 1], on panels that halve towards 0."""
-    t, w = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
-    ends = np.concatenate([[0.0], 0.5 ** np.arange(_PANELS, -1.0, -1.0)])
-    size = np.diff(ends)[:, None]
-    return (ends[:-1, None] + 0.5 * size * (t + 1.0)).ravel(), (0.5 * size * w).ravel()
+    return gauss(_GAUSS_POINTS, np.append(0.0, 0.5 ** np.arange(_PANELS, -1.0, -1.0)))
 
 
 @lru_cache(maxsize=64)

@@ -37,8 +37,7 @@ def belt(relaxation: RelaxationSpectrum, radius: float, thickness: float, front:
 
     # A strip has gained stress up to the axis, d = a, and has lost it all at d = 2a at the latest.
     width = float(brentq(lambda d: float(stress(np.array([d]))[0]), front, 2.0 * front, xtol=1e-14 * front))
-    nodes, weights = np.polynomial.legendre.leggauss(64)
-    d, weights = 0.5 * width * (nodes + 1.0), 0.5 * width * weights
+    d, weights = gauss(64, (0.0, width))
     pressure = stress(d)
     load = float(weights @ pressure)
     return np.array([load, float(weights @ (pressure * (front - d))) / (load * radius)])
