@@ -21,8 +21,6 @@ from viscofric.contact.fields.stress import rectangle_corners, strip_ends
 from viscofric.contact.fields.subsurface import line_stress, stress_layer
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from viscofric.arrays import Array
 
 #: Depths in contact radii: Gauss's rule for ζ in z = ζ/(1 − ζ).
@@ -167,14 +165,3 @@ def _passing(stress: Array, before: Array, step: float, steps: Array, modes: Mod
         energy[:-1] += 0.5 * C / tau * each
         energy[1:] += 0.5 * C / tau * each
     return energy / step
-
-
-def power_density(on_dashpot: Callable[[float], Array], modes: Modes, poisson_ratio: float) -> Array:
-    """Return w (...), W/m³, from the stress (6, ...) on the dashpot of a mode with a retardation time."""
-    total: Array | float = 0.0
-    for C, tau in zip(*modes, strict=True):
-        stress = on_dashpot(float(tau))
-        normal, shear = stress[:3], stress[3:]
-        squares = np.square(normal).sum(0) + 2.0 * np.square(shear).sum(0)
-        total = total + C / tau * ((1.0 + poisson_ratio) * squares - poisson_ratio * np.square(normal.sum(0)))
-    return np.asarray(total)
