@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
@@ -20,8 +21,63 @@ if TYPE_CHECKING:
     from viscofric.showing import Rows
 
 
+class _Paraboloid(Indenter):
+    """A surface x²/2R_x + y²/2R_y of two radii of curvature, of which the one across may be infinite."""
+
+    @property
+    @abstractmethod
+    def _radii(self) -> tuple[float, float]:
+        """Radii of curvature along x and along y, m."""
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height (m) above the lowest point at (x, y), in m."""
+        along, across = self._radii
+        return x**2 / (2.0 * along) + y**2 / (2.0 * across)
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x at (x, y)."""
+        return x / self._radii[0] + 0.0 * y
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y)."""
+        return 0.0 * x + y / self._radii[1]
+
+
+class _Round(_Paraboloid):
+    """A paraboloid of one radius."""
+
+    radius: Quantity
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", positive(self.radius, "m", "radius"))
+
+    def _shown(self) -> Rows:
+        return (("radius", self.radius, "m"),)
+
+    @property
+    def _radii(self) -> tuple[float, float]:
+        return float(self.radius), float(self.radius) if self.geometry.dimension > 1 else math.inf
+
+    @property
+    def reach(self) -> float:
+        """Half the largest width that a contact can have, m."""
+        return float(self.radius)
+
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful."""
+        ratio = max(contact) / self.reach
+        if ratio <= SMALL_STRAIN:
+            return None
+        return Note(
+            "large-strain",
+            f"The contact extends to {ratio:.2f} {self.noun} radii from the axis; above {SMALL_STRAIN} the assumptions "
+            f"of small strain and of a parabolic {self.noun} are doubtful.",
+            values={"radii": float(ratio), "limit": SMALL_STRAIN},
+        )
+
+
 @dataclass(frozen=True)
-class Ball(Indenter):
+class Ball(_Round):
     """A ball, as contact mechanics takes it: the paraboloid r²/2R.
 
     Parameters
@@ -45,36 +101,9 @@ class Ball(Indenter):
     noun: ClassVar[str] = "ball"
     radius: Quantity
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", positive(self.radius, "m", "radius"))
-
-    def _shown(self) -> Rows:
-        return (("radius", self.radius, "m"),)
-
-    def height(self, x: Array, y: Array) -> Array:
-        """Height (m) above the lowest point at (x, y), in m."""
-        return (x**2 + y**2) / (2.0 * float(self.radius))
-
-    def slope(self, x: Array, y: Array) -> Array:
-        """Slope of the height along x at (x, y)."""
-        return x / float(self.radius) + 0.0 * y
-
-    def slope_across(self, x: Array, y: Array) -> Array:
-        """Slope of the height along y at (x, y)."""
-        return 0.0 * x + y / float(self.radius)
-
-    @property
-    def reach(self) -> float:
-        """Half the largest width that a contact can have, m."""
-        return float(self.radius)
-
-    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
-        """Return a note where the assumption of small strain is doubtful."""
-        return _too_wide(max(contact) / self.reach, self.noun)
-
 
 @dataclass(frozen=True)
-class Cylinder(Indenter):
+class Cylinder(_Round):
     """A long cylinder with its axis across the motion, as contact mechanics takes it: x²/2R, in plane strain.
 
     Its load is per unit of length (N/m).
@@ -100,36 +129,9 @@ class Cylinder(Indenter):
     noun: ClassVar[str] = "cylinder"
     radius: Quantity
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", positive(self.radius, "m", "radius"))
-
-    def _shown(self) -> Rows:
-        return (("radius", self.radius, "m"),)
-
-    def height(self, x: Array, y: Array) -> Array:
-        """Height (m) above the lowest point at (x, y), in m."""
-        return x**2 / (2.0 * float(self.radius)) + 0.0 * y
-
-    def slope(self, x: Array, y: Array) -> Array:
-        """Slope of the height along x at (x, y)."""
-        return x / float(self.radius) + 0.0 * y
-
-    def slope_across(self, x: Array, y: Array) -> Array:
-        """Slope of the height along y at (x, y): zero."""
-        return 0.0 * x + 0.0 * y
-
-    @property
-    def reach(self) -> float:
-        """Half the largest width that a contact can have, m."""
-        return float(self.radius)
-
-    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
-        """Return a note where the assumption of small strain is doubtful."""
-        return _too_wide(max(contact) / self.reach, self.noun)
-
 
 @dataclass(frozen=True)
-class Ellipsoid(Indenter):
+class Ellipsoid(_Paraboloid):
     """A surface with two radii of curvature: the paraboloid x²/2R_x + y²/2R_y.
 
     Parameters
@@ -163,22 +165,14 @@ class Ellipsoid(Indenter):
             ("radius along y", self.radius_y, "m"),
         )
 
-    def height(self, x: Array, y: Array) -> Array:
-        """Height (m) above the lowest point at (x, y), in m."""
-        return x**2 / (2.0 * float(self.radius_x)) + y**2 / (2.0 * float(self.radius_y))
-
-    def slope(self, x: Array, y: Array) -> Array:
-        """Slope of the height along x at (x, y)."""
-        return x / float(self.radius_x) + 0.0 * y
-
-    def slope_across(self, x: Array, y: Array) -> Array:
-        """Slope of the height along y at (x, y)."""
-        return 0.0 * x + y / float(self.radius_y)
+    @property
+    def _radii(self) -> tuple[float, float]:
+        return float(self.radius_x), float(self.radius_y)
 
     @property
     def reach(self) -> float:
         """Half the largest width that a contact can have, m."""
-        return float(max(self.radius_x, self.radius_y))
+        return max(self._radii)
 
     def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
         """Return a note where the assumption of small strain is doubtful."""
@@ -297,14 +291,3 @@ class FlatPunch(Indenter):
     def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
         """Return a note where the assumption of small strain is doubtful."""
         return too_steep(indentation / float(self.radius))
-
-
-def _too_wide(ratio: float, noun: str) -> Note | None:
-    if ratio <= SMALL_STRAIN:
-        return None
-    return Note(
-        "large-strain",
-        f"The contact extends to {ratio:.2f} {noun} radii from the axis; above {SMALL_STRAIN} the assumptions of "
-        f"small strain and of a parabolic {noun} are doubtful.",
-        values={"radii": float(ratio), "limit": SMALL_STRAIN},
-    )
