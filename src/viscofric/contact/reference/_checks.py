@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from viscofric.errors import InputError
-from viscofric.units import positive, to_si
+from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     from viscofric.units import Quantity
 
 
-def poisson(value: float) -> float:
-    """Return Poisson's ratio; InputError if it is not between 0 and 0.5."""
-    ratio = to_si(value, "dimensionless", "poisson_ratio")
-    if not 0.0 <= ratio <= 0.5:
-        raise InputError(f"poisson_ratio = {ratio:g}: must lie between 0 and 0.5.", code="poisson-ratio")
-    return ratio
-
-
 def plane_strain_modulus(modulus: Quantity, poisson_ratio: float, name: str = "modulus") -> float:
     """Return E* = E/(1 − ν²), Pa: the modulus of a half-space under a rigid indenter."""
-    return positive(modulus, "Pa", name) / (1.0 - poisson(poisson_ratio) ** 2)
+    return positive(modulus, "Pa", name) / (1.0 - checked_poisson_ratio(poisson_ratio) ** 2)
+
+
+def load_and_lengths(
+    load: Quantity, unit: str, radius: Quantity, thickness: Quantity, modulus: Quantity, name: str = "modulus"
+) -> tuple[float, float, float, float]:
+    """Return load (N, or N/m), radius, thickness (m) and modulus (Pa) of a contact with a thin layer."""
+    return (
+        positive(load, unit, "load" if unit == "N" else "load_per_length"),
+        positive(radius, "m", "radius"),
+        positive(thickness, "m", "thickness"),
+        positive(modulus, "Pa", name),
+    )

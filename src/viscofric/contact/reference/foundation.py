@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arrays import gauss
+from viscofric.contact.reference._checks import load_and_lengths
 from viscofric.errors import InputError
 from viscofric.units import positive
 
@@ -85,7 +86,7 @@ def rolling_foundation_line(
     Raises InputError if a value is not above zero, M∞ is less than M0 or more than 1e6 times M0, or vτ is less than
     1e-9 or more than 1e9 times the half-width of the elastic contact.
     """
-    force, R, H, M = _numbers(load_per_length, "N/m", radius, thickness, foundation)
+    force, R, H, M = load_and_lengths(load_per_length, "N/m", radius, thickness, foundation, "foundation")
     a0 = (1.5 * force * R * H / M) ** (1.0 / 3.0)
     strips = _Strips.of(a0, M, glassy_foundation, tau, speed)
     return _assemble(strips, lambda a: strips.sums(np.array([a]))[:, 0], 2.0 / 3.0, a0, M / (R * H), R)
@@ -104,7 +105,7 @@ def rolling_foundation_ball(
 
     F (N), R (m), H (m); M0 and M∞ (Pa); τ (s) and v (m/s).  Errors as for the cylinder.
     """
-    force, R, H, M = _numbers(load, "N", radius, thickness, foundation)
+    force, R, H, M = load_and_lengths(load, "N", radius, thickness, foundation, "foundation")
     a0 = (4.0 * force * R * H / (math.pi * M)) ** 0.25
     strips = _Strips.of(a0, M, glassy_foundation, tau, speed)
     angle, weight = gauss(_STRIPS, (0.0, 0.5 * np.pi))
@@ -202,14 +203,3 @@ def _remainder(order: int, y: Array) -> Array:
         term = -term * small / k
     polynomial = sum((-y) ** k / math.factorial(k) for k in range(order))
     return np.where(y <= _SMALL, series, (-1.0) ** order * (np.exp(-y) - polynomial))
-
-
-def _numbers(
-    load: Quantity, unit: str, radius: Quantity, thickness: Quantity, foundation: Quantity
-) -> tuple[float, float, float, float]:
-    return (
-        positive(load, unit, "load" if unit == "N" else "load_per_length"),
-        positive(radius, "m", "radius"),
-        positive(thickness, "m", "thickness"),
-        positive(foundation, "Pa", "foundation"),
-    )

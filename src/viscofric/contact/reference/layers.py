@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from viscofric.contact.reference._checks import poisson
+from viscofric.contact.reference._checks import load_and_lengths
 from viscofric.errors import InputError
-from viscofric.units import positive
+from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -47,7 +47,7 @@ def foundation_modulus(
     """
     if base not in ("bonded", "frictionless"):
         raise InputError(f"base = {base!r}: must be 'bonded' or 'frictionless'.", code="wrong-choice")
-    E, nu = positive(modulus, "Pa", "modulus"), poisson(poisson_ratio)
+    E, nu = positive(modulus, "Pa", "modulus"), checked_poisson_ratio(poisson_ratio)
     if base == "frictionless":
         return E / (1.0 - nu**2)
     if nu == 0.5:
@@ -64,7 +64,7 @@ def winkler_ball(load: Quantity, radius: Quantity, thickness: Quantity, foundati
     The limit a ≫ H of an elastic layer; for a bonded layer also 1 − 2ν ≫ H²/a².  Raises InputError if a value is not
     above zero.
     """
-    force, R, H, M = _numbers(load, "N", radius, thickness, foundation)
+    force, R, H, M = load_and_lengths(load, "N", radius, thickness, foundation)
     return _foundation((4.0 * force * R * H / (math.pi * M)) ** 0.25, R, H, M)
 
 
@@ -72,7 +72,7 @@ def winkler_line(
     load_per_length: Quantity, radius: Quantity, thickness: Quantity, foundation: Quantity
 ) -> ThinLayerContact:
     """Cylinder on a foundation: F' = 2M a³/(3RH), F' in N/m; see `winkler_ball`."""
-    force, R, H, M = _numbers(load_per_length, "N/m", radius, thickness, foundation)
+    force, R, H, M = load_and_lengths(load_per_length, "N/m", radius, thickness, foundation)
     return _foundation((1.5 * force * R * H / M) ** (1.0 / 3.0), R, H, M)
 
 
@@ -89,7 +89,7 @@ def incompressible_ball(load: Quantity, radius: Quantity, thickness: Quantity, m
     Contact Mechanics (1985), Sec. 5.8; M. J. Jaffar, Int. J. Mech. Sci. 31 (1989) 229.  Raises InputError if a value is
     not above zero.
     """
-    force, R, H, E = _numbers(load, "N", radius, thickness, modulus)
+    force, R, H, E = load_and_lengths(load, "N", radius, thickness, modulus)
     a = (96.0 * force * R * H**3 / (math.pi * E)) ** (1.0 / 6.0)
     return ThinLayerContact(a, a**2 / (4.0 * R), E * a**4 / (32.0 * R * H**3), 2, H)
 
@@ -98,17 +98,6 @@ def incompressible_line(
     load_per_length: Quantity, radius: Quantity, thickness: Quantity, modulus: Quantity
 ) -> ThinLayerContact:
     """Cylinder on a thin bonded layer: F' = 2E a⁵/(45RH³), δ = a²/(6R), F' in N/m, as `incompressible_ball`."""
-    force, R, H, E = _numbers(load_per_length, "N/m", radius, thickness, modulus)
+    force, R, H, E = load_and_lengths(load_per_length, "N/m", radius, thickness, modulus)
     a = (22.5 * force * R * H**3 / E) ** 0.2
     return ThinLayerContact(a, a**2 / (6.0 * R), E * a**4 / (24.0 * R * H**3), 2, H)
-
-
-def _numbers(
-    load: Quantity, unit: str, radius: Quantity, thickness: Quantity, modulus: Quantity
-) -> tuple[float, float, float, float]:
-    return (
-        positive(load, unit, "load" if unit == "N" else "load_per_length"),
-        positive(radius, "m", "radius"),
-        positive(thickness, "m", "thickness"),
-        positive(modulus, "Pa", "modulus"),
-    )

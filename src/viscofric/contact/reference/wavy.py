@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.reference._checks import plane_strain_modulus, poisson
+from viscofric.contact.reference._checks import plane_strain_modulus
 from viscofric.errors import InputError
-from viscofric.units import positive
+from viscofric.units import checked_poisson_ratio, positive
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -146,7 +146,7 @@ def full_contact_wave(
         raise InputError(
             f"complex_modulus = {modulus}: E' must be above zero and E'' not below it.", code="not-positive"
         )
-    wave = steepness * modulus / (2.0 * (1.0 - poisson(poisson_ratio) ** 2))
+    wave = steepness * modulus / (2.0 * (1.0 - checked_poisson_ratio(poisson_ratio) ** 2))
     if abs(wave) > mean:
         raise InputError(
             f"mean_pressure = {mean:g} Pa: contact is full from {abs(wave):g} Pa on only.", code="partial-contact"
