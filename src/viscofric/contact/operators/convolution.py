@@ -12,7 +12,9 @@ import scipy.fft
 
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.extension import Extension, lag
+from viscofric.contact.influence.line import HalfSpaceStrip
 from viscofric.contact.influence.mixtures import memory_influence
+from viscofric.contact.influence.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
     from typing import Self
@@ -133,9 +135,27 @@ class ConvolutionOperator(ABC):
     def cell(self) -> CellPotential:
         """Potential of a cell, in units of the cell's length."""
 
-    @abstractmethod
     def _influence(self) -> Influence:
         """Influence coefficients of the displacement and of its dissipating part."""
+        found = cell_influence(self, self.cell, self.material.glassy)
+        self._add_counterface(found)
+        return found.times(self.unit, self.window.spacing)
+
+    def _add_counterface(self, found: Influence) -> None:
+        """Add the influence of an elastic indenter in place; in line contacts its displacement has no level."""
+        compliance = self.material.counterface
+        if compliance == 0.0:
+            return
+        nx, ny = self.window.shape
+        drag = self.material.counterface_drag
+        cell: CellPotential = HalfSpaceCell(self.window.width / self.window.spacing, drag)
+        if ny == 1:
+            cell = HalfSpaceStrip(drag)
+        x, y = np.arange(-(nx - 1.0), nx)[:, None], cell.aspect * np.arange(float(ny))
+        displacement = cell(x - self.shift, y)
+        found.displacement[...] += compliance * (displacement - below(displacement) if ny == 1 else displacement)
+        if cell.drag:
+            found.dissipation[...] += compliance * cell.drag_slope(x, y)
 
     @property
     def dtype(self) -> Any:
@@ -282,21 +302,6 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
         instant_slope = cell.drag_slope(np.arange(-(nx - 1.0), nx)[:, None], cell.aspect * np.arange(float(ny)))
         slope += (instant + float((bent * compliances).sum())) * instant_slope
     return Influence(displacement, slope)
-
-
-def add_counterface(
-    found: Influence, operator: ConvolutionOperator, cell: CellPotential, *, levelled: bool = False
-) -> None:
-    """Add the influence of an elastic indenter, a half-space, in place; `levelled`: its displacement has no level."""
-    compliance = operator.material.counterface
-    if compliance == 0.0:
-        return
-    nx, ny = operator.window.shape
-    x, y = np.arange(-(nx - 1.0), nx)[:, None], cell.aspect * np.arange(float(ny))
-    displacement = cell(x - operator.shift, y)
-    found.displacement[...] += compliance * (displacement - below(displacement) if levelled else displacement)
-    if cell.drag:
-        found.dissipation[...] += compliance * cell.drag_slope(x, y)
 
 
 def below(values: Array) -> float:

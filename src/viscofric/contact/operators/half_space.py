@@ -12,10 +12,8 @@ from viscofric.contact.influence.potentials import HalfSpaceCell
 from viscofric.contact.operators.convolution import (
     ConvolutionOperator,
     Influence,
-    add_counterface,
     below,
     bent_share,
-    cell_influence,
     second_difference,
 )
 
@@ -36,11 +34,6 @@ class HalfSpaceOperator(ConvolutionOperator):
     def cell(self) -> HalfSpaceCell:
         """Potential of a cell, in units of the cell's length."""
         return HalfSpaceCell(self.window.width / self.window.spacing, self.material.drag * self.material.coupling)
-
-    def _influence(self) -> Influence:
-        found = cell_influence(self, self.cell, self.material.glassy)
-        add_counterface(found, self, HalfSpaceCell(self.cell.aspect, self.material.counterface_drag))
-        return found.times(self.unit, self.window.spacing)
 
 
 @dataclass
@@ -78,7 +71,7 @@ class LineOperator(ConvolutionOperator):
             dissipation += compliance * (bent * length * second_difference(delayed) + (1.0 - bent) * straight)
         displacement = (centred if self.shift == 0.0 else self._delayed(x - self.shift)) - below(centred)
         found = Influence(displacement[:, None], dissipation[:, None])
-        add_counterface(found, self, HalfSpaceStrip(self.material.counterface_drag), levelled=True)
+        self._add_counterface(found)
         return found.times(self.unit, h)
 
     def _delayed(self, x: Array) -> Array:

@@ -11,9 +11,7 @@ import numpy as np
 from viscofric.contact.bodies import Layer
 from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
-from viscofric.contact.influence.line import HalfSpaceStrip
-from viscofric.contact.influence.potentials import HalfSpaceCell
-from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, add_counterface, cell_influence
+from viscofric.contact.operators.convolution import ConvolutionOperator
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
@@ -74,11 +72,6 @@ class LayerOperator(ConvolutionOperator):
         thickness = self.layer.in_cells(max(self.window.spacing, self.window.width)) * max(1.0, aspect)
         return LayerCell(thickness, self.layer.bonded, self.layer.poisson_ratio, aspect, self.material.drag)
 
-    def _influence(self) -> Influence:
-        found = cell_influence(self, self.cell, self.material.glassy)
-        add_counterface(found, self, HalfSpaceCell(self.cell.aspect, self.material.counterface_drag))
-        return found.times(self.unit, self.window.spacing)
-
 
 @dataclass
 class LineLayerOperator(ConvolutionOperator):
@@ -97,11 +90,6 @@ class LineLayerOperator(ConvolutionOperator):
         """Potential of a cell, in units of the cell's length."""
         thickness = self.layer.in_cells(self.window.spacing)
         return LayerStrip(thickness, self.layer.bonded, self.layer.poisson_ratio, self.material.drag)
-
-    def _influence(self) -> Influence:
-        found = cell_influence(self, self.cell, self.material.glassy)
-        add_counterface(found, self, HalfSpaceStrip(self.material.counterface_drag), levelled=True)
-        return found.times(self.unit, self.window.spacing)
 
 
 _OPERATORS = {LINE.name: LineLayerOperator, "point": LayerOperator}
