@@ -148,26 +148,21 @@ def _cell_rule(length: float) -> tuple[Array, Array]:
     return gauss(order, np.arange(panels + 1.0) / panels - 0.5)
 
 
-@dataclass(frozen=True)
-class LayerCell:
-    """Potential of a rectangular cell of a layer, in units of the cell's length.
+class _OnLayer:
+    """What potentials of cells of point and of line contacts share: tables, and X of long and of short waves."""
 
-    `drag` is the shear stress along x over the pressure.
-    """
-
-    thickness: float  # H
+    thickness: float
     bonded: bool
     poisson_ratio: float
-    aspect: float = 1.0  # width of the cell over its length
-    drag: float = 0.0
+    _line: ClassVar[bool] = False
 
     @cached_property
     def _table(self) -> _Table:
-        return _taken_by_base(self.poisson_ratio, self.bonded, False)
+        return _taken_by_base(self.poisson_ratio, self.bonded, self._line)
 
     @cached_property
     def _shear_table(self) -> _Table:
-        return _shear_taken_by_base(self.poisson_ratio, self.bonded, False)
+        return _shear_taken_by_base(self.poisson_ratio, self.bonded, self._line)
 
     @property
     def _far(self) -> float:
@@ -178,6 +173,20 @@ class LayerCell:
     def _limit(self) -> float:
         """X of short waves, less that of long ones."""
         return half_space_coupling(self.poisson_ratio) - self._far
+
+
+@dataclass(frozen=True)
+class LayerCell(_OnLayer):
+    """Potential of a rectangular cell of a layer, in units of the cell's length.
+
+    `drag` is the shear stress along x over the pressure.
+    """
+
+    thickness: float  # H
+    bonded: bool
+    poisson_ratio: float
+    aspect: float = 1.0  # width of the cell over its length
+    drag: float = 0.0
 
     @property
     def _reach(self) -> float:
@@ -249,35 +258,18 @@ class LayerCell:
 
 
 @dataclass(frozen=True)
-class LayerStrip:
+class LayerStrip(_OnLayer):
     """Potential of a cell of a line contact on a layer, in units of the cell's length; the same for all y.
 
     `drag` is the shear stress along x over the pressure.
     """
 
+    _line: ClassVar[bool] = True
     aspect: ClassVar[float] = 1.0  # there is one row
     thickness: float  # H
     bonded: bool
     poisson_ratio: float
     drag: float = 0.0
-
-    @cached_property
-    def _table(self) -> _Table:
-        return _taken_by_base(self.poisson_ratio, self.bonded, True)
-
-    @cached_property
-    def _shear_table(self) -> _Table:
-        return _shear_taken_by_base(self.poisson_ratio, self.bonded, True)
-
-    @property
-    def _far(self) -> float:
-        """X of long waves."""
-        return Layer(1.0, self.bonded).long_coupling(self.poisson_ratio)
-
-    @property
-    def _limit(self) -> float:
-        """X of short waves, less that of long ones."""
-        return half_space_coupling(self.poisson_ratio) - self._far
 
     def __call__(self, x: Array, y: Array) -> Array:
         """∫_cell g, with its part by shear, seen from x."""
