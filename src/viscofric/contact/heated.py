@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from viscofric.arguments import insist_on
 from viscofric.contact.coupling import ShearedContact, coupling_notes, sheared_compliance
 from viscofric.contact.heated_result import INTERFACE, SHIFT, Heat, Warmed, beyond, described, ends
 from viscofric.errors import InputError
@@ -35,6 +36,24 @@ LOOSE = 2e-2
 _DECADES, _KELVIN = 0.4, 10.0
 #: States are looked for up to this rise, K, and up to this multiple of the largest rise that a contact produced.
 _LEAST, _BEYOND = 30.0, 2.0
+
+
+def insist_on_heatable(
+    heating: object, material: Material, speed: float, temperature: object, layer: object, coulomb: float
+) -> Heating:
+    """Return the heating of a contact; InputError unless its friction can heat it: see `ThermalContact`."""
+    insist_on(heating, "heating", Heating)
+    assert isinstance(heating, Heating)
+    if material.shift is None or temperature is None:
+        raise InputError("heating: needs a material with a shift, and a temperature.", code="no-shift")
+    if speed == 0.0 or math.isinf(speed):
+        raise InputError(f"heating: an elastic limit, speed = {speed:g}, has no heat.", code="elastic-limit")
+    if layer is not None or coulomb != 0.0:
+        raise InputError(
+            "heating: not with coulomb, nor with a layer: heat and loss are those of a half-space.",
+            code="not-with-heating",
+        )
+    return heating
 
 
 @dataclass(frozen=True)

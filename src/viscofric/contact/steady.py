@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arguments import exactly_one, flag, insist_on
+from viscofric.arguments import exactly_one, flag
 from viscofric.contact.bodies import Layer, half_space_coupling
 from viscofric.contact.derivatives.friction import differentiate
 from viscofric.contact.free.assembly import assemble
@@ -17,7 +17,7 @@ from viscofric.contact.free.estimates import friction_estimate
 from viscofric.contact.free.nested import GivenGrid, find_window, refine
 from viscofric.contact.free.problem import COARSEST, Control, Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
-from viscofric.contact.heated import solve_heated
+from viscofric.contact.heated import insist_on_heatable, solve_heated
 from viscofric.contact.heating import FreeThermalContact
 from viscofric.contact.indenters.indenter import (
     SMALL_STRAIN,
@@ -206,18 +206,10 @@ def thermal_contact(
 
     Raises InputError if it cannot be: without α(T), a temperature or motion, with shear, or on a layer.
     """
-    insist_on(heating, "heating", Heating)
     insist_on_material(material)
-    if material.shift is None or temperature is None:
-        raise InputError("heating: needs a material with a shift, and a temperature.", code="no-shift")
     moving = velocity(speed)
-    if moving == 0.0 or math.isinf(moving):
-        raise InputError(f"heating: an elastic limit, speed = {moving:g}, has no heat.", code="elastic-limit")
-    if settings.coulomb != 0.0 or settings.layer is not None:
-        raise InputError(
-            "heating: not with coulomb, nor with a layer: heat and loss are those of a half-space.",
-            code="not-with-heating",
-        )
+    insist_on_heatable(heating, material, moving, temperature, settings.layer, settings.coulomb)
+    assert temperature is not None
     insist_on_indenter(indenter)
     if heating.passes > 0 and indenter.geometry.dimension == 1:
         raise InputError("passes: a line contact leaves no circular track.", code="line-track")

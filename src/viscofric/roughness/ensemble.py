@@ -19,7 +19,7 @@ from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import Layer, checked_coulomb
 from viscofric.contact.coupling import SurfaceCoupling
 from viscofric.contact.heated_curve import heat_columns, solve_states
-from viscofric.contact.periodic.heating import ACCURACY, MEAN_LEFT_OUT, PeriodicThermalContact, insist_on_heatable
+from viscofric.contact.periodic.heating import ACCURACY, MEAN_LEFT_OUT, PeriodicThermalContact, insist_on_heated_surface
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.periodic.solve import solve_periodic
 from viscofric.contact.periodic.surface import PeriodicSurface
@@ -243,7 +243,7 @@ def predict_rough_friction(
         total *= 2
         for speed in velocities:
             known = None if temperatures is None else kelvins[0]
-            insist_on_heatable(heating, material, float(speed), known, layer, call.get("coulomb", 0.0))
+            insist_on_heated_surface(heating, material, float(speed), known, layer, call.get("coulomb", 0.0))
         check_interface_heat(heating, interface)
 
     def report(done: int) -> None:

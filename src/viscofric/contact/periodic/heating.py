@@ -14,14 +14,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from viscofric.arguments import insist_on
 from viscofric.contact.fields.dissipation import Dissipation
 from viscofric.contact.fields.periodic_dissipation import periodic_dissipation
-from viscofric.contact.heated import ThermalContact, solve_heated
+from viscofric.contact.heated import ThermalContact, insist_on_heatable, solve_heated
 from viscofric.contact.heated_result import Heat
 from viscofric.contact.heating import Cells
 from viscofric.errors import InputError
-from viscofric.heat.heating import Heating, ThermalResistances
+from viscofric.heat.heating import ThermalResistances
 from viscofric.heat.influence import Diffusion
 from viscofric.heat.layers import MovingHeat, Waves
 from viscofric.notes import Note
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.fields.dissipation import Modes
     from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.heat.heating import NominalResistances
+    from viscofric.heat.heating import Heating, NominalResistances
     from viscofric.heat.layers import LayeredHeat
     from viscofric.rheology.material import Material
     from viscofric.units import Quantity
@@ -95,22 +94,12 @@ class PeriodicThermalContact(ThermalContact):
         return ThermalResistances(*parts)
 
 
-def insist_on_heatable(
+def insist_on_heated_surface(
     heating: object, material: Material, speed: float, temperature: Quantity | None, layer: object, coulomb: float
 ) -> None:
-    """Raise InputError unless a contact can be heated by its friction."""
-    insist_on(heating, "heating", Heating)
-    assert isinstance(heating, Heating)
-    if material.shift is None or temperature is None:
-        raise InputError("heating: needs a material with a shift, and a temperature.", code="no-shift")
-    if speed == 0.0 or math.isinf(speed):
-        raise InputError(f"heating: an elastic limit, speed = {speed:g}, has no heat.", code="elastic-limit")
-    if layer is not None or coulomb != 0.0:
-        raise InputError(
-            "heating: not with coulomb, nor with a layer: heat and loss are those of a half-space.",
-            code="not-with-heating",
-        )
-    if heating.passes > 0 and heating.nominal_radius is None:
+    """Raise InputError unless a contact of a rough surface can be heated by its friction."""
+    known = insist_on_heatable(heating, material, speed, temperature, layer, coulomb)
+    if known.passes > 0 and known.nominal_radius is None:
         raise InputError("passes: of a rough surface, need the nominal_radius.", code="give-one")
 
 

@@ -22,7 +22,7 @@ from viscofric.contact.bodies import (
     unit_direction,
 )
 from viscofric.contact.indenters.indenter import too_steep
-from viscofric.contact.periodic.heating import PeriodicThermalContact, insist_on_heatable, solve_heated_surface
+from viscofric.contact.periodic.heating import PeriodicThermalContact, insist_on_heated_surface, solve_heated_surface
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
@@ -170,7 +170,7 @@ def solve_periodic(
     modulus = material.at(temperature)
     kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
     if heating is not None:
-        insist_on_heatable(heating, material, sliding, kelvin, layer, coulomb)
+        insist_on_heated_surface(heating, material, sliding, kelvin, layer, coulomb)
         assert kelvin is not None
         call = {
             "surface": surface, "pressure": pressure, "gap": gap, "direction": direction, "tolerance": tolerance,
