@@ -407,7 +407,7 @@ def test_lock_is_complete_and_names_no_index() -> None:
     locked = {name.lower() for name in re.findall(r"^([A-Za-z0-9._-]+)==", lock, re.MULTILINE)}
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     extras = project["optional-dependencies"]
-    wanted = sum((extras[name] for name in ("dev", "cluster", "surfaces", "zarr")), project["dependencies"])
+    wanted = sum((extras[name] for name in ("dev", "cluster", "surfaces")), project["dependencies"])
     names = {re.split(r"[<>=!~;\[ ]", line)[0].lower() for line in wanted} - {"viscofric"}
     assert names <= locked, "renew it: CONTRIBUTING.md"
     assert not re.search(r"://|^\s*-(?!-hash)", lock, re.MULTILINE)

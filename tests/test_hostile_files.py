@@ -248,9 +248,9 @@ def test_a_module_of_the_users_in_place_of_a_package_is_reported_as_such(tmp_pat
 
 
 def test_a_package_that_is_missing_differs_from_one_that_fails() -> None:
-    missing = ModuleNotFoundError("No module named 'zarr'", name="zarr")
-    reported = not_imported("zarr", missing, "pip install zarr")
-    assert reported.endswith("pip install zarr")
+    missing = ModuleNotFoundError("No module named 'dask'", name="dask")
+    reported = not_imported("dask", missing, "pip install dask")
+    assert reported.endswith("pip install dask")
     for broken in (ModuleNotFoundError("No module named 'dask.base'", name="dask.base"), AttributeError("x")):
         assert str(broken) in not_imported("pint", broken)
         assert str(broken) not in reported

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import sys
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -108,26 +107,16 @@ def test_more_cases_than_a_sheet_has_rows_are_reported(tmp_path: Path, monkeypat
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("form", ["netcdf", "zarr"])
-def test_labelled_cases_come_back_from_other_formats(tmp_path: Path, form: Any) -> None:
-    if form == "zarr":
-        pytest.importorskip("zarr", reason="the extra zarr is not installed")
+def test_labelled_cases_come_back_from_another_format(tmp_path: Path) -> None:
     results = made(tmp_path, made_sweep(materials=("NBR", "EPDM"), together=False), failed=[3])
     for _ in range(2):  # the second time in place of the first
-        path = results.export(form)
-    opened = xarray.open_dataset(path, engine="h5netcdf") if form == "netcdf" else xarray.open_zarr(path)
-    with opened as found:
+        path = results.export("netcdf")
+    with xarray.open_dataset(path, engine="h5netcdf") as found:
         xarray.testing.assert_equal(found.load(), results.dataset)
         assert found.attrs["viscofric_version"] == results.tree.attrs["viscofric_version"]
         assert found["max_pressure"].attrs["units"] == "Pa"
     assert path.parent == tmp_path
     assert not list(tmp_path.glob(".*"))
-
-
-def test_without_zarr_is_a_sentence(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "zarr", None)
-    with refused("not-installed"):
-        made(tmp_path).export("zarr")
 
 
 def test_nothing_else_is_replaced(tmp_path: Path) -> None:

@@ -92,13 +92,13 @@ walltime = "90 min"
 extra = ["--nice=100"]
 [outputs]
 fields = "none"
-formats = ["csv", "zarr"]
+formats = ["csv", "excel"]
 """
     )
     study = parse_study(text, Path("study.toml"))
     assert study.cluster is not None
     assert (study.cluster.memory, study.cluster.walltime, study.cluster.jobs) == (1_610_612_736, 5400, 1)
-    assert (study.outputs.fields, study.outputs.formats) == ("none", ("csv", "zarr"))
+    assert (study.outputs.fields, study.outputs.formats) == ("none", ("csv", "excel"))
 
 
 def test_all_mistakes_are_reported_at_once() -> None:

@@ -97,7 +97,7 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
     """Return what was found, in plain types."""
     study, sweep = found.study, found.sweep
     made = zip(found.rubbers, study.materials, strict=True)
-    extra = [form for form in ("csv", "excel", "zarr") if form in study.outputs.formats]
+    extra = [form for form in ("csv", "excel") if form in study.outputs.formats]
     return {
         "study": str(path),
         "title": study.title,
@@ -165,7 +165,7 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
     if (cluster := found.study.cluster) is not None:
         lines.append(("cluster", f"{cluster.jobs} jobs of {cluster.cores} cores and {_bytes(cluster.memory)}"))
     files = ["results.nc", "figures", "report.html"]
-    files += [f"tables ({form})" if form != "zarr" else "results.zarr" for form in record["outputs"][3:]]
+    files += [f"tables ({form})" for form in record["outputs"][3:]]
     lines.append(("writes", f"{path.with_suffix('.results')}: {', '.join(files)}"))
     return lines
 

@@ -11,7 +11,7 @@ from viscofric.cli.files import DASH, Written, check_ending
 from viscofric.cli.output import json_option, out_option, print_json
 
 # format -> how its file's name ends
-_ENDINGS = {"csv": ".csv", "excel": ".xlsx", "netcdf": ".nc", "zarr": ".zarr"}
+_ENDINGS = {"csv": ".csv", "excel": ".xlsx", "netcdf": ".nc"}
 # what stands beside the cases: group of the results -> in words
 _OTHERS = {"history": "cases over time", "impact": "impacts"}
 _EXAMPLE = """\b
@@ -32,16 +32,15 @@ Example:
     help="Output format; Excel has all tables, the others the cases. Repeat for several formats.",
 )
 @out_option(
-    "Output file; `-` prints a csv [default: results.csv, results.xlsx, prediction.nc or prediction.zarr in the "
-    "results folder].",
+    "Output file; `-` prints a csv [default: results.csv, results.xlsx, or prediction.nc in the results folder].",
     Written(allow_dash=True),
 )
 @json_option("Print the written files as JSON.")
 def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bool) -> None:
     """Export RESULTS, a study's results folder or its results.nc, to other formats.
 
-    csv: a row for each case, units in the headings. excel: a workbook with a sheet for each table. netcdf, zarr:
-    the cases over their axes, as labelled data.
+    csv: a row for each case, units in the headings. excel: a workbook with a sheet for each table. netcdf: the
+    cases over their axes, as labelled data.
     """
     forms = tuple(dict.fromkeys(forms))
     if out is not None and len(forms) > 1:

@@ -20,7 +20,7 @@ GROUPS = {
         "check": "Validate a run file and its data, or stored results.",
         "run": "Run a study: friction, figures and a report from data.",
         "report": "Write figures and report of a finished study again.",
-        "export": "Export results as CSV, Excel workbook, netCDF or zarr.",
+        "export": "Export results as CSV, Excel workbook or netCDF.",
         "compare": "Compare two results, case by case.",
     },
     "Material": {

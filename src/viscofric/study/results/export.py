@@ -1,32 +1,26 @@
-"""Results for other programs: a table (CSV), a workbook (.xlsx), or the labelled data set alone (netCDF, zarr)."""
+"""Results for other programs: a table (CSV), a workbook (.xlsx), or the labelled data set alone (netCDF)."""
 
 from __future__ import annotations
 
 import io
 import re
-import shutil
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal, get_args
 
 from viscofric.datasets import Dataset, DataTree
-from viscofric.errors import DataFileError, InputError, check_choice, not_imported, not_written
+from viscofric.errors import DataFileError, InputError, check_choice, not_written
 from viscofric.files import file_path, write_atomically
 from viscofric.notes import notes_in
 from viscofric.study.results.columns import about, columns_of, table_text, tables
 from viscofric.study.results.file import RESULTS_FILE, cases_of
 
-Form = Literal["csv", "excel", "netcdf", "zarr"]
+Form = Literal["csv", "excel", "netcdf"]
 FORMS: tuple[Form, ...] = get_args(Form)
 #: Format -> the default name of its file.
-NAMES: dict[Form, str] = {
-    "csv": "results.csv",
-    "excel": "results.xlsx",
-    "netcdf": "prediction.nc",
-    "zarr": "prediction.zarr",
-}
+NAMES: dict[Form, str] = {"csv": "results.csv", "excel": "results.xlsx", "netcdf": "prediction.nc"}
 
 
 def export_results(tree: DataTree, folder: Path, form: Form, path: str | Path | None = None) -> Path:
@@ -40,49 +34,20 @@ def export_results(tree: DataTree, folder: Path, form: Form, path: str | Path | 
         write_atomically(target, table_text(cases).encode())
     elif form == "excel":
         write_atomically(target, workbook(tree, cases))
-    elif form == "netcdf":
-        write_netcdf(cases, target)
     else:
-        _write_zarr(cases, target)
+        write_netcdf(cases, target)
     return target
 
 
 def write_netcdf(dataset: Dataset, target: Path) -> None:
-    """Write a data set as netCDF, whole or not at all."""
+    """Write a data set as netCDF, whole or not at all: beside the target, then moved to it."""
     if target.is_dir():
         raise DataFileError(target, "is a folder; give the name of a file.", code="is-folder")
-
-    def write(path: Path) -> None:
-        dataset.to_netcdf(path, engine="h5netcdf")
-
-    _moved_into_place(write, target)
-
-
-def _write_zarr(dataset: Dataset, target: Path) -> None:
-    try:
-        import zarr  # noqa: F401
-    except Exception as error:
-        why = not_imported("zarr", error, "pip install 'viscofric[zarr]'")
-        raise InputError(f"this format needs zarr, but {why}.", code="not-installed") from error
-    if target.exists() and not any((target / name).exists() for name in (".zgroup", "zarr.json")):
-        raise DataFileError(target, "exists and is not a zarr folder; choose another name.", code="not-zarr")
-
-    def write(path: Path) -> None:
-        # Version 2 of the format supports texts of any length, and all programs read it.
-        dataset.to_zarr(path, zarr_format=2, consolidated=True)
-
-    _moved_into_place(write, target)
-
-
-def _moved_into_place(write: Callable[[Path], None], target: Path) -> None:
-    """Write beside the target, then move the complete file to it."""
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=target.parent, prefix=f".{target.name}.") as temporary:
             path = Path(temporary) / target.name
-            write(path)
-            if target.is_dir():
-                shutil.move(target, Path(temporary) / "before")
+            dataset.to_netcdf(path, engine="h5netcdf")
             path.replace(target)
     except (OSError, RuntimeError) as error:
         raise not_written(target, error) from error

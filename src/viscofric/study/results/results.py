@@ -100,10 +100,10 @@ class StudyResults(Plotted):
 
         Parameters
         ----------
-        form : {"csv", "excel", "netcdf", "zarr"}
-            A table with a row for each case; a workbook with all tables; the labelled cases alone, as netCDF or zarr.
+        form : {"csv", "excel", "netcdf"}
+            A table with a row for each case; a workbook with all tables; the labelled cases alone, as netCDF.
         path : str or Path, optional
-            File, or for zarr folder, replaced if it exists; in the folder of the results if not given.
+            File, replaced if it exists; in the folder of the results if not given.
 
         Returns
         -------
@@ -113,7 +113,7 @@ class StudyResults(Plotted):
         Raises
         ------
         InputError
-            If there is no prediction, the format is unknown, or zarr is not installed.
+            If there is no prediction, or the format is unknown.
         DataFileError
             If it cannot be written.
         """

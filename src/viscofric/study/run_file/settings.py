@@ -16,7 +16,7 @@ _MOST_SAMPLES = 10_000
 _MOST_MEMBERS = 1_000
 _POINTS = 41  # of the friction master curve
 #: Formats in which results are written besides netCDF.
-Format = Literal["csv", "excel", "zarr"]
+Format = Literal["csv", "excel"]
 
 Names = Annotated[tuple[str, ...], Field(min_length=2, max_length=10)]
 
