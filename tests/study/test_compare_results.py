@@ -224,26 +224,6 @@ def test_what_cannot_be_paired_is_reported(tmp_path: Path) -> None:
         vf.compare_results(one, tmp_path)
 
 
-def test_an_exported_table_is_compared_with_results(tmp_path: Path) -> None:
-    results = made(tmp_path, made_sweep(materials=("NBR", "EPDM"), together=False), failed=[4])
-    table = results.to_csv(tmp_path / "cases.csv")
-    found = vf.compare_results(results, table, tolerance=0.0)
-    assert found.equal
-    assert found.cases == 72
-    assert found.axes == found.provenance == ()
-    assert {one.name for one in found.differences} == {
-        one.name for one in vf.compare_results(results, results).differences
-    }
-    lines = table.read_text(encoding="utf-8").splitlines()
-    table.write_text("\n".join([*lines[:-1], lines[-1][:30]]), encoding="utf-8")
-    with refused("damaged", DataFileError):
-        vf.compare_results(results, table)
-    table.write_text("\n".join(lines).replace("# accuracy: 0.001", "# accuracy: 0.1"), encoding="utf-8")
-    (other,) = vf.compare_results(results, table).provenance
-    assert other.code == "another-accuracy"
-    assert [float(one) for one in other.values["values"]] == [0.001, 0.1]
-
-
 def test_an_exported_table_of_one_load_is_one_of_friction_curves(tmp_path: Path) -> None:
     results = made(tmp_path, made_sweep(loads=[25.0], radii=[0.01]))
     curves = vf.read_friction_curves(results.to_csv(tmp_path / "cases.csv"))

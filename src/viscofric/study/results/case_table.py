@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from viscofric.datasets import DataTree
-from viscofric.errors import DataFileError, InputError
-from viscofric.files import LARGEST_FILE, file_path, read_text
+from viscofric.errors import InputError
+from viscofric.files import file_path
 from viscofric.study.cases.sweep import shown
-from viscofric.study.results.columns import PLACES, TITLE, over_all_dimensions, read_table_text
+from viscofric.study.results.columns import over_all_dimensions
 from viscofric.study.results.file import cases_of, open_tree
 
 if TYPE_CHECKING:
@@ -52,8 +52,12 @@ class CaseTable:
 
     @classmethod
     def of_file(cls, path: str | Path) -> CaseTable:
-        """Read results, an exported table of them, or a table of friction curves."""
-        return cls._of_table(path) if file_path(path).suffix.lower() in _TABLES else cls.of_tree(*open_tree(path))
+        """Read results, or a table of friction curves."""
+        if file_path(path).suffix.lower() not in _TABLES:
+            return cls.of_tree(*open_tree(path))
+        from viscofric.friction.curve_files import read_friction_curves
+
+        return cls.of_curves(read_friction_curves(path), str(path))
 
     @classmethod
     def of_tree(cls, tree: DataTree, folder: Path) -> CaseTable:
@@ -65,22 +69,6 @@ class CaseTable:
         units = {name: str(dataset[name].attrs.get("units", "1")) for name in columns}
         solved = np.isfinite(friction)
         return cls(str(folder), tuple(places), columns, units, solved, dict(dataset.attrs))
-
-    @classmethod
-    def _of_table(cls, path: str | Path) -> CaseTable:
-        """Read an exported table of results, or a table of friction curves."""
-        text = read_text(path, LARGEST_FILE)
-        if not text.startswith(f"# {TITLE}"):
-            from viscofric.friction.curve_files import read_friction_curves
-
-            return cls.of_curves(read_friction_curves(path), str(path))
-        try:
-            attributes, units, columns = read_table_text(text)
-            solved = np.isfinite(columns["friction_coefficient"])
-        except (ValueError, KeyError) as error:
-            raise DataFileError(path, f"cannot be read as a table of results: {error}", code="damaged") from error
-        places = tuple(name for name in PLACES if name in columns)
-        return cls(str(path), places, columns, units, solved, dict(attributes))
 
     @classmethod
     def of_curves(cls, curves: FrictionCurves, name: str = "friction curves") -> CaseTable:

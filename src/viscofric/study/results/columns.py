@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Iterator, Mapping
 from typing import Any, TextIO
 
@@ -17,8 +16,6 @@ from viscofric.units import CELSIUS_ZERO
 
 #: How a table of results begins, after its ``#``.
 TITLE = "viscofric results"
-# Columns that are no numbers.
-_TEXTS = ("material",)
 #: Coordinates of cases in the order of a table's columns; others come after these.
 PLACES = (
     "material",
@@ -65,45 +62,6 @@ def write_columns(text: TextIO, dataset: Dataset) -> None:
     names, units, columns = columns_of(dataset)
     writer.writerow(name if unit == "1" else f"{name} ({unit})" for name, unit in zip(names, units, strict=True))
     writer.writerows(zip(*(map(written, column) for column in columns), strict=True))
-
-
-def read_table_text(text: str) -> tuple[dict[str, str], dict[str, str], dict[str, Any]]:
-    """Return attributes, units and columns (SI) of a table written by `table_text`; raise ValueError for any other."""
-    lines = text.splitlines()
-    remarks = [line.removeprefix("#").strip() for line in lines if line.startswith("#")]
-    if not remarks or not remarks[0].startswith(TITLE):
-        raise ValueError("is not a table of results of viscofric.")
-    headings, *rows = csv.reader(line for line in lines if not line.startswith("#"))
-    if any(len(row) != len(headings) for row in rows):
-        raise ValueError("has rows that do not match its headings; it was cut short or changed.")
-    units, columns = {}, {}
-    for heading, cells in zip(headings, zip(*rows, strict=True), strict=True):
-        name, _, unit = heading.removesuffix(")").partition(" (")
-        if name in _TEXTS:
-            values: Any = np.array(cells, dtype=object)
-        else:
-            values = np.array([float(cell) if cell else np.nan for cell in cells])
-        units[name], columns[name] = unit or "1", values
-        if unit == "degC":
-            units[name], columns[name] = "K", values + CELSIUS_ZERO
-    return _attributes(remarks), units, columns
-
-
-def _attributes(remarks: list[str]) -> dict[str, str]:
-    """Return the attributes in the lines above a table."""
-    names = {words: name for name, words in _NAMED.items()}
-    found, tables = {}, {"input": {}, "software": {}}  # type: ignore[var-annotated]
-    for remark in remarks:
-        words, _, value = remark.partition(": ")
-        if words in names:
-            found[names[words]] = value
-        elif words == "input":
-            path, _, digest = value.removesuffix(")").rpartition(" (SHA-256 ")
-            tables["input"][path] = digest
-        elif words == "software":
-            name, _, number = value.rpartition(" ")
-            tables["software"][name] = number
-    return found | {"input_hashes": json.dumps(tables["input"]), "software": json.dumps(tables["software"])}
 
 
 def about(attributes: Mapping[Any, Any]) -> list[tuple[str, str]]:

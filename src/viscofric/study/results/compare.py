@@ -268,7 +268,7 @@ def _inputs(here: dict[str, str], there: dict[str, str]) -> Iterator[str]:
 
 
 def _run_files(first: str, second: str) -> Iterator[str]:
-    if first == second or not (first and second):  # a table of results has no run file
+    if first == second or not (first and second):  # friction curves have no run file
         return
     try:
         here, there = (dict(flat_keys(parse_toml(text))) for text in (first, second))
