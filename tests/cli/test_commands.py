@@ -56,23 +56,11 @@ def write(folder: Path, *, dma: str | None = None, study: str = STUDY) -> Path:
     return folder / "study.toml"
 
 
-def put_browser(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let a browser be found that writes a few letters as the PDF of any page."""
-    browser = folder / "chromium"
-    browser.write_text(
-        '#!/bin/sh\nfor word; do case $word in --print-to-pdf=*) echo %PDF > "${word#*=}";; esac; done\n'
-    )
-    browser.chmod(0o755)
-    monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
-
-
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
     """Return what one run printed, and the folder of its results."""
     folder = tmp_path_factory.mktemp("once")
-    with pytest.MonkeyPatch.context() as patch:
-        put_browser(folder, patch)
-        return call("run", write(folder), "--pdf"), folder / "study.results"
+    return call("run", write(folder)), folder / "study.results"
 
 
 @pytest.fixture(scope="module")
@@ -80,13 +68,6 @@ def once(run: tuple[Result, Path]) -> Path:
     """Return the results of one run, not to be changed."""
     assert run[0].exit_code == 0
     return run[1]
-
-
-def test_run_needs_its_browser_before_it_solves(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PATH", str(tmp_path))
-    found = refusal_of(call("run", write(tmp_path), "--pdf"))
-    assert (found.status, found.code) == (1, "no-browser")
-    assert not (tmp_path / "study.results").exists()
 
 
 @pytest.fixture
@@ -97,31 +78,12 @@ def finished(once: Path, tmp_path: Path) -> Path:
 
 @pytest.mark.slow
 def test_run_names_the_files_it_wrote(run: tuple[Result, Path]) -> None:
-    result, folder = run
+    result, _ = run
     assert result.exit_code == 0, result.output
     for words in ("figures ", "data ", "report "):
         paths = [line.split(maxsplit=1)[1] for line in result.stdout.splitlines() if line.startswith(words)]
         assert paths
         assert all(Path(path).stat().st_size > 0 for path in paths)
-    assert f"pdf      {folder / 'report.pdf'}" in result.stdout
-    assert (folder / "report.pdf").read_text() == "%PDF\n"
-
-
-def test_report_prints_a_pdf(finished: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    put_browser(finished.parent, monkeypatch)
-    (finished / "report.pdf").unlink()
-    assert json.loads(call("report", finished, "--pdf", "--json").stdout)["pdf"] == str(finished / "report.pdf")
-    assert (finished / "report.pdf").read_text() == "%PDF\n"
-
-
-@pytest.mark.slow
-def test_the_record_of_a_run_names_its_pdf(finished: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    put_browser(finished.parent, monkeypatch)
-    results = open_results(finished)
-    monkeypatch.setattr(execution, "run_study", lambda study, **how: results)
-    monkeypatch.setattr(report, "write_figures_and_report", lambda tree, folder: ([], folder / "report.html"))
-    done = call("run", "study.toml", "--pdf", "--json")
-    assert json.loads(done.stdout.splitlines()[-1])["pdf"] == str(finished / "report.pdf")
 
 
 def sweeps(*rows: str) -> str:

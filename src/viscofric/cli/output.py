@@ -55,12 +55,6 @@ synthetic_option = click.option(
 )
 
 
-def pdf_option(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Add `--pdf`."""
-    words = "Also write report.pdf (A4); needs Chromium, Chrome or Edge on the path."
-    return click.option("--pdf", is_flag=True, help=words)(function)
-
-
 def json_option(words: str = "Print inputs and results as JSON, in SI units.") -> Decorator:
     """Return a decorator that adds `--json`."""
     return click.option("--json", "as_json", is_flag=True, is_eager=True, help=words)

@@ -12,7 +12,7 @@ from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.files import FOLDER
-from viscofric.cli.output import RUN_JSON, json_option, out_option, pdf_option, print_written
+from viscofric.cli.output import RUN_JSON, json_option, out_option, print_written
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -50,7 +50,6 @@ _REPORTED_OTHERWISE = (
 )
 @click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes on this machine.")
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://10.0.0.1:8786.")
-@pdf_option
 @json_option(RUN_JSON)
 @click.option("-q", "--quiet", is_flag=True, help="Print only errors, warnings and failed cases.")
 def command(study: Path, out: Path | None, **how: Any) -> None:
@@ -62,30 +61,22 @@ def command(study: Path, out: Path | None, **how: Any) -> None:
     run_and_report(study, study.with_suffix(".results") if out is None else out, **how)
 
 
-def run_and_report(
-    study: Path, output: Path, *, pdf: bool = False, as_json: bool = False, quiet: bool = False, **how: Any
-) -> None:
+def run_and_report(study: Path, output: Path, *, as_json: bool = False, quiet: bool = False, **how: Any) -> None:
     """Run a study, write its report, and name what was written; leaves the program where that failed."""
-    printed: dict[str, Path] = {}
     try:
         from viscofric.cli.progress import JsonProgress, Silent, TerminalProgress
         from viscofric.errors import ViscofricError
         from viscofric.report import write_figures_and_report
-        from viscofric.report.html import find_browser, write_pdf
         from viscofric.study.execution import run_study
         from viscofric.study.running.running import Event
 
         listener = JsonProgress(sys.stdout) if as_json else Silent() if quiet else TerminalProgress()
         try:
             with listener as progress:
-                if pdf:
-                    find_browser(output / "report.pdf")  # not after hours
                 progress.write("started", study=str(study), folder=str(output))
                 results = run_study(study, output=output, progress=progress, **how)
                 progress(Event("stage", stage="report", done=0, total=1))
                 figures, report = write_figures_and_report(results.tree, results.folder)
-                if pdf:
-                    printed["pdf"] = write_pdf(report)
                 progress(Event("stage", stage="report", done=1, total=1))
                 _insist_on(Path(results.folder / "results.nc"), report, *figures)
         except ViscofricError as error:
@@ -100,11 +91,11 @@ def run_and_report(
         terminated = isinstance(stop, Terminated)
         click.echo(("Terminated." if terminated else "Interrupted.") + _kept(output), err=True)
         sys.exit(TERMINATED if terminated else INTERRUPTED)
-    listener.write("finished", **outcome_record(results, figures, report), **printed)
+    listener.write("finished", **outcome_record(results, figures, report))
     print_outcome(results, quiet=quiet or as_json)
     if not (quiet or as_json):
         data = results.folder / "results.nc"
-        print_written(("data", data), ("report", report), *printed.items(), figures=figures)
+        print_written(("data", data), ("report", report), figures=figures)
     if status := status_of(results):
         sys.exit(status)
 

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import base64
 import itertools
-import os
 import re
 import shlex
-import shutil
-import subprocess
 from datetime import datetime, timedelta
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from viscofric.datasets import DataTree
-from viscofric.errors import DataFileError
 from viscofric.files import write_atomically
 from viscofric.notes import notes_in, table_in
 from viscofric.report.captions import captions
@@ -91,46 +86,6 @@ def write_report(tree: DataTree, folder: str | Path, *, images: dict[str, dict[s
     path = Path(folder) / "report.html"
     write_atomically(path, page.encode("utf-8", errors="replace"))
     return path
-
-
-#: Names of browsers that print a page without a window.
-_BROWSERS = (
-    "chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "microsoft-edge", "msedge",
-)  # fmt: skip
-_MOST_SECONDS = 120.0
-
-
-def find_browser(target: Path) -> str:
-    """Return the browser that prints a PDF; DataFileError if there is none on the path."""
-    for name in _BROWSERS:
-        if found := shutil.which(name):
-            return found
-    rest = "without one, open report.html in any browser and print it to a file."
-    raise DataFileError(target, f"needs Chromium, Chrome or Edge on the path; {rest}", code="no-browser")
-
-
-def write_pdf(report: Path) -> Path:
-    """Print a report as PDF (A4) beside it, with a browser of the Chromium family that is on the path."""
-    target = report.with_suffix(".pdf")
-    browser = find_browser(target)
-    # beside the report: some packaged browsers have a temporary folder of their own
-    with TemporaryDirectory(prefix="viscofric-", dir=target.resolve().parent) as folder:
-        made = Path(folder) / "report.pdf"
-        words = [browser, "--headless", "--disable-gpu", "--no-pdf-header-footer", f"--user-data-dir={folder}/profile"]
-        if hasattr(os, "geteuid") and os.geteuid() == 0:  # of the system's administrator, it has no sandbox
-            words.append("--no-sandbox")
-        try:
-            subprocess.run(
-                [*words, f"--print-to-pdf={made}", report.resolve().as_uri()],
-                capture_output=True, timeout=_MOST_SECONDS, check=True,
-            )  # fmt: skip
-            content = made.read_bytes()
-        except (OSError, subprocess.SubprocessError) as error:
-            raise DataFileError(
-                target, f"is not written: {browser} printed nothing ({error}).", code="no-pdf"
-            ) from error
-    write_atomically(target, content)
-    return target
 
 
 def _content(tree: DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, Any]:
