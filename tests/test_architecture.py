@@ -429,7 +429,6 @@ FOREIGN_TEXT = (
     "viscofric.study.results.export",
     "viscofric.study.run_file.tables",
     "viscofric.friction.cases.surfaces",
-    "viscofric.report.figures.saving",
     "viscofric.report.html",
     "viscofric.web.access",
     "viscofric.web.jobs.context",

@@ -14,7 +14,6 @@ from viscofric.datasets import DataTree
 from viscofric.files import write_atomically
 from viscofric.notes import notes_in, table_in
 from viscofric.report.captions import captions
-from viscofric.report.figures.saving import adaptive
 from viscofric.report.figures.study import RUBBER_FIGURES, figure_images, save_images
 from viscofric.report.results import group, is_synthetic, rubbers, sentences
 from viscofric.report.texts.checks import all_checks, counted
@@ -148,7 +147,7 @@ def _figures(tree: DataTree, images: dict[str, dict[str, bytes]]) -> list[tuple[
     def shown(name: str) -> dict[str, Any]:
         svg = images[name]["svg"]
         # shown as an image, its names and styles stay its own
-        source = "data:image/svg+xml;base64," + base64.b64encode(adaptive(svg)).decode("ascii")
+        source = "data:image/svg+xml;base64," + base64.b64encode(svg).decode("ascii")
         return {"name": name, "number": next(number), "caption": said[name], "source": source, "width": _width(svg)}
 
     groups = [("", _ANSWER), *_groups(tree)]
