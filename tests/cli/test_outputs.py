@@ -39,7 +39,7 @@ CALLS: dict[str, list[str]] = {
     "material read": ["material", "read", "dma.csv"],
     "material fit": ["material", "fit", "dma.csv", "--reference", "30 degC", "--samples", "0"],
     "material show": ["material", "show", "PVB interlayer"],
-    "material convert": ["material", "convert", "synthetic fluoroelastomer", "card.csv", "--format", "csv"],
+    "material convert": ["material", "convert", "synthetic fluoroelastomer", "card.json", "--format", "json"],
     "material list": ["material", "list"],
     "solve": ["solve", *SOLID, *BALL],
     "curve": ["curve", *CATALOGUE, *BALL],
@@ -220,7 +220,7 @@ def test_only_tables_are_printed_in_place_of_a_file(tmp_path: Path, monkeypatch:
         ["transient", "--pressures", "-"],
         ["transient", "--animation", "-"],
         ["material", "indentation", "creep.csv", "--csv", "-"],
-        ["material", "convert", "rubber.json", "-", "--format", "csv"],
+        ["material", "convert", "rubber.json", "-", "--format", "json"],
     ):
         done = CliRunner().invoke(main, arguments)
         assert (done.exit_code, done.stdout, "give a name" in done.stderr) == (2, "", True), arguments

@@ -254,7 +254,7 @@ def test_megapascal_and_tonnes_by_hand(tmp_path):
     assert [float(dyna[5][:20]), float(dyna[5][40:60])] == pytest.approx([1 / 2.98, 1 / 0.06], rel=1e-13)
 
 
-@pytest.mark.parametrize("program", ["comsol", "comsol-branches", "csv", "json"])
+@pytest.mark.parametrize("program", ["comsol", "comsol-branches", "json"])
 def test_formats_that_state_their_units_are_in_si_only(tmp_path, program):
     with refused("unit-system"):
         write_card(rubber(), tmp_path / "card", program, modulus_unit="MPa")

@@ -216,7 +216,7 @@ SAID = [
         "no-modes",
         (
             "Abaqus cards contain a Prony series, but this material is a table of moduli; fit a spectrum "
-            'first, or write format="csv" or "json".'
+            'first, or write format="json".'
         ),
     ),
     (
@@ -224,7 +224,7 @@ SAID = [
         "unknown-card",
         (
             "letter: is not a material card. Supported are Abaqus, ANSYS and LS-DYNA cards with a Prony series, "
-            "COMSOL parameters, and material files of viscofric (JSON or CSV); `viscofric material fit` makes one"
+            "COMSOL parameters, and material files of viscofric (JSON); `viscofric material fit` makes one"
             " from DMA sweeps."
         ),
     ),

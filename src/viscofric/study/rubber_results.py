@@ -33,7 +33,6 @@ CARDS: dict[CardFormat, str] = {
     "ls-dyna": ".k",
     "comsol": ".txt",
     "comsol-branches": ".txt",
-    "csv": ".csv",
     "json": ".json",
 }
 #: The rubber as viscofric itself reads it, lossless.

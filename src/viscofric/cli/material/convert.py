@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat, CardLaw
 
 CARD_LAWS = ("best", "wlf", "vft", "arrhenius")
-FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json")
+FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json")
 
 
 @as_command("convert")
@@ -54,7 +54,7 @@ def command(
 ) -> None:
     """Write MATERIAL as a material card of another program to the file OUTPUT.
 
-    MATERIAL is a material file (JSON, CSV, or a card of any of these programs), or a catalogue name.
+    MATERIAL is a material file (JSON, or a card of any of these programs), or a catalogue name.
     """
     from viscofric.cli.rubber_options import find_rubber
     from viscofric.notes import listed, warned

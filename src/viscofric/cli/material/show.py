@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], out: Path | None, as_json: bool) -> None:
     """Print a summary of MATERIAL and its modulus at a temperature.
 
-    MATERIAL is a material file (JSON, CSV, or a card of another program), or a catalogue name.
+    MATERIAL is a material file (JSON, or a card of another program), or a catalogue name.
     """
     from viscofric.cli.rubber_options import find_rubber
     from viscofric.datasets import record

@@ -25,7 +25,7 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.units import Quantity, checked_poisson_ratio, positive, shown_celsius
 
 #: Formats of `write_card`.
-CardFormat: TypeAlias = Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"]
+CardFormat: TypeAlias = Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json"]
 
 
 #: Laws that `write_card` fits for programs.
@@ -85,10 +85,10 @@ def write_card(
     Parameters
     ----------
     material : Material
-        For all but csv and json with a retardation spectrum.
+        For all but json with a retardation spectrum.
     path : str or path
         The file; it is overwritten.
-    format : {"abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"}
+    format : {"abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json"}
         "json" is viscofric's own material file.
     poisson_ratio : float, optional
         For the card instead of the material's own.  ANSYS and LS-DYNA cannot take 0.5.  E stays as it is.
@@ -159,8 +159,6 @@ def write_card(
     )
     if format == "json":
         text = native.write_json(material)
-    elif format == "csv":
-        text = native.write_csv(material)
     else:
         text = _PROGRAMS[format].write(material, writing)
         notes += _left_out(material, format, domain, text)
@@ -258,7 +256,7 @@ def open_card(
     ----------
     path : str or path
         The file.
-    format : {"abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"}, optional
+    format : {"abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json"}, optional
         Found by content if not given.
     modulus_unit, time_unit, temperature_unit : str, optional
         Units of a card that was not written by viscofric, such as ``"MPa"``, ``"ms"``, ``"degC"``.  Without them
@@ -293,13 +291,11 @@ def open_card(
     try:
         if format == "json" or (format is None and native.recognises_json(text)):
             return Card(native.read_json(text), native.NAME_JSON)
-        if format == "csv" or (format is None and native.recognises_csv(text)):
-            return Card(native.read_csv(text), native.NAME_CSV)
         found: str = format or next((key for key, one in _PROGRAMS.items() if one.recognises(text)), "")
         if not found:
             raise InputError(
                 "is not a material card. Supported are Abaqus, ANSYS and LS-DYNA cards with a Prony series, COMSOL "
-                "parameters, and material files of viscofric (JSON or CSV); `viscofric material fit` makes one from "
+                "parameters, and material files of viscofric (JSON); `viscofric material fit` makes one from "
                 "DMA sweeps.",
                 code="unknown-card",
             )
@@ -342,7 +338,7 @@ def read_card(
     ----------
     path : str or path
         The file.
-    format : {"abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"}, optional
+    format : {"abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json"}, optional
         Found by content if not given.
     modulus_unit, time_unit, temperature_unit : str, optional
         Units of a card that was not written by viscofric; see `open_card`.

@@ -53,7 +53,7 @@ def contents_of(
     if not isinstance(spectrum, RetardationSpectrum):
         raise InputError(
             f"{program} cards contain a Prony series, but this material is a table of moduli; fit a spectrum "
-            'first, or write format="csv" or "json".',
+            'first, or write format="json".',
             code="no-modes",
         )
     relaxation = spectrum.to_relaxation()

@@ -302,7 +302,6 @@ CARD = [
             ["comsol", "COMSOL, parameters"],
             ["comsol-branches", "COMSOL, table of branches"],
             ["json", "viscofric (JSON)"],
-            ["csv", "table (CSV)"],
         ],
         "abaqus",
     ),

@@ -15,13 +15,12 @@ from viscofric.web.jobs.export_files import offered
 from viscofric.web.jobs.rubbers import made_rubber
 
 _WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
-_OWN = ("csv", "json")
 
 
 class Options(JobOptions):
     """Which card, and what the rubber does not say; see `viscofric.rheology.cards.write_card`."""
 
-    format: Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "csv", "json"] = "abaqus"
+    format: Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json"] = "abaqus"
     poisson_ratio: float | None = Field(None, ge=0.0, le=0.5)
     density: str | None = Field(None, max_length=100)
     temperature_unit: Literal["K", "degC"] = "K"
@@ -35,7 +34,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     """Write a card of the rubber; return its ``text``, the ``download`` and ``notes``."""
     rubber = made_rubber(study, context)
     form: CardFormat = options.format
-    name = "rubber" if form in _OWN else f"rubber_{form.replace('-', '_')}"
+    name = "rubber" if form == "json" else f"rubber_{form.replace('-', '_')}"
     path = context.downloads / f"{name}{CARDS[form]}"
     with warned() as notes:
         write_card(
@@ -47,7 +46,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             temperature_unit=options.temperature_unit,
             modulus_unit=options.modulus_unit if form in _WITHOUT_UNITS else "Pa",
             domain=options.domain,
-            law=options.law if form not in _OWN and isinstance(rubber.material.shift, ShiftFactors) else None,
+            law=options.law if form != "json" and isinstance(rubber.material.shift, ShiftFactors) else None,
         )
     said = [note.words("page") for note in notes]
     return {"text": path.read_text(encoding="utf-8"), "download": offered(path, f"card for {form}"), "notes": said}
