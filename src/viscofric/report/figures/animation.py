@@ -5,12 +5,9 @@ from __future__ import annotations
 from os import PathLike
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.transforms import Bbox
 
 from viscofric.errors import InputError, not_written
 from viscofric.files import write_atomically
@@ -51,10 +48,9 @@ def save_animation(
     target = Path(path)
     if target.suffix.lower() != ".gif":
         raise InputError(f"{target}: an animation is a GIF; its name must end in .gif.", code="wrong-ending")
-    shown = frames_of(run, count=frames)
     with matplotlib.rc_context(dict(STYLE)), TemporaryDirectory(prefix="viscofric-") as folder:
         made = Path(folder) / "animation.gif"
-        _write(made, _Still.of(run, shown, title, synthetic=synthetic), shown)
+        _write(made, run, frames_of(run, count=frames), title, synthetic=synthetic)
         try:
             content = made.read_bytes()
         except OSError as error:
@@ -62,61 +58,31 @@ def save_animation(
     write_atomically(target, content)
 
 
-class _Still(NamedTuple):
-    """What all frames have in common, drawn once, and where the rest is drawn over it."""
-
-    image: Any  # (rows, columns, 4)
-    size: tuple[float, float]  # inches
-    panels: tuple[Bbox, Bbox]  # of the pressure and of the curve, in shares of the figure
-    limits: tuple[tuple[float, float], tuple[float, float]]  # of the curve
-    second: float  # in the unit of the curve's axis
-
-    @classmethod
-    def of(cls, run: TransientSolution, shown: Frames, title: str, *, synthetic: bool) -> _Still:
-        """Draw axes, curve and colours, without a pressure."""
-        data = run.to_dataset()
-        figure = new_figure(9.0, 3.8)
-        figure.set_dpi(_DOTS_PER_INCH)
-        left, right = figure.subplots(1, 2)
-        plot_transient(right, data, "friction_coefficient" if moves(data) else "indentation")
-        mesh = plot_pressure_frame(left, shown, 0)
-        if mesh is not None:
-            figure.colorbar(mesh, ax=left, shrink=0.85).set_label(f"pressure $p$ ({shown.pressure.name})")
-        for artist in [*left.lines, *left.collections]:
-            artist.remove()
-        if synthetic:
-            mark_synthetic([right])
-        if title:
-            figure.suptitle(title, fontsize=10.5)
-        left.set_title(" ", fontsize=_SMALL)
-        canvas: Any = FigureCanvasAgg(figure)
-        canvas.draw()
-        return cls(
-            np.array(canvas.buffer_rgba()),
-            (float(figure.get_figwidth()), float(figure.get_figheight())),
-            (left.get_position(), right.get_position()),
-            (right.get_xlim(), right.get_ylim()),
-            1.0 / unit_for(float(np.abs(run.time).max()), "s").size,
-        )
-
-
-def _write(path: Path, still: _Still, shown: Frames) -> None:
-    """Draw the pressure and the time of each frame over what all have in common."""
+def _write(path: Path, run: TransientSolution, shown: Frames, title: str, *, synthetic: bool) -> None:
+    """Draw the axes once, and the pressure and the time of each frame anew."""
     from matplotlib.animation import PillowWriter
 
-    figure = new_figure(*still.size)
-    figure.set_layout_engine("none")
-    figure.figimage(still.image, zorder=-1)
-    left, right = (figure.add_axes(box.bounds) for box in still.panels)
-    right.set(xlim=still.limits[0], ylim=still.limits[1])
-    right.set_axis_off()
+    data = run.to_dataset()
+    figure = new_figure(9.0, 3.8)
+    left, right = figure.subplots(1, 2)
+    plot_transient(right, data, "friction_coefficient" if moves(data) else "indentation")
     now = right.axvline(0.0, color=INK, linewidth=1.2)
+    mesh = plot_pressure_frame(left, shown, 0)
+    if mesh is not None:
+        figure.colorbar(mesh, ax=left, shrink=0.85).set_label(f"pressure $p$ ({shown.pressure.name})")
+    if synthetic:
+        mark_synthetic([right])
+    if title:
+        figure.suptitle(title, fontsize=10.5)
+    left.set_title(" ", fontsize=_SMALL)
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")  # all frames keep the places of the parts
+    second = 1.0 / unit_for(float(np.abs(run.time).max()), "s").size
     writer = PillowWriter(fps=max(1, round(len(shown.times) / _SECONDS)))
     with writer.saving(figure, str(path), _DOTS_PER_INCH):
         for place, time in enumerate(shown.times):
             left.clear()
             plot_pressure_frame(left, shown, place)
-            left.set_axis_off()
             left.set_title(prefixed(time, None, "s"), fontsize=_SMALL)
-            now.set_xdata([still.second * time] * 2)
+            now.set_xdata([second * time] * 2)
             writer.grab_frame()
