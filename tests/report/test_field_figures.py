@@ -1,4 +1,4 @@
-"""Figures of contacts: the pressure leans ahead, the surface behind has not recovered."""
+"""Figures of contacts: the pressure leans ahead."""
 
 from __future__ import annotations
 
@@ -11,10 +11,9 @@ import pytest
 import xarray as xr
 
 import viscofric as vf
-from viscofric.arrays import centre_line
-from viscofric.report.figures.contacts import contacts_figure, trail_figure
+from viscofric.report.figures.contacts import contacts_figure
 from viscofric.report.figures.convergence import convergence_figure
-from viscofric.report.figures.stored_contacts import shown_contacts, trails
+from viscofric.report.figures.stored_contacts import shown_contacts
 from viscofric.report.sweeps import cases_of
 
 RUBBER = vf.Material.standard_linear_solid("3 MPa", "30 MPa", "1 ms")
@@ -44,21 +43,9 @@ def tree(solutions: list[Any]) -> xr.DataTree:
         {"friction_coefficient": ("speed", friction), "friction_error": ("speed", [1e-4 * mu for mu in friction])},
         {"speed": ("speed", list(SPEEDS)), "temperature": 303.15, "load": 25.0},
     )
-    spectrum = RUBBER.spectrum
-    modes = xr.Dataset(
-        {"retardation_time": ("mode", spectrum.tau), "creep_coefficient": ("mode", spectrum.C)},
-        attrs={"E_inf": spectrum.E_inf, "E0": spectrum.E0},
-    )
-    temperatures = np.array([293.15, 303.15, 313.15])
-    factors = xr.Dataset(
-        {"log10_shift_factor": ("temperature", [1.0, 0.0, -1.0]), "standard_error": ("temperature", np.zeros(3))},
-        {"temperature": temperatures},
-        {"reference_temperature": 303.15, "shift_used": "measured"},
-    )
     fields = {f"/fields/{number}": fields_of(solution) for number, solution in enumerate(solutions, 1)}
-    groups = {"/prediction": prediction, "/spectrum": modes, "/shift_factors": factors}
-    found = xr.DataTree.from_dict({**groups, **fields})
-    found.attrs = {"poisson_ratio": 0.5, "accuracy": 1e-3, "data_origin": "measured"}
+    found = xr.DataTree.from_dict({"/prediction": prediction, **fields})
+    found.attrs = {"accuracy": 1e-3, "data_origin": "measured"}
     return found
 
 
@@ -78,12 +65,11 @@ def test_contacts_that_coincide_are_shown_once(tree: xr.DataTree) -> None:
     assert [contact.title for contact, _ in shown_contacts(tree)] == [""]
 
 
-@pytest.mark.parametrize("missing", ["prediction", "spectrum", "shift_factors", "fields"])
+@pytest.mark.parametrize("missing", ["prediction", "fields"])
 def test_no_group_is_needed(tree: xr.DataTree, missing: str) -> None:
     del tree[missing]
     shown = shown_contacts(tree)
     assert len(shown) == (0 if missing == "fields" else 3 if missing != "prediction" else 2)
-    assert len(trails(tree, shown)) == len(shown)
 
 
 def test_friction_is_the_lean_of_the_pressure(tree: xr.DataTree) -> None:
@@ -102,41 +88,6 @@ def test_pressures_that_differ_much_are_shown_over_their_means(tree: xr.DataTree
     assert "mean pressure" in apart.axes[0].get_title()
     alike = contacts_figure(contacts[:2])
     assert alike.axes[2].get_ylabel() == "pressure $p$ (MPa)"
-
-
-def test_trail_joins_the_solved_surface_and_reaches_farther(tree: xr.DataTree) -> None:
-    shown = shown_contacts(tree)
-    for (contact, _), (x, depth) in zip(shown, trails(tree, shown), strict=True):
-        assert x[0] < 2.0 * contact.x[0]
-        solved = centre_line(contact.y, contact.displacement)
-        within = np.abs(contact.x) < 0.9 * contact.reach
-        # Cells are merged, up to two of them: the depth of a parabola differs by a few thousandths there.
-        np.testing.assert_allclose(np.interp(contact.x[within], x, depth), solved[within], rtol=0.01)
-
-
-def test_surface_behind_lies_below_its_mirror_image(tree: xr.DataTree) -> None:
-    shown = shown_contacts(tree)
-    x, depth = trails(tree, shown)[1]
-    contact = shown[1].contact
-    behind = np.linspace(1.05, 1.8, 20) * contact.edges[0]
-    assert np.all(np.interp(behind, x, depth) > np.interp(-behind, x, depth))
-
-
-def test_no_trail_is_calculated_for_a_layer(tree: xr.DataTree) -> None:
-    for place in list(tree["fields"].children):
-        tree[f"fields/{place}"].dataset = tree[f"fields/{place}"].to_dataset().assign_coords(thickness=1e-3)
-    shown = shown_contacts(tree)
-    for (contact, _), (x, _) in zip(shown, trails(tree, shown), strict=True):
-        np.testing.assert_array_equal(x, contact.x)
-
-
-def test_trails_are_drawn_one_below_the_other(tree: xr.DataTree) -> None:
-    shown = shown_contacts(tree)
-    figure = trail_figure([contact for contact, _ in shown], trails(tree, shown))
-    assert len(figure.axes) == 3
-    x, height = figure.axes[0].lines[1].get_data()
-    assert min(height) == pytest.approx(-1e6 * trails(tree, shown)[0][1].max())
-    assert x[0] < 0.0 < x[-1]
 
 
 def test_line_contacts_have_profiles_only() -> None:

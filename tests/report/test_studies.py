@@ -18,7 +18,7 @@ from viscofric.report.captions import captions
 from viscofric.report.figures import saving
 from viscofric.report.figures import study as drawing
 from viscofric.report.figures.convergence import plot_errors
-from viscofric.report.figures.study import contacts, figure_images, recovery_trail
+from viscofric.report.figures.study import contacts, figure_images
 from viscofric.report.html import write_report
 from viscofric.report.texts import friction_tables
 from viscofric.report.texts.checks import all_checks, counted, friction_checks
@@ -234,7 +234,6 @@ def test_kept_fields_of_a_rough_surface_are_drawn_on_a_whole_period(
         assert len(figure.axes) == 2  # with its colour bar, without a profile
     else:
         np.testing.assert_allclose(axes.lines[0].get_ydata(), pressure[:, 0] / 1e6)
-    assert recovery_trail(found) is None
     assert "2 seeds" in captions(found)["friction_sweep"]
 
 

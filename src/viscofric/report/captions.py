@@ -93,9 +93,6 @@ def _captions(tree: DataTree) -> dict[str, str]:
         "contacts_over_time": _of_histories(tree),
         "impacts": _of_impacts(tree),
         "contacts": _of_contacts(tree),
-        "recovery_trail": "Surface on the centre line, seen from the side; the indenter moves to the right. "
-        "Behind the contact the material has not yet recovered: the surface lies below the mirror image of the surface "
-        "ahead. The difference grows with the retardation times.",
         "convergence": _of_convergence(tree),
     }
 

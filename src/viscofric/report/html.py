@@ -131,7 +131,7 @@ def _groups(tree: DataTree) -> list[tuple[str, tuple[str, ...]]]:
         ("Friction", ("friction_master_curve", "coulomb_friction", "friction_shift_factors")),
         ("Interface", ("friction_parts", "shear_stress")),
         ("Heating", ("heated_friction", "heated_parts", "temperature_map")),
-        ("Contact", ("contacts", "recovery_trail")),
+        ("Contact", ("contacts",)),
         ("Contacts over time", ("contacts_over_time", "impacts")),
         ("Material", tuple(RUBBER_FIGURES)),
     ]

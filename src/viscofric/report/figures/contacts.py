@@ -1,4 +1,4 @@
-"""Figures of contacts beside each other: pressure maps and profiles, surface behind the contact, rough contacts."""
+"""Figures of contacts beside each other: pressure maps and profiles, rough contacts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from viscofric.arrays import Array, centre_line
 from viscofric.report.figures.contact import draw_arrow, draw_outline, draw_profile, highest_shown, pressure_mesh
 from viscofric.report.figures.rough import mark_motion, plot_pressure_of_period
-from viscofric.report.figures.style import BLUE, GREY, INK, ORANGE, VERMILION, WHITE, new_figure, slender_bar
+from viscofric.report.figures.style import GREY, INK, VERMILION, WHITE, new_figure, slender_bar
 from viscofric.report.texts.numbers import megapascals, significant
 
 _MOST_CELLS = 200  # along an edge of a map; more do not show
@@ -33,8 +33,7 @@ class Contact(NamedTuple):
     friction: float  # friction coefficient; NaN if it is not known
     x: Array  # x, y: (nx,) and (ny,): Cell centres from the indenter's axis, m; one y for a line contact
     y: Array
-    pressure: Array  # pressure, displacement: (nx, ny), Pa; m into the solid
-    displacement: Array
+    pressure: Array  # (nx, ny), Pa
 
     @property
     def is_line(self) -> bool:
@@ -164,36 +163,6 @@ def contact_title(contact: Contact) -> str:
     friction = rf"$\mu$ = {significant(contact.friction)}" if math.isfinite(contact.friction) else ""
     lines = (contact.title, contact.conditions, friction)
     return "\n".join(line for line in lines if line)
-
-
-def plot_trail(axes: Axes, contact: Contact, x: Array, displacement: Array) -> None:
-    """Draw the displaced surface (m) on the centre line before, in and behind a contact, over `x` from its axis (m)."""
-    height = -displacement / 1e-6
-    ahead = np.interp(-x, x, height, left=np.nan, right=np.nan)
-    behind = (x < 0.0) & np.isfinite(ahead)
-    area: dict[str, Any] = {"color": ORANGE, "alpha": 0.35, "linewidth": 0.0, "label": "not yet recovered"}
-    axes.fill_between(x / _MILLI, height, np.maximum(ahead, height), where=behind, **area)
-    dots: dict[str, Any] = {"color": GREY, "linewidth": 1.0, "linestyle": (0, (1.5, 1.2))}
-    axes.plot(x[behind] / _MILLI, ahead[behind], label="mirror image of the surface ahead", **dots)
-    axes.plot(x / _MILLI, height, color=INK, label="surface")
-    rear, front = contact.edges
-    touched = (x >= rear) & (x <= front)
-    axes.plot(x[touched] / _MILLI, height[touched], color=BLUE, linewidth=3.0, solid_capstyle="butt", label="contact")
-    axes.axvline(0.0, color=INK, linewidth=0.8)
-
-
-def trail_figure(contacts: Sequence[Contact], trails: Sequence[tuple[Array, Array]]) -> Figure:
-    """Return the surface along the centre lines of contacts, one above the other; see `plot_trail`."""
-    figure = new_figure(7.4, 0.9 + 1.75 * len(contacts))
-    panels = figure.subplots(len(contacts), 1, squeeze=False, sharex=True)[:, 0]
-    for axes, contact, trail in zip(panels, contacts, trails, strict=True):
-        plot_trail(axes, contact, *trail)
-        axes.set_title(contact_title(contact).replace("\n", ", "), fontsize=9.5, loc="left")
-    panels[-1].set_xlabel(_ALONG)
-    figure.supylabel("height of the surface (µm)", fontsize=10.5)
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=4, fontsize=8.5)
-    return figure
 
 
 def rough_contacts_figure(contacts: Sequence[Contact], directions: Sequence[float]) -> Figure:

@@ -13,7 +13,7 @@ from viscofric.datasets import Dataset, DataTree
 from viscofric.files import write_atomically
 from viscofric.report.data import law_of
 from viscofric.report.figures import saving
-from viscofric.report.figures.contacts import contacts_figure, rough_contacts_figure, trail_figure
+from viscofric.report.figures.contacts import contacts_figure, rough_contacts_figure
 from viscofric.report.figures.convergence import convergence_figure
 from viscofric.report.figures.friction import (
     plot_coulomb_friction,
@@ -34,7 +34,7 @@ from viscofric.report.figures.rubber import (
     plot_step_master_curve,
 )
 from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors, plot_vertical_shift
-from viscofric.report.figures.stored_contacts import shown_contacts, trails
+from viscofric.report.figures.stored_contacts import shown_contacts
 from viscofric.report.figures.style import new_figure, temperature_bar
 from viscofric.report.figures.superposition import plot_cole_cole, plot_van_gurp_palmen
 from viscofric.report.figures.sweeps import sweep_figure
@@ -222,13 +222,6 @@ def contacts(tree: DataTree) -> Figure | None:
     return contacts_figure(each)
 
 
-def recovery_trail(tree: DataTree) -> Figure | None:
-    """Draw the surface behind those contacts; a rough surface has no behind."""
-    shown = [] if is_rough(tree) else shown_contacts(tree)
-    found = trails(tree, shown)
-    return trail_figure([contact for contact, _ in shown], found) if found and len(found) == len(shown) else None
-
-
 def convergence(tree: DataTree) -> Figure | None:
     """Errors and grids of the requested cases."""
     cases = solved_cases(tree)
@@ -251,7 +244,6 @@ FRICTION_FIGURES: dict[str, Callable[[DataTree], Figure | None]] = {
     "contacts_over_time": histories_figure,
     "impacts": impacts_figure,
     "contacts": contacts,
-    "recovery_trail": recovery_trail,
     "convergence": convergence,
 }
 #: … and of the rubber, or of each of several.
