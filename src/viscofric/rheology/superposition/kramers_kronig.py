@@ -40,18 +40,13 @@ class KramersKronig:
     -----
     Non-negative relaxation modes are fitted to E'' alone, and give E'; and the other way round.  That is the pair
     of relations E'(ω) − E'(0) = (2ω²/π) ∫ E''(u)/u / (ω² − u²) du and its inverse (R. de L. Kronig, J. Opt. Soc.
-    Am. 12 (1926) 547), with the integrals continued beyond the measurement by the modes at its ends.  The local
-    relation is that of H. C. Booij, G. P. J. M. Thoone, Rheol. Acta 21 (1982) 15, doi:10.1007/BF01520701.
+    Am. 12 (1926) 547), with the integrals continued beyond the measurement by the modes at its ends.
     """
 
     angular_frequency: Array  # (n,), reduced, of the bins that the master curve was averaged in, rad/s
     # (n,), log10 of E' that E'' alone requires (up to a constant, the relaxed modulus) over the measured one.
     storage_deviation: Array
     loss_deviation: Array  # (n,), log10 of E'' that E' alone requires over the measured one
-    # (n,), log10 of (π/2) dE'/d ln ω over the measured E''; zero where E' does not rise. The relation is a local
-    # approximation, with an error of some 0.2 decades where a spectrum is steep: for figures, not for the verdict.
-    local_deviation: Array
-    truncation: Array  # (n,), part of log10 E' due to relaxation beyond the measured frequencies, estimated from E''
     judged: Mask  # (n,), frequencies at least half a decade from the ends, over which the rms are taken
     rms_storage: float  # root mean square of the first two deviations, decades
     rms_loss: float
@@ -69,8 +64,6 @@ class KramersKronig:
             {
                 "storage_deviation": (self.storage_deviation, "1", "log10 of E' from E'' alone over the measured E'"),
                 "loss_deviation": (self.loss_deviation, "1", "log10 of E'' from E' alone over the measured E''"),
-                "local_deviation": (self.local_deviation, "1", "log10 of π/2 dE'/d ln ω over the measured E''"),
-                "truncation": (self.truncation, "1", "part of log10 E' from relaxation beyond the measured range"),
                 "judged": (self.judged.astype(np.int8), "1", "whether the point is at least half a decade inside (1)"),
             },
             coordinates={"angular_frequency": (self.angular_frequency, "rad/s", "reduced angular frequency")},
@@ -144,13 +137,10 @@ def kramers_kronig(master_curve: MasterCurve) -> KramersKronig:
     misfit = _rms(viscous @ modes / loss - 1.0) / np.sqrt(len(omega) * INDEPENDENT)
     beyond = float(np.mean((unseen / (plateau + rise))[judged]))
     scale_error = scale * float(np.sqrt(scale_error**2 + misfit**2 + beyond**2))
-    slope = 0.5 * np.pi * np.gradient(storage, np.log(omega))
     return KramersKronig(
         omega,
         storage_deviation,
         loss_deviation,
-        np.where(slope > 0.0, np.log10(np.maximum(slope, _FLOOR * loss) / loss), 0.0),
-        np.log10(1.0 + unseen / (plateau + rise)),
         judged,
         _rms(storage_deviation[judged]),
         _rms(loss_deviation[judged]),
