@@ -24,7 +24,6 @@ from viscofric.contact.reference import (
     hertz_line,
     incompressible_ball,
     incompressible_line,
-    power_law_punch,
     sneddon_cone,
     westergaard,
     winkler_ball,
@@ -153,11 +152,8 @@ def test_crossed_waves_in_full_contact_follow_the_surface() -> None:
     waves = crossed_waves(amplitude, wavelength, E, NU)
     x = wavelength * np.arange(16) / 16
     surface = amplitude * np.cos(2.0 * np.pi * x / wavelength)[:, None] * np.cos(2.0 * np.pi * x / wavelength)
-    pressure = waves.full_pressure(waves.full_contact_pressure, x[:, None], x)
-    assert pressure.min() == pytest.approx(0.0, abs=1e-9 * pressure.max())
+    pressure = waves.full_contact_pressure * (1.0 + surface / amplitude)  # zero in the troughs
     assert periodic_displacement(pressure, wavelength) == pytest.approx(surface, abs=1e-12 * amplitude)
-    with refused("partial-contact"):
-        waves.full_pressure(0.9 * waves.full_contact_pressure, 0.0, 0.0)
 
 
 def test_crossed_waves_touch_like_balls_when_pressed_lightly() -> None:
@@ -245,10 +241,6 @@ def test_flat_punch_sinks_evenly_under_its_pressure() -> None:
     ] == pytest.approx(depth * 1.57 / (math.pi / 2.0), rel=1e-6)
     assert punch.pressure(1.01 * a) == 0.0
     assert punch.pressure(a) == math.inf
-    # The flat end is the limit of ever flatter powers.
-    power = power_law_punch(punch.load, 1e-9, a, 2e5, E, NU)
-    assert power.radius == pytest.approx(a, rel=1e-3)
-    assert power.indentation == pytest.approx(depth, rel=1e-3)
 
 
 def test_cone_pressure_carries_the_load_and_fits_the_cone_at_tip_and_edge() -> None:
@@ -267,14 +259,6 @@ def test_cone_pressure_carries_the_load_and_fits_the_cone_at_tip_and_edge() -> N
     # Two-dimensional quadrature past a logarithm.
     assert edge / (math.pi * E_STAR) == pytest.approx(cone.indentation - slope * a, rel=1e-4)
     assert math.isinf(float(cone.pressure(0.0)))
-
-
-def test_power_law_punch_is_cone_and_ball() -> None:
-    cone, ball = sneddon_cone(3.0, 0.06, E, NU), hertz_ball(3.0, R, E, NU)
-    as_cone = power_law_punch(3.0, 0.06e-3, 1e-3, 1.0, E, NU)
-    as_ball = power_law_punch(3.0, 1e-6 / (2.0 * R), 1e-3, 2.0, E, NU)
-    assert (as_cone.radius, as_cone.indentation) == pytest.approx((cone.radius, cone.indentation), rel=1e-12)
-    assert (as_ball.radius, as_ball.indentation) == pytest.approx((ball.radius, ball.indentation), rel=1e-12)
 
 
 # --- thin layers ----------------------------------------------------------------------------------

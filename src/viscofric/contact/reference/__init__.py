@@ -22,14 +22,7 @@ from viscofric.contact.reference.layers import (
     winkler_ball,
     winkler_line,
 )
-from viscofric.contact.reference.punches import (
-    ConeContact,
-    FlatPunchContact,
-    PowerLawContact,
-    flat_punch,
-    power_law_punch,
-    sneddon_cone,
-)
+from viscofric.contact.reference.punches import ConeContact, FlatPunchContact, flat_punch, sneddon_cone
 from viscofric.contact.reference.speed_limits import high_speed_friction, high_speed_line_friction, low_speed_friction
 from viscofric.contact.reference.wavy import (
     CrossedWaves,
@@ -49,7 +42,6 @@ __all__ = [
     "HertzEllipticContact",
     "HertzLineContact",
     "HunterContact",
-    "PowerLawContact",
     "RollingFoundationContact",
     "ThinLayerContact",
     "WavyContact",
@@ -66,7 +58,6 @@ __all__ = [
     "incompressible_ball",
     "incompressible_line",
     "low_speed_friction",
-    "power_law_punch",
     "rolling_foundation_ball",
     "rolling_foundation_line",
     "sneddon_cone",

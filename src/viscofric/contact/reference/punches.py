@@ -1,4 +1,4 @@
-"""Sneddon's rigid punches on an elastic half-space: flat cylinder, cone, and any power of the radius."""
+"""Sneddon's rigid punches on an elastic half-space: flat cylinder and cone."""
 
 from __future__ import annotations
 
@@ -71,34 +71,3 @@ def sneddon_cone(load: Quantity, slope: float, modulus: Quantity, poisson_ratio:
     mean_pressure = 0.5 * plane_strain_modulus(modulus, poisson_ratio) * steepness
     radius = math.sqrt(force / (math.pi * mean_pressure))
     return ConeContact(radius, 0.5 * math.pi * radius * steepness, mean_pressure)
-
-
-@dataclass(frozen=True)
-class PowerLawContact:
-    """A rigid punch of height B r^n pressed into an elastic half-space."""
-
-    radius: float  # contact radius a, m
-    indentation: float  # δ, m
-
-
-def power_law_punch(
-    load: Quantity,
-    height: Quantity,
-    reference_radius: Quantity,
-    exponent: float,
-    modulus: Quantity,
-    poisson_ratio: float,
-) -> PowerLawContact:
-    """Contact radius and indentation for a punch of height h = h1 (r/r1)^n: a cone, a paraboloid, ever flatter ends.
-
-    F in N, the height h1 at the radius r1 in m, n above zero, E in Pa; the paraboloid of a ball has n = 2, h1 = r1²/2R.
-    δ = h(a) √π Γ(n/2 + 1)/Γ(n/2 + 1/2) and F = 2E* a δ n/(n + 1).  L. A. Galin, Prikl. Mat. Mekh. 10 (1946) 425; I. N.
-    Sneddon, Int. J. Eng. Sci. 3 (1965) 47.  Raises InputError if a value is not above zero, or Poisson's ratio not
-    between 0 and 0.5.
-    """
-    n = positive(exponent, "dimensionless", "exponent")
-    h1, r1 = positive(height, "m", "height"), positive(reference_radius, "m", "reference_radius")
-    lift = math.sqrt(math.pi) * math.exp(math.lgamma(0.5 * n + 1.0) - math.lgamma(0.5 * n + 0.5))  # δ/h(a)
-    stiffness = 2.0 * plane_strain_modulus(modulus, poisson_ratio) * n / (n + 1.0)  # F/(aδ)
-    radius = r1 * (positive(load, "N", "load") / (stiffness * lift * h1 * r1)) ** (1.0 / (n + 1.0))
-    return PowerLawContact(radius, lift * h1 * (radius / r1) ** n)

@@ -68,18 +68,6 @@ class CrossedWaves:
     full_contact_pressure: float  # p* = √2 πE*Δ/λ, the mean pressure from which on contact is full, Pa
     wavelength: float  # λ, m; there are two crests on each area λ²
 
-    def full_pressure(self, mean_pressure: float, x: ArrayLike, y: ArrayLike) -> Array:
-        """Return the pressure (Pa) at (x, y) from a crest; InputError if contact is not full at this mean pressure."""
-        if mean_pressure < self.full_contact_pressure:
-            raise InputError(
-                f"mean_pressure = {mean_pressure:g} Pa: contact is full from "
-                f"{self.full_contact_pressure:g} Pa on only.",
-                code="partial-contact",
-            )
-        q = 2.0 * np.pi / self.wavelength
-        wave = np.cos(q * np.asarray(x, dtype=float)) * np.cos(q * np.asarray(y, dtype=float))
-        return np.asarray(mean_pressure + self.full_contact_pressure * wave)
-
     def area_fraction_at_low_pressure(self, mean_pressure: float) -> float:
         """Area fraction for p̄ ≪ p*, each crest a contact of Hertz: π (3p̄/(8πp*))^(2/3)."""
         crest = 3.0 * mean_pressure / (8.0 * math.pi * self.full_contact_pressure)
