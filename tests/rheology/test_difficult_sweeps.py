@@ -225,7 +225,6 @@ def test_every_result_is_shown_in_a_few_lines():
         for one in (
             fit,
             fit.check,
-            fit.check.cole_cole,
             fit.check.kramers_kronig,
             fit.shift_factors,
             fit.vertical_shift,

@@ -69,15 +69,9 @@ def moduli_of_sweeps(source: Sweeps | SuperpositionCheck) -> Moduli:
     """Return the readings of sweeps, isotherm by isotherm; those of a check are without their vertical shift."""
     if hasattr(source, "data_vars"):
         return moduli(source)
-    if hasattr(source, "cole_cole"):
-        points = source.cole_cole
-        columns = {
-            "temperature": (points.temperature, "K", "temperature"),
-            "angular_frequency": (np.arange(float(len(points.x))), "1", "order of the frequencies"),
-            "storage_modulus": (points.x, "Pa", "storage modulus"),
-            "loss_modulus": (points.y, "Pa", "loss modulus"),
-        }
-        return moduli(dataset("reading", columns))
+    if isinstance(source, SuperpositionCheck):
+        order = np.arange(float(len(source.temperature)))  # of the frequencies
+        return Moduli(source.temperature, order, source.storage_modulus, source.loss_modulus, "E", np.nan)
     isotherms: Any = getattr(source, "isotherms", source)
     deformation: Any = getattr(source, "deformation", "tension")
     return moduli(IsothermalSweeps(tuple(isotherms), deformation))

@@ -85,21 +85,6 @@ class Judged(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class Diagram:
-    """Points of all isotherms in a plot that no shift along the frequency changes."""
-
-    x: Array  # (n,), SI units; angles in rad
-    y: Array
-    # (n,), of the isotherm of each point, K; the points of one isotherm are consecutive, ascending in frequency.
-    temperature: Array
-    x_name: str  # what is plotted, as in ``"|E*|"``
-    y_name: str
-
-    def __repr__(self) -> str:
-        return f"Diagram({self.y_name} against {self.x_name}, {len(self.x)} points)"
-
-
-@dataclass(frozen=True, eq=False)
 class SuperpositionCheck(Judged, Plotted):
     """Whether the isotherms of a superposition are one material at shifted frequencies.
 
@@ -119,9 +104,8 @@ class SuperpositionCheck(Judged, Plotted):
         Joint rms misfit of the shifted isotherms where they overlap, decades; as `OverlapQuality.joint`.
     kramers_kronig : KramersKronig or None
         Agreement of E' with E'' on the master curve; None where it is too short to test.
-    van_gurp_palmen, booij_thoone_palmen, cole_cole, wicket : Diagram
-        δ against |E*|; tan δ against |E*|; E'' against E'; tan δ against E'.  Moduli are divided by the vertical
-        shift.
+    storage_modulus, loss_modulus, temperature : (n,) array
+        Of the points of all isotherms, one isotherm after the other: moduli over the vertical shift, Pa, and K.
     sentences : tuple of str
         The verdict in plain words; the first is a `Note` whose code is ``"superposition-"`` and the verdict.
     verdict : str
@@ -144,10 +128,9 @@ class SuperpositionCheck(Judged, Plotted):
     within: float
     overlap_misfit: float
     kramers_kronig: KramersKronig | None
-    van_gurp_palmen: Diagram
-    booij_thoone_palmen: Diagram
-    cole_cole: Diagram
-    wicket: Diagram
+    storage_modulus: Array
+    loss_modulus: Array
+    temperature: Array
     sentences: tuple[str, ...]
     verdict: Verdict
     drift: Drift | None = None
@@ -170,7 +153,7 @@ class SuperpositionCheck(Judged, Plotted):
     def to_dataset(self) -> Dataset:
         """Return the temperatures (K) of the isotherms as a labelled data set, with the verdict as attributes."""
         *holding, causality = self.sentences
-        kelvin = np.unique(self.cole_cole.temperature)
+        kelvin = np.unique(self.temperature)
         return self._dataset(kelvin, holding, consistent=int(self.consistent), causality=causality)
 
 
@@ -214,8 +197,6 @@ def check(
         *_gaps(isotherms, quality),
         causal_sentence,
     )
-    storage, loss, temperature = _points(isotherms, log10_b)
-    size, angle, tangent = np.hypot(storage, loss), np.arctan2(loss, storage), loss / storage
     return SuperpositionCheck(
         neighbours,
         figure,
@@ -223,10 +204,7 @@ def check(
         _median(error),
         quality.joint,
         causality,
-        Diagram(size, angle, temperature, "|E*|", "δ"),
-        Diagram(size, tangent, temperature, "|E*|", "tan δ"),
-        Diagram(storage, loss, temperature, "E'", "E''"),
-        Diagram(storage, tangent, temperature, "E'", "tan δ"),
+        *_points(isotherms, log10_b),
         sentences,
         verdict,
         drifting,
