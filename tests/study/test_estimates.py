@@ -30,7 +30,7 @@ def test_contacts_of_a_curve_are_foreseen(accuracy: float) -> None:
 def test_every_case_counts_where_each_is_solved() -> None:
     assert estimate(CASES, [SLS], each=True).solves == len(CASES)
     assert estimate([*CASES, CASES[0]], [SLS], each=True).solves == len(CASES)
-    assert estimate(CASES, [SLS], fields=[1, 2, 3]).solves == estimate(CASES, [SLS]).solves + 3
+    assert estimate(CASES, [SLS], fields=True).solves == len(CASES)
 
 
 def test_members_of_a_posterior_have_a_curve_each() -> None:
@@ -46,6 +46,5 @@ def test_what_takes_more_is_reported_to_take_more() -> None:
     finer = estimate(CASES, [SLS], accuracy=1e-4)
     assert finer.seconds > plain.seconds
     assert finer.memory_per_process > plain.memory_per_process
-    assert estimate(CASES, [SLS], fields=True).memory > 2.0 * plain.memory
     on_a_layer = [replace(case, layer=vf.Layer(1e-3)) for case in CASES]
     assert estimate(on_a_layer, [SLS], each=True).seconds > estimate(CASES, [SLS], each=True).seconds

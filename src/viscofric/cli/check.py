@@ -110,7 +110,6 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
         "expected": {
             "solves": found.expected.solves,
             "seconds": found.expected.seconds,
-            "memory": found.expected.memory,
             "memory_per_process": found.expected.memory_per_process,
             **{name: {"contacts": count, "seconds": seconds} for name, (count, seconds) in found.singles.items()},
         },

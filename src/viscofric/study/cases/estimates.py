@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,11 +36,10 @@ HEATED_CURVE, HEATED_SURFACE = 2.2, 4.0
 HEATED_RUNS, HEATED_TIMES = 3.5, 60
 #: The derivatives take about as long as friction itself.
 _SENSITIVE = 2.0
-# Bytes: of a process that solves; of each cell of the finest window while it does; of a record and its sensitivity.
-_PROCESS, _PER_CELL, _RECORD, _SENSITIVITY = 1.1e8, 240.0, 2.5e3, 3e3
+# Bytes: of a process that solves; of each cell of the finest window while it does.
+_PROCESS, _PER_CELL = 1.1e8, 240.0
 # Cells along the finest window that some of many contacts take at 1e-3; they grow as 1/√accuracy up to the most.
-_CELLS, _MOST_CELLS, _FIELD_CELLS = 512.0, 2048.0, 256.0
-_FIELD = 16.0  # bytes of pressure and displacement in a cell
+_CELLS, _MOST_CELLS = 512.0, 2048.0
 _LINE_CELLS = 65536.0
 # Of contacts over time, s, within a factor of three: of each stored time, on springs and on cells; of each stored time
 # and point of a rough surface; the periods of a periodic state.  Of an impact.  Means over 30 and 90 °C.
@@ -58,7 +57,6 @@ class Expectation:
     cases: int
     solves: int  # contacts to be solved for them
     seconds: float  # processor time of all, on one core of 2020, s
-    memory: float  # of the study with all records and fields, bytes
     memory_per_process: float  # of each solving process at most, bytes
 
 
@@ -68,33 +66,30 @@ def estimate(
     *,
     accuracy: float = 1e-3,
     sensitive: bool = False,
-    fields: bool | Collection[int] = False,
+    fields: bool = False,
     each: bool = False,
 ) -> Expectation:
     """Estimate the effort of `plan_cases` with the same arguments; bootstrap samples need not be drawn."""
-    kept = range(len(cases)) if fields is True else () if fields is False else frozenset(fields)
     drawn = max((case.sample or 0 for case in cases), default=0)
     rubbers = Rubbers(materials, {number: [material] * drawn for number, material in enumerate(materials)})
     solves: dict[tuple[str, bool], float] = defaultdict(float)
     points = cases[0].points if cases else 0
-    if each:
-        for case in set(cases):
+    if each or fields:  # those that keep their fields are not interpolated
+        for case in set(cases) if each else cases:
             solves[_kind(case)] += 1
     else:
-        for kind, curve in _curves(cases, rubbers, kept, accuracy, solves):
+        for kind, curve in _curves(cases, rubbers, accuracy):
             solves[kind] += curve.expected
     seconds = sum(
         number * _seconds(kind, accuracy, points) * (_SENSITIVE if sensitive and best and not points else 1.0)
         for (kind, best), number in solves.items()
     )
     cells = min(_MOST_CELLS, _CELLS * np.sqrt(1e-3 / accuracy)) ** 2
-    record = _RECORD + _SENSITIVITY * sensitive
     working = _PER_CELL * (_LINE_CELLS if {kind for kind, _ in solves} == {"line"} else cells)
     return Expectation(
         cases=len(cases),
         solves=round(sum(solves.values())),
         seconds=float(seconds),
-        memory=_PROCESS + record * len(cases) + _FIELD * (points or _FIELD_CELLS**2) * len(kept),
         memory_per_process=float(_PROCESS + (_BYTES_PER_POINT * points if points else working)),
     )
 
@@ -133,20 +128,11 @@ def seconds_over_time(case: Case, points: int, *, moves: bool, cycle: bool) -> f
     return each * points * (_PERIODS if cycle else 1)
 
 
-def _curves(
-    cases: Sequence[Case],
-    rubbers: Rubbers,
-    kept: Collection[int],
-    accuracy: float,
-    solves: dict[tuple[str, bool], float],
-) -> list[tuple[tuple[str, bool], Curve]]:
-    """Return the curves of all families with their kinds; add individually solved cases to `solves`."""
+def _curves(cases: Sequence[Case], rubbers: Rubbers, accuracy: float) -> list[tuple[tuple[str, bool], Curve]]:
+    """Return the curves of all families with their kinds."""
     places: dict[Case, list[float]] = defaultdict(list)
     kinds: dict[Case, tuple[str, bool]] = {}
-    for number, case in enumerate(cases):
-        if number in kept:
-            solves[_kind(case)] += 1
-            continue
+    for case in cases:
         try:
             place = case.place(rubbers)
         except InputError:
