@@ -269,12 +269,7 @@ class Cells:
 
 
 class MaskedCells(Cells):
-    """The same where arrays take no arrays of indices, which the standard does not ask for."""
-
-    def gathered(self, field: AnyArray) -> AnyArray:
-        """Values (n,) of a field at the cells."""
-        xp = self.backend.xp
-        return xp.take(xp.reshape(field, (-1,)), self.indices)
+    """The same where values are not put in by arrays of indices, which the standard does not ask for."""
 
     def inserted(self, field: AnyArray, values: AnyArray) -> AnyArray:
         """Return a field with values put in at the cells."""
