@@ -12,7 +12,7 @@ from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.indenters.indenter import Indenter, too_steep
 from viscofric.errors import InputError
 from viscofric.notes import Note, Remedy
-from viscofric.units import Quantity, in_si, positive
+from viscofric.units import Quantity, in_si, positive, two_lengths
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -68,12 +68,7 @@ class HeightMap(Indenter):
 
     def __post_init__(self) -> None:
         z = _heights(self.z, 2)
-        pair = self.spacing if isinstance(self.spacing, (tuple, list)) else (self.spacing, self.spacing)
-        if len(pair) != 2:
-            raise InputError(
-                f"spacing = {self.spacing!r}: must be one length, or two, along x and along y.", code="wrong-count"
-            )
-        spacing = (positive(pair[0], "m", "spacing along x"), positive(pair[1], "m", "spacing along y"))
+        spacing = two_lengths(self.spacing)
         lowest = np.unravel_index(int(np.argmin(z)), z.shape)
         object.__setattr__(self, "z", z)
         object.__setattr__(self, "spacing", spacing)
