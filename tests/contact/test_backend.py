@@ -7,6 +7,7 @@ import pickle
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -21,7 +22,7 @@ from refusals import refused
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.complementarity import solve_complementarity
 from viscofric.contact.free.grids import Window
-from viscofric.contact.operators.convolution import SteadyMaterial
+from viscofric.contact.operators.convolution import SteadyMaterial, both_halves, is_even, upper_half
 from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
@@ -32,6 +33,7 @@ from viscofric.threads import THREADS_VARIABLE, in_parts, so_many, threads_for, 
 OTHERS = ("array_api_strict", "ducc0", "torch:cpu", "torch:cuda", "cupy")
 # The solver's own error at this tolerance, which another rounding may shift; pressures are well conditioned here.
 TOLERANCE, SAME = 1e-12, 1e-10
+TWO_MODES = SteadyMaterial(0.01, np.array([0.49, 0.5]), np.array([0.2, 30.0]))
 
 
 def available(name: str) -> Backend:
@@ -290,6 +292,22 @@ def test_threads_change_no_digit(name: str) -> None:
         lambda by: by.convolved(values, factor, (1800, 1280)),
     ):
         np.testing.assert_array_equal(transformed(one), transformed(two))
+
+
+@pytest.mark.parametrize("beside", [3, 5, 40])
+@pytest.mark.parametrize("name", ["scipy", "ducc0"])
+def test_even_pressures_need_the_cells_on_one_side_only(name: str, beside: int) -> None:
+    """Their products, also with the transposed and damped matrices, under shear, and the inverse, as on all cells."""
+    window = Window(spacing=0.25, behind=23, ahead=20, beside=beside)
+    dragged = replace(TWO_MODES, drag=0.4, coupling=0.3)
+    whole = HalfSpaceOperator(window, dragged, shift=0.3, backend=available(name))
+    half = np.random.default_rng(4).standard_normal((window.shape[0], beside))
+    for operator in (whole, whole.transposed(), whole.damped(0.7)):
+        for every, some in ((operator, operator.even), (operator.precondition, operator.even.precondition)):
+            expected = every(both_halves(half))
+            assert is_even(expected)
+            # Rounding of FFTs.
+            np.testing.assert_allclose(some(half), upper_half(expected), atol=1e-13 * np.abs(expected).max())
 
 
 def test_parts_cover_all_rows_in_their_order_with_any_threads() -> None:

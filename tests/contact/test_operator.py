@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 import viscofric as vf
 from contact.dense_reference import displacement_coefficients, displacement_matrix
 from marks import apart, slow
+from viscofric.arrays import Array
+from viscofric.contact.complementarity import solve_complementarity
 from viscofric.contact.free.grids import Window
-from viscofric.contact.operators.convolution import SteadyMaterial, bent_share, collocation_shift
+from viscofric.contact.operators import convolution
+from viscofric.contact.operators.convolution import (
+    SteadyMaterial,
+    bent_share,
+    both_halves,
+    collocation_shift,
+    is_even,
+    solve_on_cells,
+)
 from viscofric.contact.operators.half_space import HalfSpaceOperator
 
 WINDOW = Window(spacing=0.25, behind=6, ahead=5, beside=4)
@@ -265,3 +277,46 @@ def test_corrections_in_single_precision_cost_no_digits(monkeypatch: pytest.Monk
     # Gaps of 1e-8 of the indentation, where either solve may end, move pressures by a hundred times that at most.
     np.testing.assert_allclose(single.pressure, double.pressure, atol=1e-6 * double.max_pressure)
     assert single.friction_coefficient == pytest.approx(double.friction_coefficient, rel=1e-6)
+
+
+def test_even_indenters_are_solved_on_one_side_and_others_on_both(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same pressures to the tolerance, whichever; one that is tilted by a part in a billion is not even."""
+    shapes: list[tuple[int, ...]] = []
+
+    def watched(operator: HalfSpaceOperator, height: Array, *arguments: Any, **settings: Any) -> Any:
+        shapes.append(height.shape)
+        return solve_complementarity(operator, height, *arguments, **settings)
+
+    monkeypatch.setattr(convolution, "solve_complementarity", watched)
+    window = Window(spacing=0.02, behind=70, ahead=64, beside=64)
+    operator, y = HalfSpaceOperator(window, SIX_MODES), window.y
+    height = 0.5 * (window.x[:, None] ** 2 + y**2)
+    for load, indentation in ((4.0 / 3.0 / window.cell_area, None), (None, 0.8)):
+        even, tilted = (
+            solve_on_cells(operator, each, load, np.ones(window.shape), indentation=indentation, tolerance=1e-10)
+            for each in (height, height + 1e-9 * y)
+        )
+        assert shapes[-2:] == [(134, 64), (134, 128)]
+        assert is_even(even.pressure)
+        assert even.converged
+        assert even.load < 1e-12
+        # Gaps of 1e-9 take pressures of 1e-9 over the compliance of a cell, which is some hundredths.
+        np.testing.assert_allclose(even.pressure, tilted.pressure, atol=1e-6)
+        assert even.indentation == pytest.approx(tilted.indentation, rel=1e-7)
+    # Walls, beyond which the height is infinite, may be even too, and one side alone may have one.
+    walls = np.where(np.abs(y) > 1.0, np.inf, height)
+    assert is_even(walls)
+    walls[:, 0] = 1.0
+    assert not is_even(walls)
+
+
+@pytest.mark.parametrize("tilt", [0.0, 0.3])
+def test_dissipated_force_is_half_of_the_pressures_times_its_gradient(tilt: float) -> None:
+    """It is a quadratic form of the pressures, also of those that are even, which take half of the FFTs."""
+    window = Window(spacing=0.1, behind=13, ahead=11, beside=9)
+    operator = HalfSpaceOperator(window, SIX_MODES)
+    pressure = np.random.default_rng(5).random((24, 9))
+    pressure = both_halves(pressure) * (1.0 + tilt * window.y)
+    assert is_even(pressure) is (tilt == 0.0)
+    half = 0.5 * float(np.vdot(pressure, operator.dissipated_force_gradient(pressure)))
+    assert operator.dissipated_force(pressure) == pytest.approx(half, rel=1e-12)

@@ -60,7 +60,8 @@ class Extension:
 
     `shape` has the points along x and y; `toward` is the direction of the motion, in cells along x and y; `lag` is the
     delay of the response to short waves: 0 for an elastic solid, at most 1, below zero for the opposite motion; see
-    `lag`.  `inverse` (nx, ny//2 + 1) is the symbol of the preconditioner, for `collecting`.
+    `lag`.  `inverse` (nx, ny//2 + 1) is the symbol of the preconditioner, for `collecting`.  `even`: values are even in
+    y, and `shape` has the points at y > 0; the motion is along x then, and there is no `inverse`.
     """
 
     def __init__(
@@ -74,14 +75,16 @@ class Extension:
         inverse: AnyArray | None = None,
         block: int = _BLOCK,
         reach: float = _REACH,
+        even: bool = False,
     ) -> None:
-        self.backend, self.dtype, self._lag = backend, dtype, abs(lag)
+        self.backend, self.dtype, self._lag, self._even = backend, dtype, abs(lag), even
         self._ahead = _corners_ahead(toward, lag) if lag else []
         blocks = [next(size for size in range(block, 0, -1) if points % size == 0) for points in shape]
         self.shape = shape[0] // blocks[0], shape[1] // blocks[1]
-        qx = 2.0 * np.pi * np.fft.fftfreq(self.shape[0], blocks[0])
-        qy = 2.0 * np.pi * np.fft.rfftfreq(self.shape[1], blocks[1])
-        wave_number = np.hypot(qx[:, None], qy)
+        # Cosines over a half have the wavelengths of waves over both halves, less the shortest.
+        along = np.fft.rfftfreq(self.shape[0], blocks[0]) if even else np.fft.fftfreq(self.shape[0], blocks[0])
+        across = np.fft.rfftfreq((1 + even) * self.shape[1], blocks[1])
+        wave_number = 2.0 * np.pi * np.hypot(along[:, None], across[: self.shape[1]] if even else across)
         self._weights = [self._array(np.exp(-each * wave_number)) for each in (reach, _FAR)]
         self._means = [self._array(np.full((1, size), 1.0 / size)) for size in blocks]
         self._lines = [self._array(_interpolation(size)) for size in blocks]
@@ -210,6 +213,8 @@ class Extension:
 
         means = self.backend.empty(self.shape, self.dtype)
         self.backend.in_parts(average, xp.reshape(field, (nx, bx, ny * by)), means)
+        if self._even:
+            return [transforms.convolved_even(means, weights, self.shape) for weights in self._weights]
         waves = transforms.forward(means)
         return [transforms.inverse(waves * weights, self.shape) for weights in self._weights]
 
@@ -222,7 +227,9 @@ class Extension:
         def interpolate(field: AnyArray, values: AnyArray) -> None:
             field[...] = xp.matmul(along_x, values)
 
-        values = xp.reshape(xp.matmul(_with_neighbours(xp, values, 1), along_y.T), (nx, across))
+        # Beyond either end of a half there is the same again, mirrored.
+        beside = _with_neighbours(xp, values, 1, periodic=not self._even)
+        values = xp.reshape(xp.matmul(beside, along_y.T), (nx, across))
         self.backend.in_parts(interpolate, field, _with_neighbours(xp, values, 0))
         return xp.reshape(field, (nx * bx, across))
 
@@ -265,9 +272,13 @@ def _corners_ahead(toward: tuple[float, float], sign: float) -> list[list[tuple[
     return found
 
 
-def _with_neighbours(xp: Any, values: AnyArray, axis: int) -> AnyArray:
+def _with_neighbours(xp: Any, values: AnyArray, axis: int, *, periodic: bool = True) -> AnyArray:
     """Return the values before, at and behind each place along an axis, along a new axis after it."""
-    return xp.stack([xp.roll(values, step, axis=axis) for step in (1, 0, -1)], axis=axis + 1)
+    if periodic:
+        return xp.stack([xp.roll(values, step, axis=axis) for step in (1, 0, -1)], axis=axis + 1)
+    before = xp.concat([values[:, :1], values[:, :-1]], axis=1)
+    behind = xp.concat([values[:, 1:], values[:, -1:]], axis=1)
+    return xp.stack([before, values, behind], axis=2)
 
 
 def _interpolation(size: int) -> Array:

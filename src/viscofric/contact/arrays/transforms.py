@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
@@ -21,6 +21,8 @@ Shape: TypeAlias = tuple[int, int]
 # Bytes of a spectrum from which on it is worked through in blocks, and bytes of a block: about a half of the cache
 # that a core has to itself.
 _LARGE, _BLOCK = 2**22, 2**19
+# Cosines up to which a product of matrices is quicker than a call of a fast transform.
+_FEW_COSINES = 64
 
 
 class Transforms(Protocol):
@@ -130,6 +132,34 @@ class ScipyTransforms(Transforms):
             found[i : i + rows] = self._fft.irfft(lines[i : i + rows], py, axis=1, workers=threads)[:, :ny]
         return found
 
+    def convolved_even(self, values: AnyArray, factor: AnyArray, padded: Shape) -> AnyArray:
+        """Convolve values that are even in y, of which only those at y > 0 are given and returned.
+
+        `padded` has the points at y > 0 only, `factor` (padded[0]//2 + 1, padded[1]) the spectrum without the wave that
+        alternates along y.  With cosines along y this takes half of what `convolved` takes.
+        """
+        (nx, ny), (px, py) = values.shape, padded
+        threads = self._threads(px * py)
+        rows = max(1, threads * _BLOCK // (py * values.itemsize))
+        columns = max(8, threads * _BLOCK // (px * values.itemsize))
+        lines, found = np.empty((nx, py), values.dtype), np.empty_like(values)
+        few = py <= _FEW_COSINES
+        if few:
+            forth, back = _cosines(ny, py, values.dtype.char)
+            np.matmul(values, forth, out=lines)
+        for i in range(0, 0 if few else nx, rows):
+            lines[i : i + rows] = self._fft.dct(values[i : i + rows], 2, py, axis=1, workers=threads)
+        for j in range(0, py, columns):
+            part = lines[:, j : j + columns]
+            some = self._fft.rfft(part, px, axis=0, workers=threads)
+            some *= factor[:, j : j + columns]
+            part[...] = self._fft.irfft(some, px, axis=0, overwrite_x=True, workers=threads)[:nx]
+        if few:
+            return lines @ back
+        for i in range(0, nx, rows):
+            found[i : i + rows] = self._fft.idct(lines[i : i + rows], 2, axis=1, workers=threads)[:, :ny]
+        return found
+
 
 class DuccTransforms(Transforms):
     """FFTs of ducc0, which pad nothing by themselves but write into given arrays."""
@@ -165,3 +195,27 @@ class DuccTransforms(Transforms):
             spectrum[: shape[0]], axes=(1,), lastsize=padded[1], forward=False, inorm=2, nthreads=threads
         )
         return values[:, : shape[1]]  # type: ignore[no-any-return]
+
+    def convolved_even(self, values: AnyArray, factor: AnyArray, padded: Shape) -> AnyArray:
+        """Convolve values that are even in y, of which only those at y > 0 are given and returned."""
+        (nx, ny), threads = values.shape, self._threads(math.prod(padded))
+        lines = np.zeros(padded, values.dtype)
+        lines[:nx, :ny] = values
+        self._fft.dct(lines[:nx], 2, axes=(1,), nthreads=threads, out=lines[:nx])
+        waves = self._fft.r2c(lines, axes=(0,), nthreads=threads)
+        waves *= factor
+        self._fft.c2r(
+            waves, axes=(0,), lastsize=padded[0], forward=False, inorm=2, nthreads=threads,
+            out=lines, allow_overwriting_input=True,
+        )  # fmt: skip
+        self._fft.dct(lines[:nx], 3, axes=(1,), inorm=2, nthreads=threads, out=lines[:nx])
+        return lines[:nx, :ny].copy()
+
+
+@lru_cache(maxsize=32)
+def _cosines(points: int, cosines: int, kind: str) -> tuple[AnyArray, AnyArray]:
+    """Return the matrices from values at the first points to cosines, (points, cosines), and back."""
+    order = np.arange(cosines)
+    forth = 2.0 * np.cos(np.pi / (2.0 * cosines) * np.outer(2 * np.arange(points) + 1, order))
+    back = forth.T * (np.where(order > 0, 1.0, 0.5) / cosines)[:, None] * 0.5
+    return forth.astype(kind), np.ascontiguousarray(back, kind)

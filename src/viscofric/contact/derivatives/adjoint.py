@@ -31,7 +31,7 @@ from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.free.balance import free_gap, lag, lag_changes, neighbours
 from viscofric.contact.free.estimates import friction_estimate
 from viscofric.contact.influence.moments import correlation, memory_moments
-from viscofric.contact.operators.convolution import bent_share
+from viscofric.contact.operators.convolution import bent_share, both_halves, is_even, upper_half
 from viscofric.errors import ConvergenceError
 
 if TYPE_CHECKING:
@@ -163,15 +163,24 @@ def _adjoint_field(stage: Stage, by_pressure: Array, value: float, held: Array) 
 
 def _field_and_level(stage: Stage, by_pressure: Array, held: Array, *, fixed_load: bool) -> tuple[Array, float]:
     """Return λ, as held outside the contact, and η."""
-    mirrored, loaded = stage.operator.transposed(), stage.result.pressure > 0.0
-    backend = mirrored.backend
+    operator, given = stage.operator.transposed(), (stage.result.pressure, by_pressure, held)
+    if not (operator.backend.is_numpy and all(is_even(each) for each in given)):
+        return _solved(operator, *given, fixed_load=fixed_load)
+    field, level = _solved(operator.even, *(upper_half(each) for each in given), fixed_load=fixed_load)
+    return both_halves(field), level
+
+
+def _solved(
+    operator: ConvolutionOperator, pressure: Array, by_pressure: Array, held: Array, *, fixed_load: bool
+) -> tuple[Array, float]:
+    backend, loaded = operator.backend, pressure > 0.0
     contact = backend.cells(backend.asarray(loaded))
     field = held.copy()
     if fixed_load:
         field[loaded] -= held.sum() / np.count_nonzero(loaded)
     first = 0.0
     for _ in range(_MOST_RESTARTS):
-        residual = by_pressure - backend.to_numpy(mirrored(field)) if field.any() else by_pressure
+        residual = by_pressure - backend.to_numpy(operator(field)) if field.any() else by_pressure
         level = float(residual[loaded].mean()) if fixed_load else 0.0
         size = float(np.linalg.norm(residual[loaded] - level))
         first = first or size
@@ -180,7 +189,7 @@ def _field_and_level(stage: Stage, by_pressure: Array, held: Array, *, fixed_loa
         reduction = 0.5 * _TOLERANCE * first / size
         wanted = contact.gathered(backend.asarray(-residual))
         correction, _, _ = solve_on_contact(
-            mirrored, wanted, contact, reduction=reduction, floor=0.0, directions=_DIRECTIONS, fixed_load=fixed_load
+            operator, wanted, contact, reduction=reduction, floor=0.0, directions=_DIRECTIONS, fixed_load=fixed_load
         )
         field += backend.to_numpy(contact.scattered(correction))
     raise ConvergenceError(

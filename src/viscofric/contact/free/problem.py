@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.complementarity import solve_complementarity
+from viscofric.contact.operators.convolution import solve_on_cells
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -55,19 +55,10 @@ class Control:
         self, operator: ConvolutionOperator, height: Array, guess: Array, tolerance: float, patience: int | None = None
     ) -> ComplementaritySolution:
         """Solve on one grid from a guess of the pressure; `patience` as of `solve_complementarity`."""
-        inner = operator.for_corrections()
-        found = solve_complementarity(
-            operator,
-            height,
-            None if self.load is None else self.load / operator.window.cell_area,
-            guess,
-            indentation=self.indentation,
-            tolerance=tolerance,
-            patience=patience,
-            inner=inner,
-            extension=operator.extension(inner.dtype),
+        load = None if self.load is None else self.load / operator.window.cell_area
+        return solve_on_cells(
+            operator, height, load, guess, indentation=self.indentation, tolerance=tolerance, patience=patience
         )
-        return found.on_numpy(operator.backend)
 
 
 @dataclass(frozen=True, eq=False)

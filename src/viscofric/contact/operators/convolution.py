@@ -1,20 +1,27 @@
-"""The steady viscoelastic solid as a linear operator: pressure to displacement by FFT, zero-padded."""
+"""The steady viscoelastic solid as a linear operator: pressure to displacement by FFT, zero-padded.
+
+Its influence is even across the motion.  Under an indenter that is even too, so are the pressures, and half of the
+cells are enough: with cosines across the motion instead of waves, products cost half.
+"""
 
 from __future__ import annotations
 
 import copy
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 import scipy.fft
 
 from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 from viscofric.contact.extension import Extension, lag
 from viscofric.contact.influence.line import HalfSpaceStrip
 from viscofric.contact.influence.mixtures import memory_influence
 from viscofric.contact.influence.potentials import HalfSpaceCell
+from viscofric.threads import threads_for
 
 if TYPE_CHECKING:
     from typing import Self
@@ -36,6 +43,8 @@ _FEWEST_SINGLE = 2**18
 # Cells along an edge from which on residuals are extended.
 _FEWEST_EXTENDED = 128
 _SINGLE = {"f": np.float32, "c": np.complex64}
+# Part of the largest value by which values that are even in y may differ, and do by rounding.
+_ROUNDING = 1e-12
 # Loss angle of waves four cells long from which displacements are taken behind the cell centres.
 _TOLERATED_ANGLE = np.pi / 4.0
 
@@ -113,11 +122,12 @@ class ConvolutionOperator(ABC):
     backend: Backend = field(default_factory=Backend)
     # applications so far; each costs one forward and one inverse FFT of the padded window
     products: int = field(default=0, init=False)
-    _transfer: AnyArray = field(init=False, repr=False)
+    _displacement: Array = field(init=False, repr=False)
     _dissipation: Array = field(init=False, repr=False)
-    _inverse_symbol: AnyArray = field(init=False, repr=False)
     _padded: tuple[int, int] = field(init=False, repr=False)
     _is_damped: bool = field(default=False, init=False, repr=False)
+    _is_single: bool = field(default=False, init=False, repr=False)
+    _is_even: bool = field(default=False, init=False, repr=False)
 
     def __post_init__(self) -> None:
         nx, ny = self.window.shape
@@ -125,10 +135,16 @@ class ConvolutionOperator(ABC):
             scipy.fft.next_fast_len(2 * nx - 1, real=False),
             scipy.fft.next_fast_len(2 * ny - 1, real=True),
         )
-        # The dissipation is evaluated once, after the solve: its spectra are not kept.
-        displacement, self._dissipation = self._influence()
-        self._transfer = self._spectrum(displacement)
-        self._inverse_symbol = self.backend.asarray(_optimal_circulant_inverse(displacement))
+        self._displacement, self._dissipation = self._influence()
+
+    # The dissipation is evaluated once, after the solve: its spectra are not kept.
+    @cached_property
+    def _transfer(self) -> AnyArray:
+        return self._spectrum(self._displacement)
+
+    @cached_property
+    def _inverse_symbol(self) -> AnyArray:
+        return self.backend.asarray(_optimal_circulant_inverse(self._displacement))
 
     @property
     @abstractmethod
@@ -160,8 +176,25 @@ class ConvolutionOperator(ABC):
     @property
     def dtype(self) -> Any:
         """Type of the arrays that it returns."""
-        xp = self.backend.xp
-        return xp.float64 if self._transfer.dtype == xp.complex128 else xp.float32
+        return self.backend.xp.float32 if self._is_single else self.backend.xp.float64
+
+    @cached_property
+    def even(self) -> Self:
+        """The same operator for pressures that are even in y, on the cells at y > 0 only; for NumPy's arrays."""
+        half = self._changed(self._displacement)
+        (nx, ny), (px, _) = self.window.shape, self._padded
+        half._is_even, half._padded = True, (px, scipy.fft.next_fast_len(ny, real=True))
+        half._transfer = half._even_spectrum(self._displacement)
+        half._inverse_symbol = np.ascontiguousarray(self._inverse_symbol[: nx // 2 + 1, : ny // 2])
+        return half
+
+    def _changed(self, displacement: Array) -> Self:
+        """Return the operator with other influence coefficients of the displacement."""
+        changed = copy.copy(self)
+        for cached in ("_transfer", "_inverse_symbol", "even"):
+            changed.__dict__.pop(cached, None)
+        changed.products, changed._displacement = 0, displacement
+        return changed
 
     def for_corrections(self) -> Self:
         """Return the same operator in single precision, which is enough for corrections and takes half the time.
@@ -171,7 +204,7 @@ class ConvolutionOperator(ABC):
         if not self.backend.is_numpy or self.window.shape[0] * self.window.shape[1] < _FEWEST_SINGLE:
             return self
         single = copy.copy(self)
-        single.products = 0
+        single.products, single._is_single = 0, True
         single._transfer = self._transfer.astype(np.complex64)
         single._inverse_symbol = self._inverse_symbol.astype(_SINGLE[self._inverse_symbol.dtype.kind])
         return single
@@ -186,16 +219,26 @@ class ConvolutionOperator(ABC):
             circulant[rows, py - ny + 1 :] = influence[:, :0:-1]
         return self.backend.transforms.forward(self.backend.asarray(circulant))
 
+    def _even_spectrum(self, influence: Array) -> ComplexArray:
+        """Return the spectrum along x and the cosines along y, but those that alternate: even pressures have none."""
+        nx, (px, py) = self.window.shape[0], self._padded
+        circulant = np.zeros(self._padded)
+        circulant[np.arange(-(nx - 1), nx) % px] = scipy.fft.dct(influence, 1, py + 1, axis=1)[:, :py]
+        return np.asarray(scipy.fft.rfft(circulant, axis=0))
+
     def __call__(self, pressure: AnyArray) -> AnyArray:
         """Displacement (positive into the solid) at the cell centres under a pressure, both (nx, ny)."""
         self.products += 1
         return self._convolve(self._transfer, self.backend.asarray(pressure))
 
     def _convolve(self, spectrum: AnyArray, values: AnyArray) -> AnyArray:
-        return self.backend.transforms.convolved(values, spectrum, self._padded)
+        transforms = self.backend.transforms
+        return (transforms.convolved_even if self._is_even else transforms.convolved)(values, spectrum, self._padded)
 
     def precondition(self, residual: AnyArray) -> AnyArray:
         """Approximate pressure of a displacement: the inverse of the nearest periodic operator."""
+        if self._is_even:
+            return self.backend.transforms.convolved_even(residual, self._inverse_symbol, residual.shape)
         waves = self.backend.transforms.forward(residual)
         waves *= self._inverse_symbol
         return self.backend.transforms.inverse(waves, self.window.shape)
@@ -207,6 +250,8 @@ class ConvolutionOperator(ABC):
         and behind.  The energy that a pressure dissipates is the sum of their products with the coefficients.
         """
         nx, ny = self.window.shape
+        if self.backend.is_numpy and is_even(pressure):
+            return self._even_overlaps(upper_half(pressure))
         waves = self.backend.transforms.forward_padded(self.backend.asarray(pressure), self._padded)
         at_once = max(1, _CELLS_AT_ONCE // waves.shape[1])
         for start in range(0, waves.shape[0], at_once):
@@ -216,6 +261,18 @@ class ConvolutionOperator(ABC):
         folded: Array = np.concatenate([found[self._padded[0] - nx + 1 :, :ny], found[:nx, :ny]])
         folded[:, 1:] += folded[::-1, 1:]
         return folded
+
+    def _even_overlaps(self, half: Array) -> Array:
+        """Return the same of pressures that are even in y, of those at y > 0: with them the sums are even in x too."""
+        (nx, ny), (px, py) = self.window.shape, self.even._padded
+        threads = threads_for(px * py)
+        lines = scipy.fft.dct(half, 2, py, axis=1, workers=threads)
+        waves = scipy.fft.rfft(lines, px, axis=0, workers=threads)
+        squares = waves.real**2 + waves.imag**2
+        lines = scipy.fft.irfft(squares, px, axis=0, workers=threads)[:nx]
+        found = scipy.fft.idct(lines, 1, py + 1, axis=1, workers=threads)[:, :ny]
+        found[:, 1:] *= 2.0
+        return np.concatenate([found[:0:-1], found])
 
     def dissipated_force(self, pressure: Array) -> float:
         """Friction force from the energy that the material dissipates, per unit of distance slid.
@@ -237,33 +294,72 @@ class ConvolutionOperator(ABC):
         slope = self._convolve(symmetric, self.backend.asarray(pressure))
         return -self.window.cell_area * self.backend.to_numpy(slope)
 
-    def extension(self, dtype: Any) -> Extension | None:
-        """Return what extends residuals before they are preconditioned, in some precision.
+    def extension(self, dtype: Any, *, even: bool = False) -> Extension | None:
+        """Return what extends residuals before they are preconditioned, in some precision; `even`: for those at y > 0.
 
         None in small windows, where it would save nothing, in line contacts, and where cells have a compliance of their
         own: their displacement is discontinuous at the edge of a contact.
         """
         if min(self.window.shape) < _FEWEST_EXTENDED or self._is_damped:
             return None
-        late = -lag(self._inverse_symbol, self.window.shape[1], (1.0, 0.0))  # an inverse has the opposite loss angle
-        return Extension(self.backend, self.window.shape, dtype, (1.0, 0.0), late)
+        (nx, ny) = self.window.shape
+        late = -lag(self._inverse_symbol, ny, (1.0, 0.0))  # an inverse has the opposite loss angle
+        return Extension(self.backend, (nx, ny // 2 if even else ny), dtype, (1.0, 0.0), late, even=even)
 
     def transposed(self) -> Self:
         """Return the operator with the transposed matrix: the same influence, mirrored along the motion."""
-        mirrored = copy.copy(self)
-        mirrored.products = 0
-        mirrored._transfer = self.backend.xp.conj(self._transfer)
-        mirrored._inverse_symbol = self.backend.xp.conj(self._inverse_symbol)
-        return mirrored
+        return self._changed(self._displacement[::-1])
 
     def damped(self, compliance: float) -> Self:
         """Return the operator with a compliance of each cell by itself added: a multiple of its pressure."""
-        damped = copy.copy(self)
-        damped.products = 0
+        displacement = self._displacement.copy()
+        displacement[self.window.shape[0] - 1, 0] += compliance
+        damped = self._changed(displacement)
         damped._is_damped = True
-        damped._transfer = self._transfer + compliance
-        damped._inverse_symbol = self._inverse_symbol / (1.0 + compliance * self._inverse_symbol)
         return damped
+
+
+def solve_on_cells(
+    operator: ConvolutionOperator, height: Array, load: float | None, guess: Array, **settings: Any
+) -> ComplementaritySolution:
+    """Solve the contact problem as `solve_complementarity` does, with corrections in single precision on large windows.
+
+    Arguments as there, without `inner` and `extension`; the solution has NumPy's arrays.  Where the height is even in
+    y, so is the solution, since there is only one, and half of the cells are solved.
+    """
+    even = operator.backend.is_numpy and is_even(height)
+    if even:
+        height, guess, load = upper_half(height), upper_half(guess), None if load is None else 0.5 * load
+    solver = operator.even if even else operator
+    inner = solver.for_corrections()
+    extension = operator.extension(inner.dtype, even=even)
+    found = solve_complementarity(solver, height, load, guess, inner=inner, extension=extension, **settings)
+    found = found.on_numpy(operator.backend)
+    if not even:
+        return found
+    return replace(found, pressure=both_halves(found.pressure), displacement=both_halves(found.displacement))
+
+
+def is_even(values: Array) -> bool:
+    """Return whether values (nx, ny) on a window are even in y, but for rounding."""
+    if values.shape[1] % 2:
+        return False
+    upper, lower = upper_half(values), upper_half(values[:, ::-1])
+    other = upper != lower
+    if not other.any():
+        return True
+    difference = float(np.abs(upper[other] - lower[other]).max())
+    return difference <= _ROUNDING * float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+
+
+def upper_half(values: Array) -> Array:
+    """Return those of values (nx, ny) at y > 0."""
+    return np.ascontiguousarray(values[:, values.shape[1] // 2 :])
+
+
+def both_halves(values: Array) -> Array:
+    """Return all values (nx, ny) of those at y > 0."""
+    return np.concatenate([values[:, ::-1], values], axis=1)
 
 
 def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: float) -> Influence:

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from viscofric.arrays import Array, Mask
-from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
+from viscofric.contact.complementarity import ComplementaritySolution
 from viscofric.contact.free.grids import Grid, Window
+from viscofric.contact.operators.convolution import solve_on_cells
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.response import Response, StepOperator, step_operator
@@ -73,16 +74,13 @@ class Cells:
         if load is not None and load <= 0.0:
             return (np.zeros(self.grid.shape), whole, float(shape.min())), None
         operator = self._operator(self.setting.body.counterface / compliance if self.facing is not None else 0.0)
-        before = operator.products
-        inner = operator.for_corrections()
-        found = solve_complementarity(
+        found = solve_on_cells(
             operator, shape / whole, None if load is None else load / self.grid.cell_area,
             np.where(np.isfinite(shape), guess, 0.0),
             indentation=None if depth is None else depth / whole,
             tolerance=self.tolerance, depth=1.0, most_products=_MOST_PRODUCTS, patience=_PATIENCE,
-            inner=inner, extension=operator.extension(inner.dtype),
         )  # fmt: skip
-        self.products += operator.products - before
+        self.products += found.products
         if not found.converged:
             raise ConvergenceError(
                 f"a step did not converge on {self.grid.shape[0]} x {self.grid.shape[1]} cells: a gap of "
