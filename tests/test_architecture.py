@@ -46,7 +46,6 @@ ROOMS = {
         "thermal",
         "threads",
         "processes",
-        "limited_process",
         "serving",
         "lazy",
         "datasets",

@@ -21,8 +21,8 @@ from study import sweeps
 from viscofric import files
 from viscofric.errors import LONGEST_SENTENCE, DataFileError, StudyError, not_imported, shortened
 from viscofric.files import LARGEST_TABLE, insist_on_size, parse_toml
-from viscofric.limited_process import LimitedProcess
 from viscofric.notes import codes, warned
+from viscofric.processes import LimitedProcess
 from viscofric.readers.topography import package
 from viscofric.rheology.cards.card_files import LARGEST_CARD
 from viscofric.study.running.store import CaseStore, Damaged, _sealed

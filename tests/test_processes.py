@@ -15,8 +15,7 @@ import pytest
 
 from refusals import refused
 from viscofric.errors import ViscofricError
-from viscofric.limited_process import LimitedProcess
-from viscofric.processes import Workers, call_all
+from viscofric.processes import LimitedProcess, Workers, call_all
 
 ONES: list[dict[str, Any]] = [{"data": [1.0]}] * 4
 
@@ -53,6 +52,11 @@ def test_there_are_no_more_processes_than_calls(children: list[subprocess.Popen[
 
 def test_what_a_call_prints_does_not_get_between_the_results() -> None:
     assert call_all(pprint.pprint, [{"object": "lies"}] * 2, workers=2) == [None, None]
+
+
+def test_call_gets_no_input() -> None:
+    with pytest.raises(EOFError):
+        call_all(input, [{}] * 2, workers=2)
 
 
 def test_error_of_a_call_is_raised_here() -> None:
@@ -131,6 +135,14 @@ def test_workers_that_ended_are_reported_and_replaced(children: list[subprocess.
     assert all(child.returncode is not None for child in children)
 
 
+def test_worker_that_lacked_memory_is_replaced() -> None:
+    with Workers(2) as workers:
+        before = set(call_all(os.getpid, [{}] * 9, workers=workers))
+        with pytest.raises(MemoryError):
+            call_all(bytearray, [{"source": sys.maxsize}] * 2, workers=workers)
+        assert before.isdisjoint(call_all(os.getpid, [{}] * 9, workers=workers))
+
+
 @pytest.mark.slow
 def test_interrupted_workers_end_at_once_and_start_anew(children: list[subprocess.Popen[bytes]]) -> None:
     with Workers(2) as workers:
@@ -190,7 +202,7 @@ def test_script_need_not_guard_its_first_lines(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text(
         "import statistics\n"
-        "from viscofric.limited_process import LimitedProcess\n"
+        "from viscofric.processes import LimitedProcess\n"
         "from viscofric.processes import Workers, call_all\n"
         "with Workers(2) as workers:\n"
         "    for _ in range(2):\n"

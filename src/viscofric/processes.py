@@ -1,6 +1,8 @@
-"""Independent calls distributed over processes, with the same digits as in one process.
+"""Processes that carry out calls: several share them out, one has limits of time and memory.
 
-Starting a process takes most of a second, mainly for imports: `Workers` stay for several sets of calls.
+A `Child` is such a process, and `viscofric.serving` its other end.  Starting one takes most of a second, mainly for
+imports: `Workers` stay for several sets of calls, with the same digits as in one process, and a `LimitedProcess` for
+calls that may never end; those of the page are in `viscofric.web.children`.
 
 The processes are plain children that read calls from their standard input. Unlike with `multiprocessing`, the user's
 script needs no guard of its first lines, and a notebook need not be importable.
@@ -8,6 +10,7 @@ script needs no guard of its first lines, and a notebook need not be importable.
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import os
 import pickle
@@ -16,22 +19,139 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections import deque
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from types import TracebackType
-from typing import Any, Self, TypeAlias
+from typing import Any, NamedTuple, Self
 
 from viscofric.arguments import whole_number
 from viscofric.errors import InputError, ViscofricError
-from viscofric.threads import usable_threads
+from viscofric.threads import THREADS_VARIABLE, usable_threads
 
-Child: TypeAlias = subprocess.Popen[bytes]
-
-
-_SERVE = "from viscofric.serving import serve; serve({parent}, {needed!r}, {memory})"
+_SERVE = "from viscofric.serving import serve; serve({parent}, {needed!r}, {later!r}, {memory})"
 _ENDED = "a process ended before its contact was solved, usually for lack of memory; use fewer workers."
+#: Environment of a process whose BLAS has one thread.
+ONE_BLAS_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 # Waiting without a limit cannot be interrupted everywhere (Windows).
 _LONGEST_WAIT = 1.0  # s
+
+
+class Reply(NamedTuple):
+    """What a process says of a call."""
+
+    number: int | None  # of the call; None where the process ended
+    #: ``"told"`` before the end of the call, ``"result"``, ``"error"``, ``"not understood"`` or ``"ended"``
+    kind: str
+    value: Any  # of an error, the exception
+
+
+def message_of(function: Callable[..., Any] | str, call: dict[str, Any], tells: bool = False) -> bytes:
+    """Return a call as a process gets it.
+
+    The function, or its ``"module:name"``, is importable; with `tells`, it also gets an argument ``tell``, a function
+    whose calls become replies.
+    """
+    name = function if isinstance(function, str) else f"{function.__module__}:{function.__qualname__}"
+    return pickle.dumps((name, call, tells))
+
+
+class Child:
+    """A process that carries out calls, one at a time.
+
+    It imports the module `needed` at once and those of `later` where it has nothing to do.  `memory` limits its
+    address space in bytes, unless it is zero.  With `group`, what it started ends with it.
+    """
+
+    def __init__(
+        self,
+        environment: Mapping[str, str],
+        needed: str = "",
+        later: Sequence[str] = (),
+        memory: int = 0,
+        group: bool = False,
+    ) -> None:
+        program = _SERVE.format(parent=os.getpid(), needed=needed, later=later, memory=memory)
+        path = os.pathsep.join(path for path in sys.path if path)
+        with _interrupts_wait():
+            self.process = subprocess.Popen(
+                # -P: modules in the working folder must not replace those of this process
+                [sys.executable, "-P", "-c", program],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                # what libraries print as the memory of their process ends is said by the error of the call
+                stderr=subprocess.DEVNULL if memory else None,
+                env={**os.environ, **environment, "PYTHONPATH": path},
+                start_new_session=group,
+                creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # no window under Windows
+            )
+        self._group = group
+        self.stays = True
+
+    @property
+    def alive(self) -> bool:
+        """Whether it still runs and can be used further."""
+        return self.stays and self.process.poll() is None
+
+    def send(self, number: int, message: bytes | None) -> None:
+        """Send a call, or None to interrupt it; if the process ended, its replies say so."""
+        assert self.process.stdin is not None
+        with contextlib.suppress(OSError, ValueError):
+            self.process.stdin.write(pickle.dumps((number, message)))
+            self.process.stdin.flush()
+
+    def replies(self) -> Iterator[Reply]:
+        """Yield its replies until it ended."""
+        assert self.process.stdout is not None
+        with contextlib.suppress(
+            OSError, EOFError, ValueError, TypeError, AttributeError, ImportError, pickle.UnpicklingError
+        ):
+            while True:
+                number, kind, stays, value = pickle.load(self.process.stdout)
+                reply = Reply(number, kind, pickle.loads(value))
+                self.stays = self.stays and stays
+                yield reply
+        self.kill()
+        self.process.wait()
+        yield Reply(None, "ended", ViscofricError(_ENDED, code="process-ended"))
+
+    def call(self, message: bytes) -> Reply:
+        """Have it carry out a call, and wait for the end of it."""
+        self.send(0, message)
+        return next(self.replies())
+
+    def kill(self) -> None:
+        """End it at once."""
+        self.stays = False
+        with contextlib.suppress(OSError):
+            if self._group and sys.platform != "win32" and self.process.poll() is None:
+                os.killpg(self.process.pid, signal.SIGKILL)
+        with contextlib.suppress(OSError):
+            self.process.kill()
+
+    def close(self) -> None:
+        """End it, and wait for its end."""
+        self.kill()
+        self.process.wait()
+        for pipe in (self.process.stdin, self.process.stdout):
+            with contextlib.suppress(OSError):
+                pipe.close()  # type: ignore[union-attr]
+
+
+@contextlib.contextmanager
+def _interrupts_wait() -> Iterator[None]:
+    """Delay an interrupt, and hide it from a process that is being started: only this process handles it.
+
+    A terminal sends it to all of them, including those that cannot ignore it yet.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 class Workers:
@@ -89,65 +209,24 @@ class Workers:
         try:
             while len(lent) < count:
                 child = self._idle.pop() if self._idle else self._start()
-                if child.poll() is None:
+                if child.alive:
                     lent.append(child)
             yield lent
         except BaseException:
             for child in lent:
-                end(child)
+                child.close()
             raise
-        self._idle += lent
+        for child in lent:
+            if child.alive:
+                self._idle.append(child)
+            else:
+                child.close()
 
     def _start(self) -> Child:
         assert self._started is not None
-        child = started(self._needed, VISCOFRIC_FFT_THREADS=str(max(1, usable_threads() // self.number)))
-        self._started.callback(end, child)
+        child = Child({THREADS_VARIABLE: str(max(1, usable_threads() // self.number))}, self._needed)
+        self._started.callback(child.close)
         return child
-
-
-def started(needed: str, memory: int = 0, **environment: str) -> Child:
-    """Start a process that serves calls; with a limit of its address space in bytes, unless it is zero."""
-    program = _SERVE.format(parent=os.getpid(), needed=needed, memory=memory)
-    path = os.pathsep.join(path for path in sys.path if path)
-    with _interrupts_wait():
-        return subprocess.Popen(
-            # -P: modules in the working folder must not replace those of this process
-            [sys.executable, "-P", "-c", program],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            # what libraries print as the memory of their process ends is said by the error of the call
-            stderr=subprocess.DEVNULL if memory else None,
-            env={**os.environ, **environment, "PYTHONPATH": path},
-            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),  # no window under Windows
-        )
-
-
-def reply_of(child: Child, message: bytes) -> tuple[str, Any]:
-    """Send a call to a process, and return the kind of its end and the value."""
-    assert child.stdin is not None
-    assert child.stdout is not None
-    try:
-        pickle.dump(message, child.stdin)
-        child.stdin.flush()
-        return pickle.loads(pickle.load(child.stdout))  # type: ignore[no-any-return]
-    except (OSError, EOFError, ValueError, TypeError, AttributeError, ImportError, pickle.UnpicklingError):
-        return "ended", ViscofricError(_ENDED, code="process-ended")
-
-
-@contextlib.contextmanager
-def _interrupts_wait() -> Iterator[None]:
-    """Delay an interrupt, and hide it from a process that is being started: only this process handles it.
-
-    A terminal sends it to all of them, including those that cannot ignore it yet.
-    """
-    if not hasattr(signal, "pthread_sigmask"):  # Windows
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def at_work(workers: int | Workers) -> contextlib.AbstractContextManager[Workers]:
@@ -168,27 +247,18 @@ def call_all(
     called in this process with the number of finished calls.  Of the errors of several calls the first in order is
     raised, and no further calls are begun.  An interrupt ends the processes at once.
     """
-    if not isinstance(workers, Workers):
-        with Workers(workers) as alone:
-            return call_all(function, calls, workers=alone, progress=progress)
-    count = min(workers.number, len(calls))
-    if count <= 1:
-        results = []
-        for call in calls:
-            results.append(function(**call))
-            if progress is not None:
-                progress(len(results))
-        return results
-    shared = _SharedCalls(function, calls, workers)
     found: dict[int, Any] = {}
     failures: dict[int, BaseException] = {}
-    with workers._children(count) as children:
-        for index, kind, value in shared.replies(children):
+    with (
+        at_work(workers) as processes,
+        contextlib.closing(_replies(function, calls, processes, tries=1, stops=True)) as replies,
+    ):
+        for index, kind, value in replies:
             if kind == "result":
                 found[index] = value
                 if progress is not None:
                     progress(len(found))
-            elif kind == "error":
+            elif kind != "begun":
                 failures[index] = value
     if failures:
         raise failures[min(failures)]
@@ -205,40 +275,39 @@ def as_they_come(
     others, and a process that ended is replaced by another, which repeats its call.  An interrupt, or closing the
     iterator, ends the processes at once.
     """
+    return _replies(function, calls, workers, tries, stops=False)
+
+
+def _replies(
+    function: Callable[..., Any], calls: Sequence[dict[str, Any]], workers: Workers, tries: int, stops: bool
+) -> Generator[tuple[int, str, Any]]:
+    """Yield begin and end of calls, see `as_they_come`; with `stops`, none is begun after one that failed."""
     count = min(workers.number, len(calls))
-    if count <= 1:
-        for index, call in enumerate(calls):
-            yield index, "begun", None
-            try:
-                value = function(**call)
-            except Exception as error:  # noqa: BLE001 - it is yielded
-                yield index, "error", error
-            else:
-                yield index, "result", value
+    if count > 1:
+        shared = _SharedCalls(function, calls, workers, tries, stops)
+        with workers._children(count) as children:
+            yield from shared.replies(children)
         return
-    shared = _SharedCalls(function, calls, workers, tries=tries, stops=False)
-    with workers._children(count) as children:
-        yield from shared.replies(children)
+    for index, call in enumerate(calls):
+        yield index, "begun", None
+        try:
+            value = function(**call)
+        except Exception as error:  # noqa: BLE001 - it is yielded
+            yield index, "error", error
+            if stops:
+                return
+        else:
+            yield index, "result", value
 
 
 class _SharedCalls:
-    """Calls given to some processes one after the other, by one thread for each process.
-
-    A call whose process ended is repeated by another one, until `tries` ended.  With `stops`, none is begun after
-    one that failed.
-    """
+    """Calls given to some processes one after the other, by one thread for each process."""
 
     def __init__(
-        self,
-        function: Callable[..., Any],
-        calls: Sequence[dict[str, Any]],
-        workers: Workers,
-        tries: int = 1,
-        stops: bool = True,
+        self, function: Callable[..., Any], calls: Sequence[dict[str, Any]], workers: Workers, tries: int, stops: bool
     ) -> None:
-        name = f"{function.__module__}:{function.__qualname__}"
         try:
-            self.messages = [pickle.dumps((name, call)) for call in calls]
+            self.messages = [message_of(function, call) for call in calls]
         except (pickle.PicklingError, AttributeError, TypeError) as error:
             raise _not_sent(workers.number, error) from None
         self.workers, self.stops = workers, stops
@@ -251,7 +320,7 @@ class _SharedCalls:
     def replies(self, children: list[Child]) -> Iterator[tuple[int, str, Any]]:
         """Yield begin and end of the calls, until no process is busy any more."""
         self.children = children
-        threads = [threading.Thread(target=self._keep_busy, args=(child,), daemon=True) for child in children]
+        threads = [threading.Thread(target=self._keep_busy, args=(n,), daemon=True) for n in range(len(children))]
         outstanding = len(self.messages)
         try:
             for thread in threads:
@@ -260,53 +329,40 @@ class _SharedCalls:
                 with contextlib.suppress(queue.Empty):
                     index, kind, value = self.events.get(timeout=_LONGEST_WAIT)
                     outstanding -= kind != "begun"
-                    yield index, "error" if kind == "ended" and self.stops else kind, value
-            if outstanding and not self.stops:
+                    yield index, kind, value
+            if self.waiting:
                 raise ViscofricError(_ENDED, code="process-ended")
         finally:
             with self.lock:
                 self.closed = True
 
-    def _next(self) -> int | None:
+    def _next(self, place: int) -> int | None:
+        """Take a call for a process, which is replaced if it ended; None if there is no call or no process."""
         with self.lock:
-            return self.waiting.popleft() if self.waiting and not self.closed else None
+            if not self.waiting or self.closed:
+                return None
+            if not self.children[place].alive:
+                self.children[place].close()
+                try:
+                    self.children[place] = self.workers._start()
+                except OSError:
+                    return None
+            return self.waiting.popleft()
 
-    def _keep_busy(self, child: Child | None) -> None:
-        while child is not None and (index := self._next()) is not None:
+    def _keep_busy(self, place: int) -> None:
+        while (index := self._next(place)) is not None:
             self.events.put((index, "begun", None))
-            kind, value = self._ask(child, index)
-            if kind == "ended":
-                self.tries_left[index] -= 1
-                child = self._replaced(child)
-                if self.tries_left[index] and child is not None:
+            _, kind, value = self.children[place].call(self.messages[index])
+            if kind == "not understood":
+                kind, value = "error", _not_sent(self.workers.number, value)
+            with self.lock:
+                self.tries_left[index] -= kind == "ended"
+                if kind == "ended" and self.tries_left[index]:
                     self.waiting.appendleft(index)
                     continue
-            self._stop_after(kind)
+                if self.stops and kind != "result":
+                    self.waiting.clear()
             self.events.put((index, kind, value))
-
-    def _stop_after(self, kind: str) -> None:
-        if self.stops and kind != "result":
-            with self.lock:
-                self.waiting.clear()
-
-    def _ask(self, child: Child, index: int) -> tuple[str, Any]:
-        kind, value = reply_of(child, self.messages[index])
-        if kind == "not understood":
-            return "error", _not_sent(self.workers.number, value)
-        return kind, value
-
-    def _replaced(self, child: Child) -> Child | None:
-        """Return another process in place of one that ended; None if none can be started or is needed."""
-        child.kill()
-        child.wait()
-        with self.lock:
-            if self.closed or self.stops:
-                return None
-            try:
-                self.children[self.children.index(child)] = fresh = self.workers._start()
-            except OSError:
-                return None
-            return fresh
 
 
 def _not_sent(workers: int, reason: object) -> InputError:
@@ -316,10 +372,67 @@ def _not_sent(workers: int, reason: object) -> InputError:
     )
 
 
-def end(child: Child) -> None:
-    """Kill a process, and wait for its end."""
-    child.kill()
-    child.wait()
-    for pipe in (child.stdin, child.stdout):
-        with contextlib.suppress(OSError):
-            pipe.close()  # type: ignore[union-attr]
+class LimitedProcess:
+    """A process for calls that may never end or fill the memory; it starts with the first call and is kept.
+
+    A call has limits of time in `seconds` and, if the system has it (Windows has not), of `memory` in bytes of address
+    space; the module `needed` is imported when the process starts.  Calls from several threads each get their own
+    process; one of these is kept.
+    """
+
+    def __init__(self, seconds: float, memory: int, needed: str = "") -> None:
+        self.seconds, self.memory, self.needed = seconds, memory, needed
+        self._idle: deque[Child] = deque(maxlen=1)
+        self._owner = 0
+
+    def call(self, function: Callable[..., Any], **arguments: Any) -> Any:
+        """Call a function, which is importable by its name, with arguments that can be pickled.
+
+        Raises TimeoutError beyond the limit of time; MemoryError beyond that of memory, or if the process ends for
+        another reason; OSError if it cannot be started; and what the call raises.
+        """
+        message = message_of(function, arguments)
+        # of several threads, each takes address space
+        child = self._free() or Child(ONE_BLAS_THREAD, self.needed, memory=self.memory)
+        latest = time.monotonic() + self.seconds
+        alarm = threading.Timer(self.seconds, child.kill)
+        alarm.daemon = True
+        alarm.start()
+        try:
+            _, kind, value = child.call(message)
+        except BaseException:
+            child.close()
+            raise
+        finally:
+            alarm.cancel()
+        if not child.stays:
+            child.close()
+            raise TimeoutError if time.monotonic() >= latest else MemoryError
+        self._keep(child)
+        if kind != "result":
+            raise value if kind == "error" else InputError(value, code="not-picklable")
+        return value
+
+    def _free(self) -> Child | None:
+        if self._owner != os.getpid():  # a fork must not use the process of its parent
+            for child in self._idle:
+                child.process.returncode = 0
+            self._idle.clear()
+            self._owner = os.getpid()
+            atexit.register(self.close)
+        with contextlib.suppress(IndexError):
+            child = self._idle.pop()
+            if child.alive:
+                return child
+        return None
+
+    def _keep(self, child: Child) -> None:
+        if self._idle:
+            child.close()
+        else:
+            self._idle.append(child)
+
+    def close(self) -> None:
+        """End the idle process."""
+        while self._idle:
+            self._idle.pop().close()

@@ -1,90 +1,177 @@
-"""The other end of `viscofric.processes`: a process that replies to the calls of another."""
+"""The other end of `viscofric.processes`: a process that carries out the calls of another, one at a time.
+
+Each order on the standard input is a pair, pickled: the number of a call, and the call or, to interrupt it, None.  Each
+reply is the number, the kind, whether this process can be used further, and a value, which is pickled separately.
+"""
 
 from __future__ import annotations
 
+import _thread
 import contextlib
 import os
 import pickle
+import queue
 import signal
 import sys
 import threading
-import time
+import traceback
 from importlib import import_module
+from typing import TYPE_CHECKING, Any, BinaryIO, Literal
 
 from viscofric.errors import ViscofricError
 
-_CHECK_INTERVAL = 0.5  # s
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+    from types import TracebackType
+
+_IDLE = 2.0  # s without a call, after which what later calls need is imported
 
 
-def serve(parent: int, needed: str = "", memory: int = 0) -> None:
-    """Answer calls from standard input on standard output until there are no more, in a separate process."""
+def serve(parent: int, needed: str = "", later: Sequence[str] = (), memory: int = 0) -> None:
+    """Carry out calls until the standard input closes, in a process of its own that `parent` started."""
     if memory:
-        limit_memory(memory)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the calling process handles interrupts
-    if sys.platform != "win32":  # an orphaned process gets another parent
-        threading.Thread(target=_end_with, args=(parent,), daemon=True).start()
-    replies = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # printed text must not mix with the replies
+        limit("AS", memory)
+    # those of the terminal do not come here, see `viscofric.processes`; the calling process may ignore them
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    desk = _Desk(*_taken_pipes())
     if needed:
         import_module(needed)
+    left = list(later)
     while True:
+        # an interrupt that came as its call ended reaches the loop; there is nothing left to interrupt then
+        with contextlib.suppress(KeyboardInterrupt):
+            try:
+                number, message = desk.calls.get(timeout=_IDLE)
+            except queue.Empty:
+                if sys.platform != "win32" and os.getppid() != parent:  # also where a fork keeps its pipes open
+                    _end()
+                if left:
+                    with contextlib.suppress(ImportError, MemoryError):  # the call that needs it says so
+                        import_module(left.pop(0))
+            else:
+                desk.carry_out(number, message)
+
+
+def _taken_pipes() -> tuple[BinaryIO, BinaryIO]:
+    """Return what orders and replies pass through; calls get an empty input, and what they print goes with errors."""
+    orders, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    nowhere = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nowhere, 0)
+    os.close(nowhere)
+    os.dup2(2, 1)
+    return orders, replies
+
+
+class _Desk:
+    """Where calls come in and replies go out, each by its own thread, so that an interrupt splits no reply."""
+
+    def __init__(self, orders: BinaryIO, replies: BinaryIO) -> None:
+        self.calls: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
+        self._replies: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        self._lock = threading.Lock()
+        self._at_work: int | None = None  # number of the call that may be interrupted
+        self._interrupted: int | None = None
+        for work, pipe in ((self._listen, orders), (self._write, replies)):
+            threading.Thread(target=work, args=(pipe,), daemon=True).start()
+
+    def _listen(self, orders: BinaryIO) -> None:
+        """Take in calls and wishes to interrupt them; end everything once nobody can wish any more."""
         try:
-            message = pickle.load(sys.stdin.buffer)
-        except EOFError:
-            return
+            while True:
+                number, message = pickle.load(orders)
+                if message is not None:
+                    self.calls.put((number, message))
+                    continue
+                with self._lock:
+                    self._interrupted = number
+                    if self._at_work == number:
+                        _thread.interrupt_main()
+        finally:
+            _end()
+
+    def _write(self, replies: BinaryIO) -> None:
         try:
-            pickle.dump(_reply(message), replies)
-            replies.flush()
-        except BrokenPipeError:  # the calling process closed its end
-            os._exit(1)
+            while True:
+                replies.write(self._replies.get())
+                replies.flush()
+        finally:  # nobody reads any more
+            _end()
+
+    def carry_out(self, number: int, message: bytes) -> None:
+        """Make the call of a message and send its end."""
+        try:
+            with self._interruptible(number):
+                reply = _reply(message, lambda told: self._send(number, "told", True, pickle.dumps(told)))
+        except KeyboardInterrupt as stop:
+            reply = "error", not _was_importing(stop.__traceback__), pickle.dumps(KeyboardInterrupt())
+        self._send(number, *reply)
+
+    def _send(self, *reply: Any) -> None:
+        self._replies.put(pickle.dumps(reply))
+
+    @contextlib.contextmanager
+    def _interruptible(self, number: int) -> Iterator[None]:
+        with self._lock:
+            if number == self._interrupted:
+                raise KeyboardInterrupt
+            self._at_work = number
+        try:
+            yield
+        finally:
+            with self._lock:  # an interrupt on its way comes here, not to the next call
+                self._at_work = None
 
 
-def limit_memory(most: int) -> None:
-    """Limit the address space of this process, in bytes, if the system can; calls that need more fail."""
-    if sys.platform == "win32":
-        return
-    import resource
-
-    _, hard = resource.getrlimit(resource.RLIMIT_AS)
-    with contextlib.suppress(OSError, ValueError):
-        resource.setrlimit(resource.RLIMIT_AS, (at_most(most, hard), hard))
-
-
-def at_most(wanted: int, hard: int) -> int:
-    """Return a limit that the system, which may have a lower one already, accepts."""
-    return wanted if hard < 0 else min(wanted, hard)  # below zero: no limit
-
-
-def _end_with(parent: int) -> None:
-    """End this process soon after its parent ended."""
-    while os.getppid() == parent:
-        time.sleep(_CHECK_INTERVAL)
-    os._exit(1)
-
-
-def _reply(message: bytes) -> bytes:
-    """Make the call of a message, and return the kind of its end and the value, pickled."""
+def _reply(message: bytes, tell: Callable[[Any], None]) -> tuple[str, bool, bytes]:
+    """Make the call of a message; return the kind of its end, whether this process stays, and the value, pickled."""
     try:
-        name, call = pickle.loads(message)
+        name, call, tells = pickle.loads(message)
         module, _, function = name.partition(":")
         called = getattr(import_module(module), function)
     except (AttributeError, ImportError) as error:
-        return pickle.dumps(("not understood", str(error)))
+        return "not understood", True, pickle.dumps(str(error))
     try:
-        result = called(**call)
+        result = called(**call, tell=tell) if tells else called(**call)
     except Exception as error:  # noqa: BLE001 - it is raised again in the calling process
-        return _pickled(error)
+        # one that lacked memory may be damaged
+        return "error", not isinstance(error, MemoryError), _pickled(error)
     try:
-        return pickle.dumps(("result", result))
+        return "result", True, pickle.dumps(result)
     except (pickle.PicklingError, AttributeError, TypeError) as error:
-        return pickle.dumps(("not understood", str(error)))
+        return "not understood", True, pickle.dumps(str(error))
 
 
 def _pickled(error: Exception) -> bytes:
     """Return an exception pickled, or its sentence if its class cannot be pickled and restored."""
     try:
-        reply = pickle.dumps(("error", error))
+        reply = pickle.dumps(error)
         pickle.loads(reply)
     except Exception:  # noqa: BLE001 - restoring it may raise anything
-        return pickle.dumps(("error", ViscofricError(f"{type(error).__name__}: {error}")))
+        return pickle.dumps(ViscofricError(f"{type(error).__name__}: {error}"))
     return reply
+
+
+def _was_importing(trace: TracebackType | None) -> bool:
+    """Whether an interrupt came while a module was loaded, which may be left half done."""
+    codes = [frame.f_code for frame, _ in traceback.walk_tb(trace)]
+    return any(code.co_name == "<module>" or "importlib._bootstrap" in code.co_filename for code in codes)
+
+
+def _end() -> None:
+    """End this process at once, and those that it started if it leads their group."""
+    if sys.platform != "win32" and os.getpgrp() == os.getpid():
+        os.killpg(os.getpgrp(), signal.SIGKILL)
+    os._exit(1)
+
+
+def limit(what: Literal["AS", "FSIZE"], most: int) -> None:
+    """Limit this process's address space or each of its files, in bytes, if the system can; what needs more fails."""
+    if sys.platform == "win32":
+        return
+    import resource
+
+    kind = getattr(resource, f"RLIMIT_{what}")
+    _, hard = resource.getrlimit(kind)
+    with contextlib.suppress(OSError, ValueError):
+        # the system, which may have a lower limit already, accepts no higher one; below zero: there is none
+        resource.setrlimit(kind, (most if hard < 0 else min(most, hard), hard))

@@ -14,7 +14,7 @@ from readers.refusal import noted, refused
 from readers.samples.workbook import HEADER, one_sheet, rows, write
 from viscofric import read_dma, read_friction_curves
 from viscofric.errors import DataFileError
-from viscofric.limited_process import LimitedProcess
+from viscofric.processes import LimitedProcess
 from viscofric.readers import parse_workbook, workbook
 from viscofric.readers.source import Source
 

@@ -31,8 +31,7 @@ def odd_jobs(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setitem(module.KINDS, "short", Kind("web.odd_jobs", seconds=0.5))
     monkeypatch.setitem(module.KINDS, "narrow", Kind("web.odd_jobs", memory=1024 * MB))
     # without what contacts need, which takes most of a second to load
-    cold = "from viscofric.web.child import main; main({parent}, warm=())"
-    monkeypatch.setattr(module, "_PROGRAM", cold)
+    monkeypatch.setattr(module, "WARM", ())
     (tmp_path / "a" / "downloads").mkdir(parents=True)
 
 
@@ -91,7 +90,7 @@ def bench(tmp_path: Path) -> Iterator[Callable[..., Any]]:
         return run_apart(all_of_it())
 
     yield run
-    assert ended(started_by(os.getpid(), "viscofric.web.child"), within=LONG)
+    assert ended(started_by(os.getpid(), "viscofric.serving"), within=LONG)
 
 
 def test_job_is_queued_started_reported_and_answered(bench: Callable[..., Any]) -> None:

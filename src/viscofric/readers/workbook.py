@@ -9,7 +9,7 @@ from weakref import WeakKeyDictionary
 
 from viscofric.errors import DataFileError
 from viscofric.files import insist_on_size
-from viscofric.limited_process import LimitedProcess
+from viscofric.processes import LimitedProcess
 from viscofric.readers.parse_workbook import parsed
 
 if TYPE_CHECKING:

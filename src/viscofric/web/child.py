@@ -1,197 +1,87 @@
-"""A process that computes for the page: jobs come on its standard input, and it ends when that closes.
-
-Each line of the input is a JSON object: a job, or the wish to have one cancelled.  Each reply is a line with the job's
-number, the event, whether this process stays after it, and a number of bytes, and then as many bytes of JSON.
-`viscofric.web.children` is the other end.
-"""
+"""What the processes that compute for the page do; `viscofric.web.children` hands them their jobs."""
 
 from __future__ import annotations
 
-import _thread
 import contextlib
 import json
 import os
-import queue
 import signal
 import sys
-import threading
 import time
 import traceback
-from collections.abc import Iterable
-from functools import partial
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
-from types import TracebackType
-from typing import Any, BinaryIO
+from typing import Any
 
 from viscofric.datasets import plain
 from viscofric.errors import ViscofricError, brief
-from viscofric.serving import at_most, limit_memory
-from viscofric.web.jobs import LATER, WARM
+from viscofric.serving import limit
+from viscofric.web.jobs import Kind
 from viscofric.web.jobs.context import Context, beside_field
 from viscofric.web.study_files import check_confined
 
 #: What is sent at once may have this many bytes: a browser is not to be handed more.
 LARGEST_MESSAGE = 48_000_000
 _LARGEST_FILE = 200_000_000  # bytes, of one that a job writes
-_NO_MEMORY = "There was not enough memory for this; request less accuracy or fewer points."
 _DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG of Linux
 _NICE = 5  # the server and the browser go first
-_IDLE = 2.0  # s without a job, after which what later jobs need is imported
 
 
-def main(parent: int, warm: Iterable[str] = WARM) -> None:
-    """Do jobs until the standard input closes, in a process of its own whose `parent` hands them out."""
-    _end_with(parent)
-    orders, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
-    _keep_from_jobs()
-    desk = Desk(replies)
-    threading.Thread(target=desk.listen, args=(orders,), daemon=True).start()
-    for module in warm:
-        import_module(module)
-    desk.send(0, "ready", {})
-    later = list(LATER)
-    while True:
-        # an interrupt that came as its job ended reaches the loop; there is nothing left to interrupt then
-        with contextlib.suppress(KeyboardInterrupt):
-            try:
-                job = desk.jobs.get(timeout=_IDLE if later else None)
-            except queue.Empty:
-                with contextlib.suppress(ImportError, MemoryError):  # the job that needs it says so
-                    import_module(later.pop(0))
-            else:
-                desk.work(job)
-
-
-def _end_with(parent: int) -> None:
-    """Have the system end this process with its parent, even where a long call keeps all threads waiting."""
-    if sys.platform == "win32":
-        return
-    with contextlib.suppress(OSError, AttributeError):
-        os.nice(_NICE)
+def prepare(modules: Sequence[str]) -> None:
+    """Prepare this process for jobs, and import what they need."""
+    if sys.platform != "win32":
+        with contextlib.suppress(OSError, AttributeError):
+            os.nice(_NICE)
     if sys.platform == "linux":
         import ctypes
 
+        # the system ends it with its parent, even where a long call keeps all threads waiting
         with contextlib.suppress(OSError, AttributeError):
             ctypes.CDLL(None).prctl(_DIES_WITH_PARENT, signal.SIGKILL)
-    if os.getppid() != parent:
-        os._exit(1)
+    limit("FSIZE", _LARGEST_FILE)
+    for module in modules:
+        import_module(module)
 
 
-def _keep_from_jobs() -> None:
-    """Leave jobs an empty standard input; what they print goes where errors go."""
-    nowhere = os.open(os.devnull, os.O_RDONLY)
-    os.dup2(nowhere, 0)
-    os.close(nowhere)
-    os.dup2(2, 1)
-    if sys.platform != "win32":
-        import resource
-
-        _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (at_most(_LARGEST_FILE, most), most))
-
-
-class Desk:
-    """Where jobs come in and replies go out, each by a thread of its own, so that an interrupt splits no reply."""
-
-    def __init__(self, replies: BinaryIO) -> None:
-        self.jobs: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
-        self._replies: queue.SimpleQueue[bytes] = queue.SimpleQueue()
-        self._lock = threading.Lock()
-        self._at_work: int | None = None  # number of the job that may be interrupted
-        self._cancelled: set[int] = set()
-        threading.Thread(target=self._write, args=(replies,), daemon=True).start()
-
-    def listen(self, orders: BinaryIO) -> None:
-        """Take in jobs and wishes to cancel them; end everything once nobody can wish any more."""
-        for line in orders:
-            order = json.loads(line)
-            if "cancel" not in order:
-                self.jobs.put(order)
-                continue
-            with self._lock:
-                self._cancelled = {order["cancel"]}
-                if self._at_work == order["cancel"]:
-                    _thread.interrupt_main()
-        end_all()
-
-    def _write(self, replies: BinaryIO) -> None:
-        while True:
-            message = self._replies.get()
-            try:
-                replies.write(message)
-                replies.flush()
-            except OSError:  # nobody reads any more
-                end_all()
-            if not message:
-                os._exit(0)
-
-    def send(
-        self, number: int, event: str, message: dict[str, Any], stays: bool = True, files: Path | None = None
-    ) -> None:
-        """Send a message of a job, in which its files are named without their folder."""
-        body = _json({"event": event, **message}, files)
-        if len(body) > LARGEST_MESSAGE:
-            raise ViscofricError(
-                f"The reply has {len(body) / 1e6:.0f} MB, more than is sent to a browser "
-                f"({LARGEST_MESSAGE / 1e6:.0f} MB); request fewer points.",
-                code="too-large",
-            )
-        self._replies.put(f"{number} {event} {'stays' if stays else 'ends'} {len(body)}\n".encode() + body)
-
-    def work(self, job: dict[str, Any]) -> None:
-        """Do a job and send its result or its error."""
-        number, files = job["job"], Path(job["folder"]) / "files"
-        send = partial(self.send, number, files=files)
-        stays = True
-        try:
-            with self._interruptible(number):
-                send("result", {"result": _result(job, send)})
-        except KeyboardInterrupt as stop:
-            stays = not _was_importing(stop.__traceback__)
-            send("cancelled", {}, stays)
-        except BaseException as error:  # noqa: BLE001 - the page shows it
-            stays = not isinstance(error, MemoryError)
-            send("error", _error_of(error, files), stays)
-        if not stays:
-            self._replies.put(b"")
-            threading.Event().wait()
-
-    @contextlib.contextmanager
-    def _interruptible(self, number: int) -> Any:
-        with self._lock:
-            if number in self._cancelled:
-                raise KeyboardInterrupt
-            self._at_work = number
-        try:
-            yield
-        finally:
-            with self._lock:  # an interrupt on its way comes here, not to the next job
-                self._at_work = None
+def do(
+    kind: Kind, study: dict[str, Any], options: dict[str, Any], folder: Path, tell: Callable[[bytes], None]
+) -> bytes:
+    """Do a job and return its result or its error, a line of JSON as what is told before; files lose their folder."""
+    files = folder / "files"
+    try:
+        limit("AS", kind.memory)
+        module = import_module(kind.module)
+        check_confined(study)
+        look_after(folder / "cache")
+        context = Context(
+            files, folder / "downloads", folder / "cache", lambda event, more: tell(_line(event, more, files))
+        )
+        result = module.run(study, module.Options.model_validate(options), context)
+        return _line("result", {"result": result}, files)
+    except (KeyboardInterrupt, MemoryError):
+        raise
+    except BaseException as error:  # noqa: BLE001 - the page shows it
+        return _line("error", _error_of(error, files), files)
 
 
-def _result(job: dict[str, Any], send: Any) -> Any:
-    limit_memory(job["memory"])
-    module = import_module(job["module"])
-    check_confined(job["study"])
-    folder = Path(job["folder"])
-    look_after(folder / "cache")
-    context = Context(folder / "files", folder / "downloads", folder / "cache", send)
-    return module.run(job["study"], module.Options.model_validate(job["options"]), context)
+def _line(event: str, message: dict[str, Any], files: Path) -> bytes:
+    body = _json({"event": event, **message}, files)
+    if len(body) > LARGEST_MESSAGE:
+        raise ViscofricError(
+            f"The reply has {len(body) / 1e6:.0f} MB, more than is sent to a browser "
+            f"({LARGEST_MESSAGE / 1e6:.0f} MB); request fewer points.",
+            code="too-large",
+        )
+    return body
 
 
-def _json(message: dict[str, Any], files: Path | None) -> bytes:
+def _json(message: dict[str, Any], files: Path) -> bytes:
     try:
         text = json.dumps(message, allow_nan=False, separators=(",", ":"))
     except (TypeError, ValueError):
         text = json.dumps(plain(message, digits=None), allow_nan=False, separators=(",", ":"))
-    return (text if files is None else _without_folder(text, files)).encode() + b"\n"
-
-
-def _was_importing(trace: TracebackType | None) -> bool:
-    """Whether an interrupt came while a module was loaded, which may be left half done."""
-    codes = [frame.f_code for frame, _ in traceback.walk_tb(trace)]
-    return any(code.co_name == "<module>" or "importlib._bootstrap" in code.co_filename for code in codes)
+    return _without_folder(text, files).encode() + b"\n"
 
 
 def _error_of(error: BaseException, files: Path) -> dict[str, Any]:
@@ -205,8 +95,6 @@ def _error_of(error: BaseException, files: Path) -> dict[str, Any]:
             "problems": problems or [{"field": error.field, "message": words}],
             "values": dict(error.note.values),
         }
-    if isinstance(error, MemoryError):
-        return {"message": _NO_MEMORY, "code": "no-memory", "field": None}
     if type(error).__name__ == "ValidationError" and hasattr(error, "errors"):
         first = error.errors()[0]
         place = ".".join(["options", *map(str, first["loc"])])
@@ -223,13 +111,6 @@ def _without_folder(text: str, files: Path) -> str:
         beginning = f"{folder}{os.sep}"
         text = text.replace(json.dumps(beginning)[1:-1], "").replace(beginning, "")
     return text
-
-
-def end_all() -> None:
-    """End this process at once, and those that it started."""
-    if sys.platform != "win32" and os.getpgrp() == os.getpid():
-        os.killpg(os.getpgrp(), signal.SIGKILL)
-    os._exit(1)
 
 
 _MOST_BYTES = 300_000_000  # of a workspace

@@ -6,30 +6,18 @@ import asyncio
 import contextlib
 import itertools
 import json
-import os
-import signal
-import subprocess
-import sys
 import threading
 import time
-from collections import deque
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-from viscofric.web.jobs import KINDS
+from viscofric.processes import ONE_BLAS_THREAD, Child, Reply, message_of
+from viscofric.web.jobs import KINDS, LATER, WARM, Kind
 
-_PROGRAM = "from viscofric.web.child import main; main({parent})"
-_ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-_LONGEST_END = 1.0  # s that its last words may take
 _ENDED = "The process that computed this ended, usually for lack of memory; request less accuracy or fewer points."
-
-
-class Message(NamedTuple):
-    """What a process says of a job: the event, and all of it as a line of JSON."""
-
-    event: str
-    line: bytes
+_NO_MEMORY = "There was not enough memory for this; request less accuracy or fewer points."
+_PREPARING = 0  # number of the call in which a process loads what jobs need
 
 
 def line(event: str, **more: Any) -> bytes:
@@ -37,87 +25,41 @@ def line(event: str, **more: Any) -> bytes:
     return json.dumps({"event": event, **more}).encode() + b"\n"
 
 
-class Child:
-    """A process that computes, as seen by the server."""
+def _error(message: str, code: str) -> bytes:
+    return line("error", message=message, code=code, field=None)
+
+
+class JobProcess(Child):
+    """A process that does jobs, as seen by the server."""
 
     def __init__(self) -> None:
-        self.process = subprocess.Popen(
-            # -P: modules in the working folder must not stand in for those of this process
-            [sys.executable, "-P", "-c", _PROGRAM.format(parent=os.getpid())],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env={**os.environ, **_ONE_THREAD, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
-            start_new_session=True,  # an interrupt of the terminal is the server's business
-            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
-        )
+        super().__init__(ONE_BLAS_THREAD, later=LATER, group=True)
+        self.send(_PREPARING, message_of("viscofric.web.child:prepare", {"modules": WARM}))
         self.key: str | None = None  # of the workspace that it served last
         self.used = 0.0
-        self.number = 0
+        self.number = _PREPARING
         self.ready = False
-        self.stays = True
-        self.messages: asyncio.Queue[Message] = asyncio.Queue()
+        self.messages: asyncio.Queue[Reply] = asyncio.Queue()
         self._reader: threading.Thread | None = None
 
-    @property
-    def alive(self) -> bool:
-        """Whether it runs still, and stays."""
-        return self.stays and self.process.poll() is None
-
     def attach(self, loop: asyncio.AbstractEventLoop, is_ready: Callable[[], object]) -> None:
-        """Begin to hand on what it says; call something once it has loaded what jobs need."""
+        """Begin to hand on its replies; call something once it has loaded what jobs need."""
         if self._reader is None:
             self._is_ready = is_ready
             self._reader = threading.Thread(target=self._read, args=(loop,), daemon=True)
             self._reader.start()
 
     def _read(self, loop: asyncio.AbstractEventLoop) -> None:
-        pipe = self.process.stdout
-        assert pipe is not None
-        with contextlib.suppress(OSError, ValueError, RuntimeError):  # RuntimeError: the loop is closed
-            for head in pipe:
-                number, event, stays, size = head.decode().split()
-                self.stays = stays == "stays"
-                loop.call_soon_threadsafe(self._take, int(number), Message(event, pipe.read(int(size))))
-        self.kill()
-        self.process.wait()
-        with contextlib.suppress(RuntimeError):
-            loop.call_soon_threadsafe(
-                self._take, None, Message("ended", line("error", message=_ENDED, code="process-ended", field=None))
-            )
+        with contextlib.suppress(RuntimeError):  # the loop is closed
+            for reply in self.replies():
+                loop.call_soon_threadsafe(self._take, reply)
 
-    def _take(self, number: int | None, message: Message) -> None:
-        if message.event == "ready":
+    def _take(self, reply: Reply) -> None:
+        if reply.number == _PREPARING:
             self.ready = True
             self._is_ready()
-        elif number in (None, self.number):
-            self.messages.put_nowait(message)
-
-    def order(self, order: dict[str, Any]) -> None:
-        """Send a job, or the wish to cancel one."""
-        pipe = self.process.stdin
-        assert pipe is not None
-        with contextlib.suppress(OSError, ValueError):  # it ended, which its output shows
-            pipe.write(json.dumps(order).encode() + b"\n")
-            pipe.flush()
-
-    def kill(self) -> None:
-        """End it, and what it started, at once."""
-        self.stays = False
-        with contextlib.suppress(OSError):
-            if sys.platform != "win32" and self.process.poll() is None:
-                os.killpg(self.process.pid, signal.SIGKILL)
-        with contextlib.suppress(OSError):
-            self.process.kill()
-
-    def close(self) -> None:
-        """End it and wait for its end."""
-        self.kill()
-        self.process.wait()
-        if self._reader is not None:
-            self._reader.join(_LONGEST_END)
-        for pipe in (self.process.stdin, self.process.stdout):
-            with contextlib.suppress(OSError):
-                pipe.close()  # type: ignore[union-attr]
+        elif reply.number in (None, self.number):
+            self.messages.put_nowait(reply)
 
 
 MOST_CHILDREN = 4
@@ -126,7 +68,6 @@ _SOFT = 1.0  # s that a cancelled job has to end by itself
 _LONGEST_START = 20.0  # s
 _LONGEST_REST = 900.0  # s without a job, after which a process gives its memory back
 _BEFORE_SPARE = 2.0  # s before another process is started in store: those that have work go first
-_LAST = {"result", "error", "cancelled", "ended"}
 _STOPPED = "The program was stopped."
 
 
@@ -135,9 +76,11 @@ class Children:
 
     def __init__(self, most: int = MOST_CHILDREN) -> None:
         self.most = most
-        self._all: list[Child] = []
-        self._idle: list[Child] = []
-        self._waiting: deque[tuple[str, asyncio.Future[Child]]] = deque()
+        self._all: list[JobProcess] = []
+        self._idle: list[JobProcess] = []
+        self._waiting = 0
+        self._turn = asyncio.Lock()  # of the job that waited longest
+        self._one_is_free = asyncio.Event()
         self._numbers = itertools.count(1)
         self._cancelling: set[asyncio.Task[None]] = set()
         self._looking: asyncio.TimerHandle | None = None
@@ -146,12 +89,12 @@ class Children:
     @property
     def running(self) -> int:
         """Jobs that are at work or wait."""
-        return len(self._all) - len(self._idle) + len(self._waiting)
+        return len(self._all) - len(self._idle) + self._waiting
 
     def start(self) -> None:
         """Start a process for the first job to find, if there is none (one loads at a time); needs no event loop."""
         if not self._closed and len(self._all) < self.most and all(child.ready for child in self._all if child.alive):
-            child = Child()
+            child = JobProcess()
             self._all.append(child)
             self._idle.append(child)
 
@@ -161,7 +104,7 @@ class Children:
             child.attach(asyncio.get_running_loop(), self._one_is_ready)
 
     def _one_is_ready(self) -> None:
-        self._serve_waiting()
+        self._one_is_free.set()
         self._keep_spare()
 
     async def run(
@@ -170,55 +113,61 @@ class Children:
         """Have a job done in a workspace's folder; yield its messages, a JSON object a line; closing cancels it."""
         yield line("queued")
         if self._closed:
-            yield line("error", message=_STOPPED, code="stopped", field=None)
+            yield _error(_STOPPED, "stopped")
             return
         self.attach()
         child = await self._lend(str(folder))
         number = child.number = next(self._numbers)
         child.messages = asyncio.Queue()
-        finished = False
+        finished, doing = False, KINDS[kind]
+        latest = time.monotonic() + doing.seconds
+        alarm = asyncio.get_running_loop().call_later(doing.seconds, child.kill)
         try:
             yield line("started", job=number)
-            doing = KINDS[kind]
-            order = {
-                "job": number,
-                "module": doing.module,
-                "memory": doing.memory,
-                "study": study,
-                "options": options,
-                "folder": str(folder),
-            }
-            sending = asyncio.get_running_loop().run_in_executor(None, child.order, order)
-            async for message in _until(child, sending, doing.seconds):
-                finished = message.event in _LAST
-                yield self._last_words(message) if finished else message.line
+            job = {"kind": doing, "study": study, "options": options, "folder": folder}
+            order = message_of("viscofric.web.child:do", job, tells=True)
+            sending = asyncio.get_running_loop().run_in_executor(None, child.send, number, order)
+            await asyncio.shield(sending)  # a job that is cancelled must be sent all the same: its end is reported
+            while not finished:
+                reply = await child.messages.get()
+                finished = reply.kind != "told"
+                late = doing if time.monotonic() >= latest else None
+                yield self._last_words(reply, late) if finished else reply.value
         finally:
+            alarm.cancel()
             if finished:
                 self._give_back(child)
             else:
                 self._cancel(child)
 
-    def _last_words(self, message: Message) -> bytes:
-        return line("error", message=_STOPPED, code="stopped", field=None) if self._closed else message.line
+    def _last_words(self, reply: Reply, late: Kind | None) -> bytes:
+        if self._closed:
+            return _error(_STOPPED, "stopped")
+        if reply.kind == "result":
+            return reply.value  # type: ignore[no-any-return]
+        if isinstance(reply.value, KeyboardInterrupt):
+            return line("cancelled")
+        if isinstance(reply.value, MemoryError):
+            return _error(_NO_MEMORY, "no-memory")
+        if late:
+            words = f"This took longer than {late.seconds:.0f} s and was stopped"
+            return _error(f"{words}; request less accuracy or fewer points.", "took-too-long")
+        return _error(_ENDED, "process-ended")
 
-    async def _lend(self, key: str) -> Child:
-        child = None if self._waiting else self._free(key)
-        if child is None:
-            place: asyncio.Future[Child] = asyncio.get_running_loop().create_future()
-            self._waiting.append((key, place))
-            try:
-                child = await place
-            except asyncio.CancelledError:
-                if place.done() and not place.cancelled():
-                    self._give_back(place.result())
-                else:
-                    self._waiting = deque(one for one in self._waiting if one[1] is not place)
-                raise
+    async def _lend(self, key: str) -> JobProcess:
+        self._waiting += 1
+        try:
+            async with self._turn:
+                while (child := self._free(key)) is None:
+                    self._one_is_free.clear()
+                    await self._one_is_free.wait()
+        finally:
+            self._waiting -= 1
         child.key, child.used = key, time.monotonic()
         asyncio.get_running_loop().call_later(_BEFORE_SPARE, self._keep_spare)
         return child
 
-    def _free(self, key: str) -> Child | None:
+    def _free(self, key: str) -> JobProcess | None:
         """Take a process that has nothing to do: the one that served the workspace, a new one, or any."""
         for child in [child for child in self._idle if not child.alive]:
             self._idle.remove(child)
@@ -238,7 +187,7 @@ class Children:
         self._idle.remove(child)
         return child
 
-    def _give_back(self, child: Child) -> None:
+    def _give_back(self, child: JobProcess) -> None:
         child.used = time.monotonic()
         if self._looking is None:
             self._looking = asyncio.get_running_loop().call_later(_LONGEST_REST, self._end_resting)
@@ -246,15 +195,7 @@ class Children:
             self._idle.append(child)
         else:
             self._bury(child)
-        self._serve_waiting()
-
-    def _serve_waiting(self) -> None:
-        while self._waiting and (free := self._free(self._waiting[0][0])) is not None:
-            _, place = self._waiting.popleft()
-            if place.done():
-                self._give_back(free)
-            else:
-                place.set_result(free)
+        self._one_is_free.set()
 
     def _end_resting(self) -> None:
         """End processes that had nothing to do for long, but for as many as there are from the beginning."""
@@ -267,7 +208,7 @@ class Children:
         if len(self._all) > _FROM_THE_BEGINNING:
             self._looking = asyncio.get_running_loop().call_later(_LONGEST_REST, self._end_resting)
 
-    def _bury(self, child: Child) -> None:
+    def _bury(self, child: JobProcess) -> None:
         child.close()
         self._all = [one for one in self._all if one is not child]
 
@@ -283,21 +224,21 @@ class Children:
             one for one in self._all if one.number == number and one.key == str(folder) and one not in self._idle
         ]
         for child in at_work:
-            asyncio.get_running_loop().run_in_executor(None, child.order, {"cancel": number})
+            asyncio.get_running_loop().run_in_executor(None, child.send, number, None)
         return bool(at_work)
 
-    def _cancel(self, child: Child) -> None:
+    def _cancel(self, child: JobProcess) -> None:
         task = asyncio.get_running_loop().create_task(self._stop(child))
         self._cancelling.add(task)
         task.add_done_callback(self._cancelling.discard)
 
-    async def _stop(self, child: Child) -> None:
+    async def _stop(self, child: JobProcess) -> None:
         """Have a process give up its job; end it if it does not."""
         try:
-            asyncio.get_running_loop().run_in_executor(None, child.order, {"cancel": child.number})
+            asyncio.get_running_loop().run_in_executor(None, child.send, child.number, None)
             # one that is still loading replies once it has loaded
             async with asyncio.timeout(_SOFT if child.ready else _LONGEST_START):
-                while (await child.messages.get()).event not in _LAST:
+                while (await child.messages.get()).kind == "told":
                     pass
         except TimeoutError:
             child.kill()
@@ -319,21 +260,3 @@ class Children:
             child.close()
         self._all.clear()
         self._idle.clear()
-
-
-async def _until(child: Child, sending: asyncio.Future[None], seconds: float) -> AsyncIterator[Message]:
-    """Yield what a process says of its job, to the end of that or of the time for it."""
-    end = asyncio.get_running_loop().time() + seconds
-    await asyncio.shield(sending)  # a job that is cancelled must be sent all the same, so that its end is reported
-    while True:
-        try:
-            async with asyncio.timeout_at(end):
-                message = await child.messages.get()
-        except TimeoutError:
-            child.kill()
-            words = f"This took longer than {seconds:.0f} s and was stopped; request less accuracy or fewer points."
-            yield Message("ended", line("error", message=words, code="took-too-long", field=None))
-            return
-        yield message
-        if message.event in _LAST:
-            return
