@@ -28,7 +28,7 @@ from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.record import Record
 from viscofric.friction.cases.solving import Task, solve
 from viscofric.friction.planning.plan import Plan, plan_cases
-from viscofric.study.running.executors import Processes, Serial
+from viscofric.study.running.executors import Processes
 from viscofric.study.running.running import run_plan
 from viscofric.study.running.store import CaseStore
 
@@ -75,12 +75,8 @@ def carried_out(name: str, cases: list[IndenterCase], workers: int, folder: Path
     before = len(list(folder.glob("*.json")))
     wall, cpu = time.perf_counter(), _cpu_with_children()
     plan: Plan = plan_cases(cases, [CURVE_RUBBER], **settings)
-    if workers == 1:
-        with Serial() as executor:
-            run_plan(plan, store, executor, solve=timed)
-    else:
-        with Processes(workers) as executor:
-            run_plan(plan, store, executor)
+    with Processes(workers) as executor:
+        run_plan(plan, store, executor, solve=timed if workers == 1 else solve)
     found = plan.found()
     row: dict[str, Any] = {
         "case": f"{name}, {workers} process{'es' * (workers > 1)}",

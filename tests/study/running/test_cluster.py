@@ -15,7 +15,7 @@ from refusals import refused
 from study.running.tasks import TwoWaves
 from viscofric.study.run_file.settings import ClusterTable
 from viscofric.study.running.cluster import BatchJobs, Dask
-from viscofric.study.running.executors import Serial
+from viscofric.study.running.executors import Processes
 from viscofric.study.running.running import Event, choose_executor, run_plan
 from viscofric.study.running.store import CaseStore
 
@@ -41,7 +41,7 @@ def test_worker_killed_amid_a_study_changes_no_bit(tmp_path: Path) -> None:
     for name in ("distributed", "distributed.scheduler", "distributed.nanny", "distributed.client"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     alone = TwoWaves()
-    run_plan(alone, CaseStore(tmp_path / "alone"), Serial())
+    run_plan(alone, CaseStore(tmp_path / "alone"), Processes())
     shared, killed = TwoWaves(), []
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL

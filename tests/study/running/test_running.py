@@ -15,7 +15,7 @@ from study.running.tasks import TwoWaves, solve_or_end, solve_some, task
 from viscofric.errors import DataFileError, ViscofricError
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import solve
-from viscofric.study.running.executors import Processes, Serial, take
+from viscofric.study.running.executors import Processes, take
 from viscofric.study.running.running import Event, run_plan
 from viscofric.study.running.store import CaseStore, Damaged
 
@@ -24,7 +24,7 @@ from viscofric.study.running.store import CaseStore, Damaged
 def alone(tmp_path_factory: pytest.TempPathFactory) -> tuple[TwoWaves, CaseStore]:
     """Return a plan carried out in this process, and its store."""
     plan, store = TwoWaves(), CaseStore(tmp_path_factory.mktemp("alone"))
-    run_plan(plan, store, Serial())
+    run_plan(plan, store, Processes())
     return plan, store
 
 
@@ -70,7 +70,7 @@ def test_what_is_stored_is_not_solved_again(alone: tuple[TwoWaves, CaseStore]) -
         raise AssertionError("a stored case was solved again")
 
     plan, heard = TwoWaves(), []
-    run_plan(plan, alone[1], Serial(), heard.append, solve=refuse)
+    run_plan(plan, alone[1], Processes(), heard.append, solve=refuse)
     assert plan.bits() == alone[0].bits()
     assert [event.event for event in heard] == ["stage", *["stored"] * 8, "stage"]
 
@@ -79,7 +79,7 @@ def test_what_is_stored_is_not_solved_again(alone: tuple[TwoWaves, CaseStore]) -
 def test_failed_cases_leave_the_others_alone(request: pytest.FixtureRequest, processes: bool, tmp_path: Path) -> None:
     plan, store = TwoWaves(), CaseStore(tmp_path)
     heard: list[Event] = []
-    executor = request.getfixturevalue("pair") if processes else Serial()
+    executor = request.getfixturevalue("pair") if processes else Processes()
     run_plan(plan, store, executor, heard.append, solve=solve_some)
     failures = [one for one in plan.known.values() if isinstance(one, Failure)]
     assert [str(one) for one in failures] == [
@@ -119,10 +119,10 @@ def test_interrupt_loses_no_more_than_what_is_worked_on(tmp_path: Path) -> None:
         return solve(asked)
 
     with pytest.raises(KeyboardInterrupt):
-        run_plan(TwoWaves(), store, Serial(), solve=interrupted)
+        run_plan(TwoWaves(), store, Processes(), solve=interrupted)
     assert sorted(store.stored()) == sorted(solved)
     plan = TwoWaves()
-    run_plan(plan, store, Serial(), solve=counted)
+    run_plan(plan, store, Processes(), solve=counted)
     assert sorted(solved) == sorted(plan.known)  # each of them once
 
 
@@ -138,7 +138,7 @@ def test_full_disk_ends_a_run_and_leaves_the_finished_cases(tmp_path: Path, monk
     monkeypatch.setattr("viscofric.files.os.fsync", fill_up)
     store = CaseStore(tmp_path)
     with refused("not-written", DataFileError):
-        run_plan(TwoWaves(), store, Serial())
+        run_plan(TwoWaves(), store, Processes())
     assert len(list(tmp_path.iterdir())) == 2
     assert all(isinstance(store.get(key), Record) for key in store.stored())
 

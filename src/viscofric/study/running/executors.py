@@ -40,16 +40,6 @@ class Executor(contextlib.AbstractContextManager["Executor"]):
         pass
 
 
-class Serial(Executor):
-    """Solves one task after the other in this process."""
-
-    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
-        """Solve tasks; see `Executor`."""
-        for task in tasks:
-            yield task.key, None
-            yield task.key, attempt(solve, task)
-
-
 class NoSolver(Executor):
     """Solves no task."""
 
@@ -63,9 +53,12 @@ class NoSolver(Executor):
 
 
 class Processes(Executor):
-    """Distributes tasks to `number` processes of this machine, which are reused, and replaced when they end."""
+    """Distributes tasks to `number` processes of this machine, which are reused, and replaced when they end.
 
-    def __init__(self, number: int) -> None:
+    With one, this process solves the tasks, one after the other.
+    """
+
+    def __init__(self, number: int = 1) -> None:
         self._workers = Workers(number, needed=take.__module__)
 
     def __enter__(self) -> Self:

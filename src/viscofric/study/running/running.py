@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.friction.cases.solving import Task, solve
-from viscofric.study.running.executors import Executor, Lost, NoSolver, Outcome, Processes, Serial, Solve, Waiting
+from viscofric.study.running.executors import Executor, Lost, NoSolver, Outcome, Processes, Solve, Waiting
 from viscofric.study.running.store import CaseStore, Damaged
 
 if TYPE_CHECKING:
@@ -69,14 +69,11 @@ def choose_executor(
         from viscofric.study.running.cluster import Dask
 
         return Dask(scheduler)
-    if workers is not None:
-        executor = Processes(workers)
-        return Serial() if workers == 1 else executor
-    if cluster is not None:
+    if workers is None and cluster is not None:
         from viscofric.study.running.cluster import BatchJobs, Dask
 
         return Dask(BatchJobs.of(cluster))
-    return Serial()
+    return Processes(1 if workers is None else workers)
 
 
 STAGE = "contacts"

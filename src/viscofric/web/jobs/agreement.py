@@ -26,7 +26,7 @@ from viscofric.report.texts.study import AGREEMENT, key_numbers
 from viscofric.study.contacts import Contacts
 from viscofric.study.execution import tree_of
 from viscofric.study.measurement import Measurement
-from viscofric.study.running.executors import Serial
+from viscofric.study.running.executors import Processes
 from viscofric.study.running.running import Event, run_plan
 from viscofric.study.running.store import CaseStore
 from viscofric.web.figures.friction import agreement_figures
@@ -61,7 +61,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         if event.total:
             context.progress(event.done or 0, event.total, event.label or "")
 
-    with Serial() as executor:
+    with Processes() as executor:
         run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, report)
     # What is to be said of the rubber and of the measurement, other steps say.
     rubber = contacts.rubbers[0]

@@ -19,7 +19,7 @@ from viscofric.study.contacts import Contacts, Solved, doubts
 from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.interface import interface_columns, study_interface
 from viscofric.study.run_file.study import Study
-from viscofric.study.running.executors import Serial
+from viscofric.study.running.executors import Processes
 from viscofric.study.running.running import Event, Plan, Progress, run_plan
 from viscofric.study.running.store import CaseStore
 from viscofric.study.study_rubber import StudyRubber, band_columns
@@ -76,7 +76,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     progress = _Sender(contacts, context)
     store = CaseStore(context.cache / "cases")
     store.prepare()
-    with Serial() as executor:
+    with Processes() as executor:
         run_plan(contacts.plan, store, executor, progress)
         requested, at_points, along = contacts.results()
         more, said, law = _of_tables(
