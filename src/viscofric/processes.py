@@ -206,21 +206,20 @@ class Workers:
                 "workers: must be used within their block, with Workers(2) as workers: ...", code="workers-closed"
             )
         lent: list[Child] = []
+        at_rest = False
         try:
             while len(lent) < count:
                 child = self._idle.pop() if self._idle else self._start()
                 if child.alive:
                     lent.append(child)
             yield lent
-        except BaseException:
+            at_rest = True
+        finally:
             for child in lent:
-                child.close()
-            raise
-        for child in lent:
-            if child.alive:
-                self._idle.append(child)
-            else:
-                child.close()
+                if at_rest and child.alive:
+                    self._idle.append(child)
+                else:
+                    child.close()
 
     def _start(self) -> Child:
         assert self._started is not None
