@@ -31,16 +31,6 @@ if TYPE_CHECKING:
     from viscofric.study.running.running import Event
 
 
-_WORDS = {
-    "material": "Material: shift factors, master curve, spectrum",
-    "measurement": "Measurement: Coulomb and viscoelastic friction",
-    "shift": "Measurement: one friction curve of all temperatures",
-    "contacts": "Contacts: requested, measured, along the master curve",
-    "heating": "Heated curves",
-    "histories": "Contacts over time",
-    "impacts": "Impacts",
-    "report": "Figures and report",
-}
 #: What is not watched gets a line so often.
 _BETWEEN_LINES = 60.0  # s
 #: Text beside the bar of a contact over time.
@@ -89,8 +79,10 @@ class TerminalProgress(Silent):
 
     def __call__(self, event: Event) -> None:
         """Show an event."""
+        from viscofric.study.running.running import STAGES
+
         stage = event.stage or event.event
-        words = _WORDS.get(stage, stage)
+        words = STAGES.get(stage, stage).capitalize()
         if event.event == "waiting":
             self._console.print(f"Waiting: {event.reason}", highlight=False, markup=False, soft_wrap=True)
         if self._console.is_terminal:

@@ -15,8 +15,10 @@ from study.running.tasks import TwoWaves, solve_or_end, solve_some, task
 from viscofric.errors import DataFileError, ViscofricError
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import solve
+from viscofric.study.heating import Heatings
+from viscofric.study.histories import Histories, Impacts
 from viscofric.study.running.executors import Processes, take
-from viscofric.study.running.running import Event, run_plan
+from viscofric.study.running.running import STAGES, Event, run_plan
 from viscofric.study.running.store import CaseStore, Damaged
 
 
@@ -63,6 +65,10 @@ def test_processes_find_the_same_bits_and_one_may_be_killed(
     assert heard[-1].as_dict() == {"event": "stage", "stage": "contacts", "done": 8, "total": 8, "solves": 8}
     assert len(children) == 3
     assert all(child.returncode is not None for child in children)
+
+
+def test_every_stage_that_solves_contacts_has_words() -> None:
+    assert {"contacts", Heatings.STAGE, Histories.STAGE, Impacts.STAGE} < set(STAGES)
 
 
 def test_what_is_stored_is_not_solved_again(alone: tuple[TwoWaves, CaseStore]) -> None:

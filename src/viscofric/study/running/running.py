@@ -19,6 +19,19 @@ if TYPE_CHECKING:
     from viscofric.study.run_file.settings import ClusterTable
 
 
+#: What is done in each stage of a study.
+STAGES = {
+    "measurement": "reading the measurement",
+    "material": "making the rubber",
+    "shift": "shifting the measurement",
+    "contacts": "solving contacts",
+    "heating": "solving heated contacts",
+    "histories": "solving contacts over time",
+    "impacts": "solving impacts",
+    "report": "drawing figures and report",
+}
+
+
 @dataclass(frozen=True)
 class Event:
     """One event of a run."""
@@ -27,7 +40,7 @@ class Event:
     #: stored; ``"stored"``: it was stored before; ``"damaged"``: the stored contact cannot be used; ``"failed"``: it
     #: could not be solved; ``"waiting"``: a cluster has no workers for the time being
     event: str
-    stage: str | None = None  # Of the study: "measurement", "material", "contacts", "report" …
+    stage: str | None = None  # one of `STAGES`
     done: int | None = None  # steps of the stage; for contacts, cases with a result
     total: int | None = None  # steps of the stage; for contacts, all cases
     solves: int | None = None  # contacts solved so far

@@ -27,7 +27,7 @@ from viscofric.study.contacts import Contacts
 from viscofric.study.execution import tree_of
 from viscofric.study.measurement import Measurement
 from viscofric.study.running.executors import Processes
-from viscofric.study.running.running import Event, run_plan
+from viscofric.study.running.running import run_plan
 from viscofric.study.running.store import CaseStore
 from viscofric.web.figures.friction import agreement_figures
 from viscofric.web.figures.spec import number
@@ -57,12 +57,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     context.progress(0, 1, "Making the rubber")
     contacts = _contacts(_as_measured(study, curves, options), curves, context)
 
-    def report(event: Event) -> None:
-        if event.total:
-            context.progress(event.done or 0, event.total, event.label or "")
-
     with Processes() as executor:
-        run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, report)
+        run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, context.show)
     # What is to be said of the rubber and of the measurement, other steps say.
     rubber = contacts.rubbers[0]
     reply = _reply(tree_of(contacts)) | listed("notes", dict.fromkeys(rubber.bands.notes), "page")

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict
 
@@ -16,6 +16,9 @@ from viscofric.datasets import plain
 from viscofric.errors import DataFileError, ViscofricError
 from viscofric.files import read_text
 from viscofric.notes import Note
+
+if TYPE_CHECKING:
+    from viscofric.study.running.running import Event
 
 _BETWEEN_SENT = 0.05  # s, of progress: a browser shows no more
 #: In remarks of files, unless it is the kind of a substance, which may well be measured.
@@ -58,6 +61,10 @@ class Context:
         if now - self._sent >= _BETWEEN_SENT or done >= total:
             self._sent = now
             self.send("progress", {"done": plain(done), "total": plain(total), "label": label})
+
+    def show(self, event: Event, stage: str = "") -> None:
+        """Say how far a study is, from one of its events, and if given what is done."""
+        self.progress(event.done or 0, event.total or 0, ": ".join(filter(None, (stage, event.label))))
 
     def part(self, part: dict[str, Any]) -> None:
         """Hand over a part of the result that can be shown already."""

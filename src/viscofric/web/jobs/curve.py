@@ -20,7 +20,7 @@ from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.interface import interface_columns, study_interface
 from viscofric.study.run_file.study import Study
 from viscofric.study.running.executors import Processes
-from viscofric.study.running.running import Event, Plan, Progress, run_plan
+from viscofric.study.running.running import Event, Plan, run_plan
 from viscofric.study.running.store import CaseStore
 from viscofric.study.study_rubber import StudyRubber, band_columns
 from viscofric.web.figures.spec import Spec, axis, quantity
@@ -79,9 +79,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     with Processes() as executor:
         run_plan(contacts.plan, store, executor, progress)
         requested, at_points, along = contacts.results()
-        more, said, law = _of_tables(
-            contacts, requested, lambda plan: run_plan(plan, store, executor, _counter(context))
-        )
+        more, said, law = _of_tables(contacts, requested, lambda plan: run_plan(plan, store, executor, context.show))
     if not requested.records:
         first = requested.failures[0]
         reason = f"No case could be solved; the first one failed: {first.note.words('page')}"
@@ -194,16 +192,6 @@ def _parts(found: dict[str, Any]) -> dict[str, Any]:
 def _is_given(study: Study) -> bool:
     """Whether there is an interface whose law is known without a measurement."""
     return study.interface is not None and study.interface.is_given
-
-
-def _counter(context: Context) -> Progress:
-    """Return what reports how many heated curves are solved."""
-
-    def count(event: Event) -> None:
-        if event.event in ("solved", "stored", "failed"):
-            context.progress(event.done or 0, event.total or 1, event.label or "")
-
-    return count
 
 
 def _of_tables(

@@ -14,20 +14,13 @@ from viscofric.report import write_figures_and_report
 from viscofric.report.texts.study import grouped_failures
 from viscofric.study.execution import run_study
 from viscofric.study.results.results import StudyResults
-from viscofric.study.running.running import Event
+from viscofric.study.running.running import STAGES, Event
 from viscofric.web.figures.spec import number
 from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.export_files import archive, lay_out, offered
 from viscofric.web.study_text import study_of
 
 _MOST_SHOWN = 8
-_STAGES = {
-    "measurement": "reading the measurement",
-    "material": "making the rubber",
-    "shift": "shifting the measurement",
-    "contacts": "solving contacts",
-    "report": "drawing figures and report",
-}
 
 
 class Options(JobOptions):
@@ -44,12 +37,10 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     run_file = lay_out(text, checked, folder)
 
     def show(event: Event) -> None:
-        stage = event.stage or "contacts"
-        label = _STAGES.get(stage, stage)
-        context.progress(event.done or 0, event.total or 0, f"{label}: {event.label}" if event.label else label)
+        context.show(event, STAGES[event.stage or "contacts"])
 
     results = run_study(run_file, resume=True, workers=options.workers, progress=show)
-    context.progress(0, 1, _STAGES["report"])
+    context.progress(0, 1, STAGES["report"])
     figures, report = write_figures_and_report(results.tree, results.folder)
     downloads = _downloads(results, figures, report, context.downloads)
     cases, failed = int(results.dataset["friction_coefficient"].size), int(results.dataset["failed"].sum())
