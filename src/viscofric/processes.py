@@ -41,16 +41,17 @@ class Reply(NamedTuple):
     """What a process says of a call."""
 
     number: int | None  # of the call; None where the process ended
-    #: ``"told"`` before the end of the call, ``"result"``, ``"error"``, ``"not understood"`` or ``"ended"``
+    #: ``"told"`` before the end of the call, ``"result"``, ``"error"``, ``"interrupted"``, ``"ended"``, or ``"unfit"``
+    #: where the call or its result cannot be sent
     kind: str
-    value: Any  # of an error, the exception
+    value: bytes  # pickled, unless the call tells; of an error, the exception
 
 
 def message_of(function: Callable[..., Any] | str, call: dict[str, Any], tells: bool = False) -> bytes:
     """Return a call as a process gets it.
 
     The function, or its ``"module:name"``, is importable; with `tells`, it also gets an argument ``tell``, a function
-    whose calls become replies.
+    whose calls become replies, and what it tells and returns is bytes, which are sent as they are.
     """
     name = function if isinstance(function, str) else f"{function.__module__}:{function.__qualname__}"
     return pickle.dumps((name, call, tells))
@@ -103,22 +104,26 @@ class Child:
     def replies(self) -> Iterator[Reply]:
         """Yield its replies until it ended."""
         assert self.process.stdout is not None
-        with contextlib.suppress(
-            OSError, EOFError, ValueError, TypeError, AttributeError, ImportError, pickle.UnpicklingError
-        ):
-            while True:
-                number, kind, stays, value = pickle.load(self.process.stdout)
-                reply = Reply(number, kind, pickle.loads(value))
-                self.stays = self.stays and stays
-                yield reply
+        with contextlib.suppress(OSError, ValueError):
+            for head in self.process.stdout:
+                number, kind, stays, size = head.decode().split()
+                value = self.process.stdout.read(int(size))
+                if len(value) < int(size):
+                    break
+                self.stays = self.stays and stays == "stays"
+                yield Reply(int(number), kind, value)
         self.kill()
         self.process.wait()
-        yield Reply(None, "ended", ViscofricError(_ENDED, code="process-ended"))
+        yield Reply(None, "ended", b"")
 
-    def call(self, message: bytes) -> Reply:
-        """Have it carry out a call, and wait for the end of it."""
+    def call(self, message: bytes) -> tuple[str, Any]:
+        """Have it carry out a call, wait for the end of it, and return the kind of that and the value or exception."""
         self.send(0, message)
-        return next(self.replies())
+        _, kind, value = next(self.replies())
+        with contextlib.suppress(EOFError, ValueError, TypeError, AttributeError, ImportError, pickle.UnpicklingError):
+            return kind, pickle.loads(value)  # none where it ended
+        self.kill()
+        return "ended", ViscofricError(_ENDED, code="process-ended")
 
     def kill(self) -> None:
         """End it at once."""
@@ -351,9 +356,11 @@ class _SharedCalls:
     def _keep_busy(self, place: int) -> None:
         while (index := self._next(place)) is not None:
             self.events.put((index, "begun", None))
-            _, kind, value = self.children[place].call(self.messages[index])
-            if kind == "not understood":
-                kind, value = "error", _not_sent(self.workers.number, value)
+            kind, value = self.children[place].call(self.messages[index])
+            if kind == "unfit":
+                value = _not_sent(self.workers.number, value)
+            if kind in ("unfit", "interrupted"):
+                kind = "error"
             with self.lock:
                 self.tries_left[index] -= kind == "ended"
                 if kind == "ended" and self.tries_left[index]:
@@ -398,7 +405,7 @@ class LimitedProcess:
         alarm.daemon = True
         alarm.start()
         try:
-            _, kind, value = child.call(message)
+            kind, value = child.call(message)
         except BaseException:
             child.close()
             raise
@@ -409,7 +416,7 @@ class LimitedProcess:
             raise TimeoutError if time.monotonic() >= latest else MemoryError
         self._keep(child)
         if kind != "result":
-            raise value if kind == "error" else InputError(value, code="not-picklable")
+            raise InputError(value, code="not-picklable") if kind == "unfit" else value
         return value
 
     def _free(self) -> Child | None:

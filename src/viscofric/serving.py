@@ -1,7 +1,7 @@
 """The other end of `viscofric.processes`: a process that carries out the calls of another, one at a time.
 
 Each order on the standard input is a pair, pickled: the number of a call, and the call or, to interrupt it, None.  Each
-reply is the number, the kind, whether this process can be used further, and a value, which is pickled separately.
+reply is a line with the number, the kind, whether this process stays, and a number of bytes, and then as many bytes.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import sys
 import threading
 import traceback
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, BinaryIO, Literal
+from typing import TYPE_CHECKING, BinaryIO, Literal
 
 from viscofric.errors import ViscofricError
 
@@ -101,13 +101,13 @@ class _Desk:
         """Make the call of a message and send its end."""
         try:
             with self._interruptible(number):
-                reply = _reply(message, lambda told: self._send(number, "told", True, pickle.dumps(told)))
+                reply = _reply(message, lambda told: self._send(number, "told", True, told))
         except KeyboardInterrupt as stop:
-            reply = "error", not _was_importing(stop.__traceback__), pickle.dumps(KeyboardInterrupt())
+            reply = "interrupted", not _was_importing(stop.__traceback__), pickle.dumps(KeyboardInterrupt())
         self._send(number, *reply)
 
-    def _send(self, *reply: Any) -> None:
-        self._replies.put(pickle.dumps(reply))
+    def _send(self, number: int, kind: str, stays: bool, value: bytes) -> None:
+        self._replies.put(f"{number} {kind} {'stays' if stays else 'ends'} {len(value)}\n".encode() + value)
 
     @contextlib.contextmanager
     def _interruptible(self, number: int) -> Iterator[None]:
@@ -122,23 +122,23 @@ class _Desk:
                 self._at_work = None
 
 
-def _reply(message: bytes, tell: Callable[[Any], None]) -> tuple[str, bool, bytes]:
-    """Make the call of a message; return the kind of its end, whether this process stays, and the value, pickled."""
+def _reply(message: bytes, tell: Callable[[bytes], None]) -> tuple[str, bool, bytes]:
+    """Make the call of a message; return the kind of its end, whether this process stays, and the value in bytes."""
     try:
         name, call, tells = pickle.loads(message)
         module, _, function = name.partition(":")
         called = getattr(import_module(module), function)
     except (AttributeError, ImportError) as error:
-        return "not understood", True, pickle.dumps(str(error))
+        return "unfit", True, pickle.dumps(str(error))
     try:
         result = called(**call, tell=tell) if tells else called(**call)
     except Exception as error:  # noqa: BLE001 - it is raised again in the calling process
         # one that lacked memory may be damaged
         return "error", not isinstance(error, MemoryError), _pickled(error)
     try:
-        return "result", True, pickle.dumps(result)
+        return "result", True, result if tells else pickle.dumps(result)
     except (pickle.PicklingError, AttributeError, TypeError) as error:
-        return "not understood", True, pickle.dumps(str(error))
+        return "unfit", True, pickle.dumps(str(error))
 
 
 def _pickled(error: Exception) -> bytes:

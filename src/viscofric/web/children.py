@@ -144,10 +144,10 @@ class Children:
         if self._closed:
             return _error(_STOPPED, "stopped")
         if reply.kind == "result":
-            return reply.value  # type: ignore[no-any-return]
-        if isinstance(reply.value, KeyboardInterrupt):
+            return reply.value
+        if reply.kind == "interrupted":
             return line("cancelled")
-        if isinstance(reply.value, MemoryError):
+        if reply.kind == "error":  # the others, jobs put into words
             return _error(_NO_MEMORY, "no-memory")
         if late:
             words = f"This took longer than {late.seconds:.0f} s and was stopped"
