@@ -204,6 +204,67 @@ def test_the_first_viscoelastic_material_of_a_deck_is_read(tmp_path):
     assert (card.notes[0].code, card.notes[0].values) == ("first-of-several", {"materials": 2, "read": "EPDM70"})
 
 
+@pytest.mark.parametrize("modulus", ["2.3", "60.0", "7.1"])  # whose shear and bulk moduli round
+def test_a_poisson_ratio_of_zero_is_read(tmp_path, modulus):
+    one = opened(tmp_path, ABAQUS.replace("60.0, 0.49", f"{modulus}, 0."), modulus_unit="MPa").material
+    assert one.poisson_ratio == 0.0
+    assert one.spectrum.E_inf == pytest.approx(float(modulus) * 1e6)
+    text = ANSYS.replace("0.45", "0.").replace("60.0e6", modulus).partition("TB,PRONY,1,1,1,BULK")[0]
+    other = text + text[text.index("TB,PRONY") :].replace("SHEAR", "BULK")
+    assert opened(tmp_path, other, modulus_unit="MPa").material.poisson_ratio == 0.0
+
+
+WLF_IN_CELSIUS = {"abaqus": "20., 8.86, 101.6", "ansys": "20,8.86,101.6", "ls-dyna": "20.,-20.4,101.6"}
+WLF_IN_FAHRENHEIT = {"abaqus": "68., 8.86, 182.88", "ansys": "68,8.86,182.88", "ls-dyna": "68.,-20.4,182.88"}
+
+
+def wlf_card(program, constants):
+    if program == "abaqus":
+        return ABAQUS.replace("20., 8.86, 101.6", constants)
+    if program == "ansys":
+        return ANSYS.replace("2,TN", "3,WLF").replace("303.15,15000", constants)
+    return LS_DYNA.replace(
+        "         7   1.1E-09    2000.0                        303.15    15000.", f"7,1,2e3,,,{constants}"
+    )
+
+
+@pytest.mark.parametrize("program", WLF_IN_CELSIUS)
+def test_constants_of_a_wlf_law_in_degrees_fahrenheit_are_those_in_celsius(tmp_path, program):
+    laws = [
+        opened(
+            tmp_path, wlf_card(program, constants[program]), modulus_unit="MPa", temperature_unit=unit
+        ).material.shift
+        for constants, unit in ((WLF_IN_CELSIUS, "degC"), (WLF_IN_FAHRENHEIT, "degF"))
+    ]
+    assert pytest.approx(101.6) == laws[1].C2  # 182.88 °F, a difference
+    assert laws[1].log10("50 degC") == pytest.approx(laws[0].log10("50 degC"))
+
+
+@pytest.mark.parametrize(
+    ("program", "card"),
+    [
+        ("ansys", lambda: ANSYS.replace("303.15,15000", "86,27000")),
+        ("ls-dyna", lambda: LS_DYNA.replace("303.15    15000.", "   86.    27000.")),
+    ],
+)
+def test_activation_temperatures_in_degrees_fahrenheit_are_in_rankine(tmp_path, program, card):
+    shift = opened(tmp_path, card(), modulus_unit="MPa", temperature_unit="degF").material.shift
+    assert shift.reference == pytest.approx(303.15)
+    assert shift.activation_energy == pytest.approx(15000 * GAS_CONSTANT)  # 27000/1.8 K
+
+
+@pytest.mark.parametrize("unit", ["degF", None])  # the card's absolute zero is that of Fahrenheit
+def test_abaqus_card_in_degrees_fahrenheit(tmp_path, unit):
+    head = "*PHYSICAL CONSTANTS, ABSOLUTE ZERO=-459.67, UNIVERSAL GAS CONSTANT=4.619\n"
+    wlf = opened(tmp_path, head + wlf_card("abaqus", "68., 8.86, 182.88"), temperature_unit=unit, modulus_unit="MPa")
+    assert wlf.material.shift.reference == pytest.approx(293.15)
+    assert pytest.approx(101.6) == wlf.material.shift.C2
+    text = head + ABAQUS.replace("*TRS\n20., 8.86, 101.6", "*TRS, DEFINITION=ARRHENIUS\n68., 124713.")
+    shift = opened(tmp_path, text, temperature_unit=unit, modulus_unit="MPa").material.shift
+    assert shift.reference == pytest.approx(293.15)
+    assert shift.activation_energy == pytest.approx(15000 * GAS_CONSTANT)  # 124713/4.619 = 27000 °R
+
+
 # --- ANSYS -----------------------------------------------------------------------------------------------------
 
 ANSYS = """/PREP7

@@ -20,6 +20,7 @@ from viscofric.rheology.cards.card import (
     Writing,
     first_of_several,
     number_text,
+    poisson_ratio_of,
     relative_series,
     tensile,
     unread_shift,
@@ -133,7 +134,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     if not instantaneous:
         shear = shear / _left(shares[0], viscoelastic.row)
         bulk = None if bulk is None else bulk / _left(shares[1], viscoelastic.row)
-    poisson = 0.5 if bulk is None else (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear))
+    poisson = 0.5 if bulk is None else poisson_ratio_of(shear, bulk)
     if not instantaneous:
         shear, bulk = _as_stated(shear, bulk, poisson, content)
     stated = number_of(content, "E0")
@@ -306,16 +307,17 @@ def _shift(
     if constants is not None and "ABSOLUTE ZERO" in constants.options:
         zero = _number(constants, "ABSOLUTE ZERO")
     if kind == "WLF" and len(values) >= 3:
-        return WLF(values[1], values[2], reading.kelvin(values[0], notes, zero))
+        return WLF(values[1], values[2] * reading.degree(zero), reading.kelvin(values[0], notes, zero))
     if kind == "ARRHENIUS" and len(values) >= 2:
-        gas = GAS_CONSTANT
+        energy = values[1]
         if constants is not None and "UNIVERSAL GAS CONSTANT" in constants.options:
-            gas = _number(constants, "UNIVERSAL GAS CONSTANT")
+            # Only E0/R matters, whatever the unit of energy.
+            degrees = energy / _number(constants, "UNIVERSAL GAS CONSTANT")
+            energy = degrees * reading.degree(zero) * GAS_CONSTANT
         else:
             said = f"The card has no universal gas constant; the activation energy {values[1]:g} was read in J/mol."
             notes.append(Note("unit-assumed", said))
-        # Only E0/R matters, whatever the unit of energy.
-        return Arrhenius(values[1] / gas * GAS_CONSTANT, reading.kelvin(values[0], notes, zero))
+        return Arrhenius(energy, reading.kelvin(values[0], notes, zero))
     if kind in ("WLF", "ARRHENIUS"):
         raise InputError(
             f"line {block.row}: *TRS, DEFINITION={kind} lacks numbers; WLF has 3, ARRHENIUS 2.",

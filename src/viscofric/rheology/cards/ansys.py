@@ -270,11 +270,12 @@ def _shift(
         return None
     values = table.constants()
     if table.option == "WLF" and len(values) >= 3:
-        return WLF(values[1], values[2], reading.kelvin(values[0], notes, number_of(content, "absolute_zero")))
+        reference = reading.kelvin(values[0], notes, number_of(content, "absolute_zero"))
+        return WLF(values[1], values[2] * reading.degree(), reference)
     if table.option == "TN" and len(values) >= 2:
         # The law itself needs K.
         reference = values[0] if content else reading.kelvin(values[0], notes)
-        return Arrhenius(values[1] * GAS_CONSTANT, reference)
+        return Arrhenius(values[1] * reading.degree() * GAS_CONSTANT, reference)
     if table.option in ("WLF", "TN"):
         raise InputError(
             f"line {table.row}: TB,SHIFT,…,{table.option} needs {3 if table.option == 'WLF' else 2} constants.",

@@ -25,6 +25,8 @@ _ENERGY = {"Pa": 1.0, "MPa": 1e-3}  # J in one J or N mm
 
 #: A temperature without unit below this is in °C: no rubber has a reference of −73 °C, nor of 200 °C.
 _KELVIN_FROM = 200.0
+#: A card whose absolute zero lies below this counts in degrees Fahrenheit, where it is −459.67.
+_FAHRENHEIT_BELOW = -400.0
 
 
 @dataclass(frozen=True)
@@ -88,13 +90,19 @@ class Reading:
         """Seconds in one unit of time."""
         return conversion(self.time_unit, "s", "time_unit")[0] if self.time_unit else 1.0
 
+    def degree(self, zero: float | None = None) -> float:
+        """K in one degree of a card, of which `zero` is absolute zero, if the card gives it."""
+        if self.temperature_unit:
+            return conversion(self.temperature_unit, "K", "temperature_unit")[0]
+        return 5.0 / 9.0 if zero is not None and zero < _FAHRENHEIT_BELOW else 1.0
+
     def kelvin(self, temperature: float, notes: list[str], zero: float | None = None) -> float:
         """Return a card's temperature in K; `zero` is absolute zero on the card's scale, if the card gives it."""
         if self.temperature_unit:
             factor, offset = conversion(self.temperature_unit, "K", "temperature_unit")
             return factor * temperature + offset
         if zero is not None:
-            return temperature - zero
+            return self.degree(zero) * (temperature - zero)
         if temperature >= _KELVIN_FROM:
             notes.append(Note("unit-assumed", f"The reference temperature {temperature:g} has no unit; K was assumed."))
             return temperature
@@ -195,6 +203,12 @@ def unread_shift(command: str, option: str, constants: Sequence[float] = ()) -> 
     )
 
 
+def poisson_ratio_of(shear: float, bulk: float) -> float:
+    """Return ν = (3K − 2G)/(2(3K + G)); zero where only rounding of the moduli parts it from zero."""
+    ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
+    return 0.0 if abs(ratio) < _ALIKE else ratio
+
+
 #: Shear and bulk modes of a card whose times and ratios agree within this are one relaxation.
 _ALIKE = 1e-9
 
@@ -214,7 +228,7 @@ def tensile(shear: RelaxationSpectrum, bulk: RelaxationSpectrum | None) -> tuple
         return RelaxationSpectrum(3.0 * shear.E0, 3.0 * shear.E, shear.tau).to_retardation(), 0.5, []
     if bulk.E0 <= 0.0:
         raise InputError("the long-term bulk modulus is zero; a solid needs one above zero.", code="not-positive")
-    poisson = [(3 * K - 2 * G) / (2 * (3 * K + G)) for G, K in ((shear.E0, bulk.E0), (shear.E_inf, bulk.E_inf))]
+    poisson = [poisson_ratio_of(G, K) for G, K in ((shear.E0, bulk.E0), (shear.E_inf, bulk.E_inf))]
     if not all(0.0 <= ratio <= 0.5 for ratio in poisson):
         raise InputError(
             f"shear and bulk moduli give Poisson ratios of {poisson[0]:.4g} (long-term) and {poisson[1]:.4g} "

@@ -178,7 +178,8 @@ def _shift(
     if A == 0.0 or reference == 0.0:
         return None
     if B == 0.0:
-        return Arrhenius(A * GAS_CONSTANT, reading.kelvin(reference, notes, 0.0 if content else None))
+        energy = A * reading.degree() * GAS_CONSTANT
+        return Arrhenius(energy, reading.kelvin(reference, notes, 0.0 if content else None))
     if A > 0.0:
         notes.append(
             Note(
@@ -188,4 +189,4 @@ def _shift(
             )
         )
         return None
-    return WLF(-A / LN10, B, reading.kelvin(reference, notes, number_of(content, "absolute_zero")))
+    return WLF(-A / LN10, B * reading.degree(), reading.kelvin(reference, notes, number_of(content, "absolute_zero")))
