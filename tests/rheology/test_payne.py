@@ -96,6 +96,23 @@ def test_a_sweep_that_stays_linear_has_no_end_of_its_range():
     assert "hardly-nonlinear" in codes(vf.rheology.fit_kraus(flat).notes)
 
 
+def test_a_sweep_that_starts_beyond_the_linear_range_is_noted():
+    """From 0.3 % on, G' of a law that has fallen by 4 % there reaches its next 5 % at twice the strain of the first."""
+    sweep = planted(0)
+    late = vf.readers.AmplitudeSweep(
+        STRAIN[10:], sweep.storage_modulus[10:], sweep.loss_modulus[10:], "10 Hz", "60 degC", "shear"
+    )
+    truth = 0.02 * (0.05 * 6.0 / (0.95 * 6.0 - 2.5)) ** (1.0 / 1.2)  # G' = 0.95 G'0
+    fit = vf.rheology.fit_kraus(late)
+    one = fit.linear_ranges[0]
+    assert one.strain - truth > 5.0 * one.standard_error  # which no error holds
+    (note,) = fit.notes
+    assert note.code == "starts-nonlinear"
+    fallen = 1.0 - LAW.complex_modulus(STRAIN[10]).real / LAW.storage_linear
+    assert note.values["fall"] == pytest.approx(fallen, abs=0.01)  # noise of 1 %
+    assert vf.rheology.fit_kraus(sweep).notes == ()
+
+
 def test_a_law_that_misses_the_sweep_is_named():
     sweep = planted(1)
     bent = replace(sweep, loss_modulus=sweep.loss_modulus * (1.0 + 0.5 * np.sin(np.arange(25.0))))

@@ -31,6 +31,10 @@ PASSES = 4
 WIDEST = math.log(1e4)
 #: Scatter about the law above which it does not describe the sweep, decades.
 LARGEST_SCATTER = 0.03
+#: Parts of the storage modulus by whose fall a sweep's linear ranges are stated.
+DROPS = (0.05, 0.1)
+#: Fall below the smallest amplitude that widens linear ranges by more than a sixth: a fifth of the smaller drop.
+LARGEST_FALL_BEFORE = 0.2 * DROPS[0]
 # Of the smooth curve of a linear range: with the five of isotherms, a dozen amplitudes gave a curve that cannot bend.
 _POINTS_PER_KNOT = 2
 
@@ -167,7 +171,8 @@ def fit_kraus(sweep: AmplitudeSweep) -> PayneFit:
     one's own would count the few points twice.
 
     The linear range is found from a smooth curve through log G' over log γ (a spline, smoothed by restricted maximum
-    likelihood) relative to the smallest amplitude, without the law.
+    likelihood) relative to the smallest amplitude, without the law.  Where the modulus has fallen by more than 1 %
+    before that amplitude, as the law extrapolates it, a note says so.
 
     Examples
     --------
@@ -195,13 +200,13 @@ def fit_kraus(sweep: AmplitudeSweep) -> PayneFit:
         covariance=constants[:, None] * covariance * constants,
         strain_range=(float(sweep.strain_amplitude[0]), float(sweep.strain_amplitude[-1])),
     )
-    ranges = tuple(linear_range(sweep, drop) for drop in (0.05, 0.1))
+    ranges = tuple(linear_range(sweep, drop) for drop in DROPS)
     return PayneFit(
-        law, sweep, ranges, (float(scatter[0]), float(scatter[1])), (*sweep.notes, *_doubts(sweep, scatter))
+        law, sweep, ranges, (float(scatter[0]), float(scatter[1])), (*sweep.notes, *_doubts(sweep, law, scatter))
     )
 
 
-def _doubts(sweep: AmplitudeSweep, scatter: Array) -> list[Note]:
+def _doubts(sweep: AmplitudeSweep, law: KrausLaw, scatter: Array) -> list[Note]:
     notes = []
     letter = "G" if sweep.deformation == "shear" else "E"
     for mark, one in zip(("'", "''"), scatter, strict=True):
@@ -212,6 +217,16 @@ def _doubts(sweep: AmplitudeSweep, scatter: Array) -> list[Note]:
     if fall < 1.1:
         said = f"{letter}' falls by {100.0 * (1.0 - 1.0 / fall):.0f} % only: the sweep does not determine the law."
         notes.append(Note("hardly-nonlinear", said))
+        return notes
+    first = float(sweep.strain_amplitude[0])
+    before = 1.0 - float(law.complex_modulus(first).real) / law.storage_linear
+    if before > LARGEST_FALL_BEFORE:
+        said = (
+            f"By Kraus's law {letter}' has fallen by {100.0 * before:.0f} % before the smallest amplitude, "
+            f"{100.0 * first:.3g} %: the strains of the linear range, which count from there, are too large; measure "
+            "from smaller amplitudes."
+        )
+        notes.append(Note("starts-nonlinear", said, values={"fall": before, "strain": first}))
     return notes
 
 
