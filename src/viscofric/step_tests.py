@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arguments import whole_number
-from viscofric.arrays import Array
+from viscofric.arrays import Array, Indices
 from viscofric.data import Deformation, Origin, set_columns, set_members, tensile_from_shear
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
@@ -100,13 +100,18 @@ class StepTest(Shown):
         of the points into the last decade, with errors that are alike from one to the next.
         """
         whole_number(per_decade, "per_decade", 1, 10_000)
-        part = np.floor(np.log10(self.time) * per_decade + 1e-9).astype(np.int64)
-        number = np.unique(part, return_inverse=True)[1]
-        count = np.bincount(number)
+        number, count = parts_of_decades(self.time, per_decade)
         time, response = (
             np.exp(np.bincount(number, weights=np.log(one)) / count) for one in (self.time, self.response)
         )
         return StepTest(self.temperature, time, response, self.unit)
+
+
+def parts_of_decades(time: Array, per_decade: int) -> tuple[Indices, Indices]:
+    """Return the number (n,) of the part of a decade that each ascending time lies in, and how many each part holds."""
+    part = np.floor(np.log10(time) * per_decade + 1e-9).astype(np.int64)
+    _, number, count = np.unique(part, return_inverse=True, return_counts=True)
+    return number, count
 
 
 @dataclass(frozen=True, eq=False)

@@ -185,8 +185,12 @@ STEP_PROGRAMMES = {
 }
 
 
-def planted_steps(seed: int, noise: float = 0.01, *, name="fluoroelastomer", kind="creep", offset: float = 0.0):
+def planted_steps(
+    seed: int, noise: float = 0.01, *, name="fluoroelastomer", kind="creep", offset: float = 0.0, time=None
+):
     """Make creep or relaxation tests with independent multiplicative noise, and offsets of whole tests.
+
+    At the times (s) of the programme `name` if none are given.
 
     Returns
     -------
@@ -195,7 +199,8 @@ def planted_steps(seed: int, noise: float = 0.01, *, name="fluoroelastomer", kin
         The truth.
     reference : str
     """
-    make, celsius, time, reference = STEP_PROGRAMMES[name]
+    make, celsius, usual, reference = STEP_PROGRAMMES[name]
+    time = usual if time is None else time
     material, random, levels = make(), np.random.default_rng(seed), np.random.default_rng([seed, 1])
     tests = []
     for kelvin in celsius + 273.15:

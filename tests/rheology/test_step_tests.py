@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -15,6 +16,8 @@ from viscofric.rheology.spectra.step_misfit import CreepMisfit, RelaxationMisfit
 from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.overlap import LogSweep, join
+from viscofric.rheology.superposition.step_result import _noise, weights_of_averages
+from viscofric.step_tests import parts_of_decades
 
 TIMES = np.logspace(-1.0, 2.0, 31)
 
@@ -211,6 +214,43 @@ def test_vertical_shifts_of_tests_are_fitted_beside_horizontal_ones():
         material.shift.at_reference(reference).log10(known.shift_factors.temperatures),
         atol=0.06,
     )
+
+
+#: Readings every half second: one in each of the first parts of a decade, and more than a hundred in the last.
+EVEN = np.linspace(0.1, 1000.0, 2000)
+
+
+def test_averages_of_many_readings_count_for_more_as_far_as_these_are_independent():
+    random, smooth = np.random.default_rng(0), 1e-6 * EVEN**0.2
+    white = [vf.readers.StepTest(300.0, EVEN, smooth * (1 + 0.01 * random.standard_normal(2000))) for _ in range(3)]
+    drifting = [replace(one, response=smooth * (1 + 0.01 * np.sin(3.0 * np.log(EVEN) + place)))
+                for place, one in enumerate(white)]  # fmt: skip
+    counts = parts_of_decades(EVEN, 20)[1][::-1]  # from the last part to the first
+    for tests, most in ((white, 8.0), (drifting, 0.1)):  # of readings that share their error every one is as good
+        for weights in weights_of_averages(tests, "creep"):
+            ratio = weights[0] / weights[-1]
+            assert ratio == pytest.approx((1.0 + 1.0 / most) / (1.0 / counts[0] + 1.0 / most), rel=0.3)
+    sparse = [vf.readers.StepTest(300.0, TIMES, np.ones(31)) for _ in range(3)]
+    assert weights_of_averages(sparse, "creep") == [None] * 3
+
+
+@pytest.mark.apart
+def test_errors_hold_for_readings_at_equal_intervals():
+    """Every average once counted alike: intervals held 0.89 of α."""
+    within = []
+    for seed in range(10):
+        tests, material, reference = planted_steps(seed, 0.01, name="polymer", time=EVEN)
+        factors = vf.superpose(tests, reference).shift_factors
+        away = factors.log10_values - material.shift.at_reference(reference).log10(factors.temperatures)
+        known = factors.standard_errors > 1e-9
+        within.append(np.abs(away[known]) < 1.96 * factors.standard_errors[known])
+    assert np.mean(within) > 0.93  # 0.99 with these seeds
+
+
+def test_the_slope_of_a_curve_is_no_noise_where_points_lie_unevenly():
+    """Second differences took it for 2 % of noise, behind which a failure of superposition hid."""
+    steep = vf.readers.StepTest(300.0, EVEN, 1e-6 * EVEN**0.3).thinned(20)
+    assert _noise(LogSweep.of_step(steep, "creep")) < 1e-9
 
 
 def test_tests_of_other_materials_do_not_superpose():

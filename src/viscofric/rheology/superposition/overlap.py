@@ -47,10 +47,10 @@ class LogSweep:
     weights: Array | None = None  # (n,), inverse variances of the points relative to each other
 
     @classmethod
-    def of_step(cls, test: StepTest, kind: StepKind) -> LogSweep:
-        """Take base-10 logarithms of the rate 1/t, and of the relaxation modulus or 1/J(t); in 1/s and Pa."""
+    def of_step(cls, test: StepTest, kind: StepKind, weights: Array | None = None) -> LogSweep:
+        """Take base-10 logarithms of the rate 1/t, ascending, and of the relaxation modulus or 1/J(t); 1/s and Pa."""
         response = np.log10(test.response)[::-1, None]
-        return cls(-np.log10(test.time)[::-1], -response if kind == "creep" else response)
+        return cls(-np.log10(test.time)[::-1], -response if kind == "creep" else response, weights)
 
     @classmethod
     def of(cls, isotherm: Isotherm, log10_b: float = 0.0) -> LogSweep:

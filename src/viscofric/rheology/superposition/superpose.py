@@ -20,7 +20,7 @@ from viscofric.rheology.superposition.overlap import LogSweep
 from viscofric.rheology.superposition.quantity import STEP, Quantities, ShiftBy
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.superposition.shifted_isotherms import shifted_isotherms
-from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperposition, flowing
+from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperposition, flowing, weights_of_averages
 from viscofric.step_tests import StepKind, StepMasterCurve, StepTest, StepTests
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, checked_poisson_ratio, positive
@@ -142,9 +142,10 @@ def superpose(
 
     Of step tests log J(t), or log E(t), is brought onto one curve over log t, by the same fit.  Its points are averaged
     over twentieths of a decade of time first: instruments record far more of them at long times, with errors that are
-    alike.  One curve for each temperature shows less than E' and E'': offsets of isotherms are found as far as the
-    curve bends, and where it is a power law, they pass for shifts.  The shifts are the most likely ones with offsets of
-    the size found (`step_profiles`).  With ``vertical="free"`` offsets are part of b.
+    alike.  An average counts for more, the more readings are in it, as far as their errors are seen to be independent,
+    and for eight at most.  One curve for each temperature shows less than E' and E'': offsets of isotherms are found as
+    far as the curve bends, and where it is a power law, they pass for shifts.  The shifts are the most likely ones with
+    offsets of the size found (`step_profiles`).  With ``vertical="free"`` offsets are part of b.
 
     Given or fixed factors that join the isotherms clearly worse than shifts of their own would are mentioned in a note.
 
@@ -190,8 +191,10 @@ def superpose(
                 field="by",
                 code="useless-weights",
             )
-        tests = sweeps.in_tension(ratio).thinned(PER_DECADE)
-        logs = [LogSweep.of_step(one, tests.kind) for one in tests.tests]
+        read = sweeps.in_tension(ratio)
+        tests = read.thinned(PER_DECADE)
+        weights_of = weights_of_averages(read.tests, tests.kind)
+        logs = [LogSweep.of_step(one, tests.kind, own) for one, own in zip(tests.tests, weights_of, strict=True)]
         steps = shifted_isotherms(tests.tests, logs, kelvin, known, vertical == "free", shift, fixed, STEP)
         notes = (*tests.notes, *steps.notes, *(flowing(steps.joined.isotherms) if tests.kind == "creep" else []))
         curve = _step_master_curve(steps.joined, steps.factors, tests.kind)
