@@ -43,6 +43,13 @@ def joint(spectrum):
     return math.sqrt(0.5 * (spectrum.fit.rms_storage**2 + spectrum.fit.rms_loss**2))
 
 
+def test_a_strength_at_the_end_of_those_tried_has_a_note_with_a_code():
+    """Noise-free moduli of one mode are predicted best without smoothing."""
+    one = master_of(RetardationSpectrum(1e6, 1e8, [1e-6 - 1e-8], [1.0]), -3.0, 3.0, noise=0.0, points=60)
+    fit = fit_retardation_spectrum(one, method="regularised").fit
+    assert "regularisation-at-end" in codes(fit.notes)
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_every_method_averages_noise_and_says_how_it_went(method):
     truth = rubber()

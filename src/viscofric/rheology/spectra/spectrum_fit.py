@@ -209,7 +209,8 @@ class _Asked:
         if 0 < place < len(fits) - 1:
             return fits[place], strength, ()
         end = "largest" if place == 0 else "smallest"
-        return fits[place], strength, (f"The strength of regularisation, {strength:.3g}, is the {end} that was tried.",)
+        said = f"The strength of regularisation, {strength:.3g}, is the {end} that was tried."
+        return fits[place], strength, (Note("regularisation-at-end", said, values={"strength": strength}),)
 
 
 def _of_several(joint: JointSuperposition, asked: _Asked) -> RetardationSpectrum:
