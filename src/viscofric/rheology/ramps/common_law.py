@@ -8,11 +8,14 @@ A drift of the oven, of the clamping or of the static load gives neighbouring po
 autoregression of first order along each ramp, for E' and for E''.  Its coefficient and the smoothing of the curve
 follow together from the restricted likelihood: if smoothing is chosen as for independent errors, the curve follows the
 correlated ones, and the residuals do not show them (J. D. Opsomer, Y. Wang, Y. Yang, Statist. Sci. 16 (2001) 134).
+
+All moduli of a ramp may be too large or too small by one factor, as from clamping anew for each frequency.  Where the
+ramps show such offsets, errors of the constants include them; their size is found as that of isotherms.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -30,6 +33,7 @@ from viscofric.rheology.superposition.common_curve import (
     roughness,
     splines,
 )
+from viscofric.rheology.superposition.isotherm_offsets import BEFORE, Offsets, estimated
 from viscofric.rheology.superposition.shift_problem import inverse_curvature
 
 #: Points per knot.  Near the pole of a law neighbouring points of a ramp are up to a decade apart: with five points per
@@ -142,6 +146,10 @@ SHARED, DIFFERENT = 0.4, 0.05
 PASSES, STEPS = 12, 8
 #: Changes of the logarithms of the constants: the largest in one step, and where the search ends.
 LARGEST_STEP, CONVERGED = 0.3, 1e-6
+#: Passes for offsets; each chooses correlation and smoothing again, which take offsets for correlated errors.
+OFFSET_PASSES = 4
+#: Offsets are shown where the probability of none falls to this part of what it was before the ramps were seen.
+SHOWN = 0.05
 #: Step of the logarithm of a constant for differences of the gradient.
 DIFFERENCE = 1e-4
 
@@ -181,6 +189,7 @@ class CommonLaw:
     law: ParametricLaw
     residual: Array  # (n, 2), decades
     scatter: Array  # (2,), standard deviation of log E' and log E'' about the curves, decades
+    offsets: Array  # (2,), standard deviation of offsets of log E' and log E'' of ramps; zero where none are shown
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,9 +217,11 @@ def common_law(points: RampPoints, kind: str, reference: float) -> CommonLaw:
             break
     smoother = problem.smoother(logs)
     state = problem.state(logs, smoother)
+    offsets = problem.offsets(logs)
     constants = np.exp(logs)
-    covariance = constants[:, None] * _covariance(problem, logs, smoother, state) * constants
-    return CommonLaw(family.law(constants, covariance), state.residual, smoother.scatter)
+    spread = constants[:, None] * _covariance(problem, logs, smoother, state, offsets) * constants
+    sizes = np.sqrt(np.diag(offsets.covariance))
+    return CommonLaw(family.law(constants, spread), state.residual, smoother.scatter, sizes)
 
 
 class _Problem:
@@ -267,6 +278,45 @@ class _Problem:
         loss = self.points.moduli[:, 1] - self.points.moduli[:, 0]
         return float(self.points.temperature[np.argmax(loss)])
 
+    @property
+    def ramps(self) -> int:
+        """Number of ramps."""
+        return int(self.points.ramp[-1]) + 1
+
+    def offsets(self, logs: Array) -> Offsets:
+        """Return offsets of the ramps, of variance zero where none are shown."""
+        count = len(logs)
+        smoother = replace(self.smoother(logs), alike=np.zeros(2))  # else correlation hides the offsets at once
+        for _ in range(OFFSET_PASSES):
+            information, score = self._with_offsets(logs, smoother)
+            found = estimated(information, score, np.zeros((count, count)), tied=False)
+            expected = found.expected.reshape(2, self.ramps).T[self.points.ramp]
+            less = _Problem(replace(self.points, moduli=self.points.moduli - expected), self.family, self.back)
+            # Constants that have followed offsets leave residuals that look correlated.
+            logs = less.descend(logs, replace(smoother, alike=np.zeros(2)))
+            smoother = less.smoother(logs)
+        if found.sizes.probability[0] > SHOWN * (BEFORE[0] / BEFORE.sum()) ** 2:
+            found = replace(found, covariance=np.zeros((2, 2)))
+        return found
+
+    def _with_offsets(self, logs: Array, smoother: CorrelatedSmoother) -> tuple[Array, Array]:
+        """Return information and score of the constants' logarithms, and of offsets of both moduli of the ramps."""
+        constants, count, ramps = np.exp(logs), len(logs), self.ramps
+        moved = self.family.gradient(constants)[self.back] * constants
+        moved = moved - moved.mean(axis=0)
+        belongs = np.eye(ramps)[self.points.ramp]
+        information, score = np.zeros((count + 2 * ramps, count + 2 * ramps)), np.zeros(count + 2 * ramps)
+        for modulus, scatter in enumerate(smoother.scatter):
+            curve = smoother.curve(modulus, self.reduced(logs), self.points.moduli[:, modulus])
+            columns = np.concatenate([curve.slope[:, None] * moved, belongs], axis=1)
+            columns = whitened(columns, smoother.same, float(smoother.alike[modulus]))
+            onto = curve.basis.T @ columns
+            places = np.append(np.arange(count), count + modulus * ramps + np.arange(ramps))
+            found = columns.T @ columns - onto.T @ curve.inverse @ onto
+            information[np.ix_(places, places)] += found / scatter**2
+            score[places] += columns.T @ curve.residual / scatter**2
+        return information, score
+
     def state(self, logs: Array, smoother: CorrelatedSmoother) -> _State:
         """Draw the curves at these constants and differentiate; both derivatives are those of variable projection."""
         constants = np.exp(logs)
@@ -307,7 +357,13 @@ class _Problem:
         return logs
 
 
-def _covariance(problem: _Problem, logs: Array, smoother: CorrelatedSmoother, state: _State) -> Array:
+def _covariance(
+    problem: _Problem,
+    logs: Array,
+    smoother: CorrelatedSmoother,
+    state: _State,
+    offsets: Offsets,
+) -> Array:
     """Return the covariance of the logarithms of the constants: score about exact curvature, as for isotherms."""
     count = len(logs)
     curvature = np.zeros((count, count))
@@ -317,4 +373,9 @@ def _covariance(problem: _Problem, logs: Array, smoother: CorrelatedSmoother, st
     normal = state.normal + 1e-12 * np.trace(state.normal) * np.eye(count)
     inverse = inverse_curvature(normal, 0.5 * (curvature + curvature.T))
     left = max(state.freedom - count, 1.0)
-    return np.asarray(state.freedom / left * inverse @ state.normal @ inverse)
+    scattered = state.freedom / left * inverse @ state.normal @ inverse
+    if not np.any(offsets.covariance):
+        return np.asarray(scattered)
+    # The constants found follow offsets as the information of this smoother, which takes them for correlated errors.
+    gain = inverse @ problem._with_offsets(logs, smoother)[0][:count, count:]
+    return np.asarray(scattered + gain @ np.kron(offsets.covariance, np.eye(problem.ramps)) @ gain.T)
