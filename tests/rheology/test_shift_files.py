@@ -36,6 +36,15 @@ def test_columns_that_are_not_read_are_named(tmp_path):
     assert "unused-columns" not in codes(read_shift_factors(saved).notes)
 
 
+@pytest.mark.parametrize(("heading", "rows"), [("aT", ("100,10", "1,0")), ("ln aT", ("4.60517,0.1", "0,0"))])
+def test_standard_errors_are_those_of_their_column(tmp_path, heading, rows):
+    """An error of 10 % of α is 0.043 decades; it was read as 10, or 0.1, decades."""
+    path = written(tmp_path, f"T (degC),{heading},standard error\n0,{rows[0]}\n20,{rows[1]}\n")
+    found = read_shift_factors(path)
+    assert found.standard_errors == pytest.approx([0.1 / np.log(10.0), 0.0])
+    assert "errors-of-column" in codes(found.notes)
+
+
 @pytest.mark.parametrize("reference", [283.15, 293.15, 288.6180339887])
 def test_saved_factors_come_back_with_their_covariance(tmp_path, reference):
     rng = np.random.default_rng(1)

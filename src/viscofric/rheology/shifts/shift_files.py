@@ -94,7 +94,7 @@ def read_shift_factors(
         The table holds 1/α, or its logarithm, and rises with temperature.
     columns : mapping, optional
         Headings that are not understood, by quantity: ``{"temperature": "Temp. / °C", "log10_shift_factor": "lg"}``;
-        ``shift_factor``, ``ln_shift_factor`` and ``standard_error`` (of log10 α) are the others.
+        ``shift_factor``, ``ln_shift_factor`` and ``standard_error`` (of the column of factors) are the others.
     sheet : str, optional
         The only sheet of a workbook to read.
 
@@ -223,7 +223,12 @@ def _from_table(source: Source) -> _Factors:
     if unused:
         said = f"Columns of the file of shift factors that are not read: {', '.join(map(repr, unused))}."
         notes += (Note("unused-columns", said, values={"headings": unused}),)
-    return _Factors(table.values(at, "K"), log10, reference, _covariance(table), notes)
+    slope = np.full(len(log10), _SCALES[name]) if _SCALES[name] else 1.0 / (table.numbers(of) * math.log(10.0))
+    covariance = _covariance(table, slope)
+    if name != "log10 shift factor" and table.place("standard error") is not None:
+        said = f"The standard errors of the file were read as those of its column {table.columns[of].heading!r}."
+        notes += (Note("errors-of-column", said, values={"heading": table.columns[of].heading}),)
+    return _Factors(table.values(at, "K"), log10, reference, covariance, notes)
 
 
 def _logarithms(table: Table, values: Array, scale: float | None) -> Array:
@@ -238,8 +243,9 @@ def _logarithms(table: Table, values: Array, scale: float | None) -> Array:
     return np.log10(values) if scale is None else np.asarray(scale * values)
 
 
-def _covariance(table: Table) -> Array | None:
+def _covariance(table: Table, slope: Array) -> Array | None:
     """Return the covariance that a table states, in full or by standard errors, or None."""
+    # `slope` (n,) is that of log10 α with the column of factors, whose standard errors are stated.
     places = {int(match[1]): place for place, one in enumerate(table.columns) if (match := _COVARIANCE.match(one.name))}
     size = len(table.rows)
     if places:
@@ -248,7 +254,7 @@ def _covariance(table: Table) -> Array | None:
             raise DataFileError(table.path, problem, code="missing-columns")
         return np.column_stack([table.numbers(places[number]) for number in range(1, size + 1)])
     error = table.place("standard error")
-    return None if error is None else np.diag(table.numbers(error) ** 2)
+    return None if error is None else np.diag((slope * table.numbers(error)) ** 2)
 
 
 def _stated(source: Source) -> tuple[float | None, tuple[str, ...]]:
