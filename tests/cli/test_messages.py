@@ -37,6 +37,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     curves(folder / "apart.csv", [303.15, 363.15])
     shutil.copy(str(files("viscofric") / "example" / "dma.csv"), folder)
     (folder / "sweep.toml").write_text(template_text("sweep"), encoding="utf-8")
+    cold = template_text("ball").replace('"30 degC", ', '"-60 degC", ', 1)
+    (folder / "cold.toml").write_text(cold, encoding="utf-8")
     (folder / "shift.csv").write_text("temperature (degC),a_T\n-30,1e5\n30,1\n120,1e-3\n", encoding="utf-8")
     (folder / "taken").mkdir()
     (folder / "taken" / "study.toml").touch()
@@ -98,7 +100,7 @@ def test_a_refusal_says(
             [
                 "cases      744 = 2 materials × 3 loads with radius × 4 temperatures × 31 speeds",
                 "load 2.5 N to 40 N, radius 3 mm to 12 mm (3)",
-                "tables (csv), tables (excel)",
+                "report.html, results.csv, results.xlsx",
                 "SYNTHETIC",
                 "seconds on one core",
                 "Note: Read as delimited text.",

@@ -14,6 +14,7 @@ from viscofric.cli import main
 from viscofric.cli.check import duration
 from viscofric.cli.new import SCHEMA, TEMPLATES, template_text
 from viscofric.report.texts.checks import all_checks
+from viscofric.study.results.export import NAMES
 
 
 def call(*arguments: str | Path, given: str | bytes | None = None) -> Result:
@@ -100,6 +101,13 @@ def test_check_shows_what_is_wrong_with_every_data_file(tmp_path: Path) -> None:
     assert (found.status, found.code) == (1, "several-mistakes")
     assert len(found.sentence.splitlines()) == 3
     assert all(name in found.sentence for name in ("no.csv", "none.csv"))
+
+
+def test_check_names_the_files_that_a_study_writes(tmp_path: Path) -> None:
+    text = template_text("layer") + '\n[outputs]\nformats = ["zarr", "csv", "excel"]\n'
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    (line,) = (one for one in call("check", tmp_path / "study.toml").stdout.splitlines() if one.startswith("writes"))
+    assert set(NAMES.values()) - {NAMES["netcdf"]} <= set(line.replace(",", "").split())
 
 
 @pytest.mark.slow

@@ -248,6 +248,10 @@ def test_inputs_list_every_setting_of_the_run_file(make_study: Callable[..., xr.
     [heating]
     counterface = "steel"
     coulomb = [0.1, 0.3]
+    [sweep]
+    together = [["load", "thickness"]]
+    [history]
+    cycle = true
     [conditions]
     load = "5 N"
     """
@@ -256,6 +260,7 @@ def test_inputs_list_every_setting_of_the_run_file(make_study: Callable[..., xr.
     assert (listed["author"], listed["sample"], listed["comment"]) == ("A. Author", "plate 3", "First try.")
     assert (listed["layer: thickness"], listed["layer: base"]) == ("4 mm", "sliding")
     assert (listed["heating: counterface"], listed["heating: coulomb"]) == ("steel", "0.1, 0.3")
+    assert (listed["sweep: together"], listed["history: cycle"]) == ('["load", "thickness"]', "true")
     assert not [name for name in listed if "conditions" in name or "catalogue" in name]
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric.web.forms import FORMS
 from viscofric.web.jobs.context import Context, JobError
 from web.friction_workspace import STUDY, done, workspace
 
@@ -88,21 +89,41 @@ def test_a_rubber_from_friction_is_no_witness_of_friction(context: Context, iden
 
 
 @pytest.mark.parametrize(
-    ("anchor", "refusal"),
+    ("anchor", "field", "refusal"),
     [
-        ({"of": "modulus", "frequency": "1 Hz", "temperature": "40 degC"}, ("missing",)),
-        ({**ANCHOR, "of": "modulus", "modulus": "8 N"}, ("wrong-unit", "'8 N'")),
-        ({**ANCHOR, "temperature": "warm"}, ("no-number",)),
-        ({"of": "indentation", "temperature": "40 degC"}, ("missing",)),
-        ({**ANCHOR, "of": "half_width", "size": "1 kg", "speed": "1 m/s", "load": "25 N"}, ("wrong-unit", "'1 kg'")),
+        ({"of": "modulus", "frequency": "1 Hz", "temperature": "40 degC"}, "modulus", ("missing",)),
+        ({"of": "modulus", "modulus": "8 MPa", "temperature": "40 degC"}, "frequency", ("missing",)),
+        ({**ANCHOR, "of": "modulus", "modulus": "8 N"}, "modulus", ("wrong-unit", "'8 N'")),
+        ({**ANCHOR, "of": "modulus", "modulus": "8 MPa", "frequency": "-1 Hz"}, "frequency", ("not-positive",)),
+        ({**ANCHOR, "temperature": "warm"}, "temperature", ("no-number",)),
+        ({"of": "indentation", "temperature": "40 degC"}, "size", ("missing",)),
+        (
+            {**ANCHOR, "of": "half_width", "size": "1 kg", "speed": "1 m/s", "load": "25 N"},
+            "size",
+            ("wrong-unit", "'1 kg'"),
+        ),
+        (
+            {**ANCHOR, "of": "contact_area", "size": "1 mm^2", "speed": "1 m/s", "load": "5 mm"},
+            "load",
+            ("wrong-unit", "'5 mm'"),
+        ),
     ],
 )
-def test_an_anchor_that_cannot_be_used_is_reported(
-    context: Context, anchor: dict[str, Any], refusal: tuple[str, ...]
+def test_an_anchor_that_cannot_be_used_is_reported_beside_its_field(
+    context: Context, anchor: dict[str, Any], field: str, refusal: tuple[str, ...]
 ) -> None:
     with refused(refusal[0], JobError, naming=refusal[1:]) as caught:
         done("identify", context, CURVES, anchor=anchor)
-    assert caught.value.field == "anchor"
+    assert caught.value.field == f"@identify.{field}"
+    assert caught.value.field in {one["path"] for one in FORMS["identify"]}
+
+
+def test_the_identification_asks_for_other_shift_factors_where_its_choice_is(context: Context) -> None:
+    spectrum = vf.synthetic_fluoroelastomer().spectrum
+    vf.write_card(vf.Material(spectrum), context.files / "cold.json", format="json")
+    with refused("no-shift", JobError) as caught:
+        done("identify", context, {**CURVES, "material": {"file": "cold.json"}}, shift="rubber")
+    assert caught.value.field == "@identify.shift"
 
 
 def test_what_is_missing_is_reported(context: Context) -> None:

@@ -153,6 +153,10 @@ def test_what_is_wrong_stands_beside_its_field_and_identifying_can_be_cancelled(
     tab.page.get_by_role("button", name="Use the synthetic example").click()
     until_drawn(tab, "measured-friction", 12)
     behind = part(tab, "Material identified from friction")
+    behind.get_by_label("Anchor (fixes").select_option("modulus")
+    behind.get_by_role("button", name="Identify the material").click()
+    behind.locator(".field-error", has_text="its modulus is missing").wait_for(timeout=1e3 * _SECONDS)
+    assert behind.get_by_role("button", name="Go to").count() == 0  # its field is here
     behind.get_by_label("Anchor (fixes").select_option("nothing")
     behind.get_by_role("button", name="Identify the material").click()  # waits until the shift factors are suggested
     assert behind.get_by_label("Shift factors").input_value() == "friction"

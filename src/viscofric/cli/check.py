@@ -135,6 +135,8 @@ def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:
 
 def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tuple[str, str]]:
     """Return what was found, for people: a word and a line each."""
+    from viscofric.study.results.export import NAMES
+
     lines = [("run file", f"{path}: no errors in run file and data")]
     lines += [("material", _material_line(made)) for made in record["materials"]]
     if record["measured_points"] is not None:
@@ -164,7 +166,7 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
     if (cluster := found.study.cluster) is not None:
         lines.append(("cluster", f"{cluster.jobs} jobs of {cluster.cores} cores and {_bytes(cluster.memory)}"))
     files = ["results.nc", "figures", "report.html"]
-    files += [f"tables ({form})" for form in record["outputs"][3:]]
+    files += [NAMES[form] for form in record["outputs"][3:]]
     lines.append(("writes", f"{path.with_suffix('.results')}: {', '.join(files)}"))
     return lines
 

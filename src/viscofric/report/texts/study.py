@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -192,9 +192,14 @@ def _other_settings(text: str, known: set[str]) -> list[Input]:
         table, *names = key.split(".")
         worded = not names or table in _WORDED or f"{table}.{names[0]}" in _WORDED
         if not worded and names[-1] not in known:
-            shown = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+            shown = ", ".join(map(_as_given, value)) if isinstance(value, list) else _as_given(value)
             found.append(Input(key.replace("_", " ").replace(".", ": ", 1), shown))
     return found
+
+
+def _as_given(value: Any) -> str:
+    """Return a value of a run file as it is written there, text without its quotes."""
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, (bool, list)) else str(value)
 
 
 def _axes(tree: DataTree) -> list[SweepAxis]:
@@ -374,4 +379,5 @@ def _line(cases: list[Note], reader: Reader) -> str:
         return (f"{len(cases)} times: " if len(cases) > 1 else "") + cases[0].words(reader)
     more = f"; and {len(places) - _SHOWN_PLACES} more" if len(places) > _SHOWN_PLACES else ""
     reason = Note(cases[0].code, cases[0].text, remedy=cases[0].remedy).words(reader)
-    return f"{len(cases)} cases ({'; '.join(places[:_SHOWN_PLACES])}{more}): {reason}"
+    first = ", the first" if len({one.text for one in cases}) > 1 else ""
+    return f"{len(cases)} cases ({'; '.join(places[:_SHOWN_PLACES])}{more}){first}: {reason}"

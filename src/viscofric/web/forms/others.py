@@ -36,7 +36,7 @@ QUESTIONS = [
         ],
         help="Not stated in the file; the moduli differ by a factor of three.",
     ),
-    field("material.modulus_unit", "Unit of the moduli", placeholder="MPa", help="Not stated in the file."),
+    field("material.modulus_unit", "Unit of the moduli", placeholder="e.g. MPa", help="Not stated in the file."),
     field(
         "material.temperature",
         "Temperature of the sweep",
@@ -47,7 +47,7 @@ QUESTIONS = [
     field(
         "material.assumed_shift",
         "Assumed shift law",
-        placeholder="250 kJ/mol",
+        placeholder="e.g. 250 kJ/mol",
         help="One frequency determines no shift factor. An activation energy (250 kJ/mol), "
         "WLF 17.44, 51.6 K, -30 degC (C₁, C₂, their reference), or universal.",
     ),
@@ -155,7 +155,7 @@ SEPARATION = [
         "measurement.coulomb",
         "Assumed Coulomb friction",
         "plain",
-        placeholder="0.05, or constant",
+        placeholder="e.g. 0.05, or constant",
         help="If the slip has one direction only: a coefficient, or “constant” over the speed.",
     ),
     number("measurement.coulomb_error", "Standard error of Coulomb friction", min=0),
@@ -164,7 +164,7 @@ SEPARATION = [
         "Steps to leave out",
         "plain",
         list=True,
-        placeholder="1, 3",
+        placeholder="e.g. 1, 3",
         help="For example unsteady steps.",
     ),
     field("measurement.sheet", "Sheet", help="Name of the sheet of a workbook to read."),
@@ -217,8 +217,8 @@ IDENTIFY = [
     ),
     *when(
         {"@identify.anchor": ["modulus"]},
-        field("@identify.modulus", "Modulus |E|", "modulus", placeholder="8 MPa"),
-        field("@identify.frequency", "Frequency of the modulus", "frequency", placeholder="1 Hz"),
+        field("@identify.modulus", "Modulus |E|", "modulus", placeholder="e.g. 8 MPa"),
+        field("@identify.frequency", "Frequency of the modulus", "frequency", placeholder="e.g. 1 Hz"),
     ),
     *when(
         {"@identify.anchor": ["rubber"]},
@@ -226,9 +226,9 @@ IDENTIFY = [
     ),
     *when(
         {"@identify.anchor": _CONTACTS},
-        field("@identify.size", "Measured size", placeholder="0.8 mm, or 12 mm^2"),
-        field("@identify.speed", "Anchor speed", "speed", placeholder="100 mm/s"),
-        field("@identify.load", "Anchor load", "load", placeholder="25 N"),
+        field("@identify.size", "Measured size", placeholder="e.g. 0.8 mm, or 12 mm^2"),
+        field("@identify.speed", "Anchor speed", "speed", placeholder="e.g. 100 mm/s"),
+        field("@identify.load", "Anchor load", "load", placeholder="e.g. 25 N"),
     ),
     *when(
         {"@identify.anchor": ["rubber", "modulus", *_CONTACTS]},

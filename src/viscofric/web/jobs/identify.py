@@ -53,7 +53,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     if options.shift == "rubber":
         if rubber is None or rubber.shift is None:
             raise JobError(
-                "The page's material has no shift factors; choose “found from friction”.", "material", code="no-shift"
+                "The page's material has no shift factors; choose “found from friction”.",
+                "@identify.shift",
+                code="no-shift",
             )
         chosen["shift"] = rubber.shift
     anchor = None if options.anchor is None else make_anchor(options.anchor, rubber, curves.load_unit)
@@ -144,8 +146,8 @@ def _fit(found: IdentifiedMaterial, curves: FrictionCurves) -> list[dict[str, An
 
 
 _Text = Annotated[str, Field(max_length=100)]
-#: Keys that say where the anchor was measured, and what the page calls the others.
-_NAMES = {"size": "the measured size", "modulus": "the modulus"}
+#: Arguments of anchors that the page's fields name otherwise.
+_FIELDS = dict.fromkeys(("indentation", "contact_area", "half_width"), "size")
 
 
 class AnchorOptions(JobOptions):
@@ -172,25 +174,28 @@ def make_anchor(requested: AnchorOptions, rubber: Material | None, load_unit: st
             else _of_contact(requested, load_unit)
         )
     except InputError as error:
-        raise JobError(f"The anchor cannot be used: {error}", "anchor", code=error.code) from error
+        name = str(error.note.values.get("argument", "anchor"))
+        field = f"@identify.{_FIELDS.get(name, name)}"
+        raise JobError(f"The anchor cannot be used: {error}", field, code=error.code) from error
 
 
 def _given(requested: AnchorOptions, *names: str) -> list[str]:
-    missing = [_NAMES.get(name, f"the {name}") for name in names if not getattr(requested, name)]
-    if missing:
-        raise InputError(f"{' and '.join(missing)} of the anchor is missing.", code="missing")
+    for name in names:
+        if not getattr(requested, name):
+            raise InputError(f"its {name} is missing.", code="missing", values={"argument": name})
     return [getattr(requested, name) for name in names]
 
 
 def _of_modulus(requested: AnchorOptions, rubber: Material | None) -> Anchor:
-    (frequency,) = _given(requested, "frequency")
+    known: Any = requested.modulus
     if requested.of == "modulus":
-        (modulus,) = _given(requested, "modulus")
-        return ModulusAnchor(modulus, frequency, requested.temperature, error=requested.error)
-    if rubber is None:
-        raise InputError("there is no rubber whose modulus could be taken.", code="no-rubber")
+        _given(requested, "modulus")
+    (frequency,) = _given(requested, "frequency")
     at = angular_frequency(frequency, "frequency")
-    known = abs(complex(rubber.complex_modulus(at, requested.temperature)))
+    if requested.of == "rubber":
+        if rubber is None:
+            raise InputError("there is no rubber whose modulus could be taken.", code="no-rubber")
+        known = abs(complex(rubber.complex_modulus(at, requested.temperature)))
     return ModulusAnchor(known, at, requested.temperature, error=requested.error)
 
 

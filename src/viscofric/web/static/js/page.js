@@ -51,9 +51,9 @@ function stepOf(path) {
   return own || (PLACES[table] ?? "contact");
 }
 
-/** An error for a note of a step: its sentence, and a way to the step where it can be mended. */
+/** An error for a note of a step: its sentence, and a way to the step where it can be mended; options of a job are here. */
 export function explain(error, here) {
-  const step = error.field ? stepOf(error.field) : here;
+  const step = error.field && !/^(@|options\b)/.test(error.field) ? stepOf(error.field) : here;
   if (step === here || !page.steps.has(step)) return error.message;
   const go = html`<${Button} kind="small" onClick=${() => goTo(step)}>Go to ${page.steps.get(step).title}<//>`;
   return html`${error.message} ${go}`;
