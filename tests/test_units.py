@@ -70,6 +70,7 @@ def test_one_number_and_one_unit_are_understood(text, unit, number):
         ("5 N + 3 N", "N", ("not-a-number",)),
         ("2*3 mm", "m", ("not-a-number",)),
         ("20, 200 mm/s", "m/s", ("not-a-number",)),
+        ("2,5 mm/s, 10 mm/s", "m/s", ("not-a-number",)),  # '2.5 mm/s, 10 mm/s' would be refused too
         ("1_000 N", "N", ("not-a-number",)),
         ("٣ N", "N", ("not-a-number",)),
         ("mm", "m", ("no-number",)),

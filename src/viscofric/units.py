@@ -76,9 +76,11 @@ CELSIUS_ZERO = 273.15  # K
 COLDEST_PLAUSIBLE = 150.0  # K
 
 _NUMBER = re.compile(r"(?P<number>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>.*)")
-_DECIMAL_COMMA = re.compile(r"(?P<whole>[+-]?[0-9]*),(?P<part>[0-9]+(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>[^0-9,.+\s].*|)")
+_DECIMAL_COMMA = re.compile(
+    r"(?P<whole>[+-]?[0-9]*),(?P<part>[0-9]+(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>[^0-9,.+\s][^,]*|)"
+)
 _PARTED = re.compile(
-    r"(?P<number>[+-]?[0-9]{1,3}(?:(?P<mark>[ ,'’\u00a0\u202f])[0-9]{3})+(?:\.[0-9]+)?)\s*(?P<unit>[^0-9,.\s].*|)"
+    r"(?P<number>[+-]?[0-9]{1,3}(?:(?P<mark>[ ,'’\u00a0\u202f])[0-9]{3})+(?:\.[0-9]+)?)\s*(?P<unit>[^0-9,.\s][^,]*|)"
 )
 # A unit is names with single-digit exponents, multiplied and divided; pint gets nothing else to evaluate.
 _LONGEST_UNIT = 40

@@ -13,6 +13,7 @@ import numpy as np
 from viscofric.cli.commands import CONTACT, together
 from viscofric.cli.errors import placed_at, print_notes, typed_as
 from viscofric.cli.files import FILE
+from viscofric.cli.speed_options import list_of
 
 if TYPE_CHECKING:
     from viscofric.roughness.topography import Topography
@@ -136,7 +137,7 @@ def chosen_body(parameters: dict[str, Any]) -> NamedIndenter:
 
 def _spacing(parameters: dict[str, Any]) -> Any:
     """Return one spacing, or two of x and y."""
-    steps = tuple(part.strip() for part in parameters["spacing"].split(","))
+    steps = tuple(list_of(parameters["spacing"]))
     return steps if len(steps) > 1 else steps[0]
 
 
@@ -144,7 +145,7 @@ def _simple(shape: str, text: str) -> NamedIndenter:
     from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid, FlatPunch
     from viscofric.study.cases.sweep import shown
 
-    sizes = [part.strip() for part in text.split(",")] if shape == "ellipsoid" else [text]
+    sizes = list_of(text) if shape == "ellipsoid" else [text]
     if shape == "ellipsoid" and len(sizes) != 2:
         raise click.UsageError(f"--ellipsoid {text!r}: give two radii, along x and y: '10 mm,40 mm'.")
     kinds: dict[str, Any] = {

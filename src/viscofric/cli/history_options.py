@@ -10,6 +10,7 @@ from viscofric.cli.commands import together
 from viscofric.cli.contact_options import chosen_direction, option
 from viscofric.cli.files import Source
 from viscofric.cli.rubber_options import column_options
+from viscofric.cli.speed_options import list_of
 
 if TYPE_CHECKING:
     from viscofric.motion.history import History
@@ -85,7 +86,7 @@ def chosen_times(parameters: dict[str, Any], history: History, *, film: bool) ->
         return dense_times(history, parameters["points"])
     if parameters["times"] is None:
         return _film(history) if film else None
-    return [time.strip() for time in parameters["times"].split(",")]
+    return list_of(parameters["times"])
 
 
 def _film(history: History) -> list[float]:

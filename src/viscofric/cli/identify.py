@@ -21,6 +21,7 @@ from viscofric.cli.output import (
     write_files,
 )
 from viscofric.cli.rubber_options import find_rubber, shift_factor_options
+from viscofric.cli.speed_options import list_of
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -242,10 +243,10 @@ def _prior(parameters: dict[str, Any]) -> dict[str, Any]:
     known = find_rubber(parameters["prior"], "prior")
     prior: dict[str, Any] = {"prior": known, "prior_error": parameters["prior_error"]}
     if parameters["prior_band"] is not None:
-        ends = parameters["prior_band"].split(",")
+        ends = list_of(parameters["prior_band"])
         if len(ends) != 2:
             raise click.BadParameter("give two frequencies: '0.1 Hz,10 Hz'.", param_hint="--prior-band")
-        prior["prior_band"] = tuple(angular_frequency(end.strip(), "--prior-band") for end in ends)
+        prior["prior_band"] = tuple(angular_frequency(end, "--prior-band") for end in ends)
     return prior
 
 

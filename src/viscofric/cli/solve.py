@@ -23,6 +23,7 @@ from viscofric.cli.files import DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
 from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
 from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.cli.speed_options import list_of
 from viscofric.contact.settings import ContactSettings
 
 if TYPE_CHECKING:
@@ -101,7 +102,7 @@ def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
     rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
     settings = {name: parameters[name] for name in _SETTINGS} | contact_settings(parameters)
     settings["layer"] = chosen_layer(parameters)
-    settings["window"] = parameters["window"] and [length.strip() for length in parameters["window"].split(",")]
+    settings["window"] = parameters["window"] and list_of(parameters["window"])
     settings["heating"] = heating = chosen_heating(parameters)
     if heating is not None and parameters["temperature"] is None:
         settings["temperature"] = rubber.material.reference
@@ -150,7 +151,7 @@ def _inputs(
         "tolerance": ContactSettings(accuracy=parameters["accuracy"], tolerance=parameters["tolerance"]).residual,
         "finest": parameters["finest"],
         "grid": parameters["grid"],
-        "window": parameters["window"] and [to_si(length.strip(), "m") for length in parameters["window"].split(",")],
+        "window": parameters["window"] and [to_si(length, "m") for length in list_of(parameters["window"])],
         "backend": parameters["backend"],
         "derivatives": parameters["derivatives"],
     }

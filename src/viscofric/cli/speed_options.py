@@ -44,6 +44,14 @@ def speed_options(speed: str) -> Decorator:
 #: Between the ends of a range: "1 mm/s to 1 m/s", and other ways in which people write it.
 _BETWEEN = re.compile(r"\s(?:to|-|–)\s|\s*(?:\.{2,3}|…)\s*")
 
+#: Between the values of a list; between two digits, a comma is a decimal one, which units refuse.
+_COMMA = re.compile(r"(?<!\d),|,(?!\d)")
+
+
+def list_of(text: str) -> list[str]:
+    """Return the quantities of a list: '20 mm/s, 50 mm/s'."""
+    return [one.strip() for one in _COMMA.split(text)]
+
 
 def chosen_speeds(parameters: dict[str, Any]) -> list[float]:
     """Return the speeds (m/s) of the options."""
@@ -54,9 +62,7 @@ def chosen_temperatures(parameters: dict[str, Any]) -> list[float]:
     """Return the temperatures (K) of the options."""
     from viscofric.units import positive
 
-    return [
-        positive(one.strip(), "K", "--temperature") for text in parameters["temperatures"] for one in text.split(",")
-    ]
+    return [positive(one, "K", "--temperature") for text in parameters["temperatures"] for one in list_of(text)]
 
 
 def _speeds(text: str, points: int) -> list[float]:
@@ -65,7 +71,7 @@ def _speeds(text: str, points: int) -> list[float]:
 
     ends = [end.strip() for end in _BETWEEN.split(text)]
     if len(ends) == 1:
-        return [positive(one.strip(), "m/s", "--speed") for one in text.split(",")]
+        return [positive(one, "m/s", "--speed") for one in list_of(text)]
     if len(ends) > 2:
         raise click.BadParameter(f"{text!r}: a range has two ends: '1 mm/s to 1 m/s'.", param_hint="--speed")
     first, last = (positive(end, "m/s", "--speed") for end in ends)
