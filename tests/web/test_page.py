@@ -125,6 +125,30 @@ def test_units_are_the_users_and_are_remembered(tab: Tab) -> None:
     assert far == []  # words have twelve digits
 
 
+_SPEEDS = """(({render, html}, {Form}, place = document.createElement('form')) => {
+  document.querySelector('#step-export').append(place);
+  render(html`<${Form} of=${[{path: 'conditions.speed', label: 'Speed', as: 'range', kind: 'speed'}]} />`, place);
+})(page.reactive, page.fields)"""
+
+
+def test_a_decimal_comma_is_no_list_and_a_list_needs_no_other_form(tab: Tab) -> None:
+    tab.value("page.state.state.set('conditions.speed', ['1 mm/s', '2 mm/s'])")
+    tab.value(_SPEEDS)
+    place = tab.page.locator("#step-export form").last
+    for typed, taken in (
+        ("2,5 mm/s; 10 mm/s", ["2,5 mm/s", "10 mm/s"]),
+        ("2,5 mm/s, 10", ["2,5 mm/s", "10 mm/s"]),
+        ("20 mm/s", ["20 mm/s"]),
+        ("2,5 mm/s", "2,5 mm/s"),  # the field has one value now
+        ("5, 7 mm/s", ["5 mm/s", "7 mm/s"]),
+        ("5 mm/s,7 mm/s", ["5 mm/s", "7 mm/s"]),
+    ):
+        box = place.locator("input[type=text]").first
+        box.fill(typed)
+        box.press("Tab")
+        assert tab.value("page.state.state.get('conditions.speed')") == taken, typed
+
+
 @pytest.fixture(scope="module")
 def drawing(browser: Browser, server: Server) -> Iterator[Tab]:
     """Have a tab in which figures are drawn."""

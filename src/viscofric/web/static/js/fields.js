@@ -22,6 +22,8 @@ import { shapeOf, state } from "./state.js";
 import * as units from "./units.js";
 
 const listed = (value) => [value ?? []].flat();
+// Between values of a list; between two digits, a comma is a decimal one, which is refused, unless whole numbers are listed.
+const BETWEEN = /;\s*|,\s+|(?<!\d),|,(?!\d)/;
 const readable = (words) =>
   String(words ?? "")
     .replace("delta_degC", "K")
@@ -63,7 +65,7 @@ function at(path, { as, kind, unit, list, also, onChange = (value) => state.chan
     return kind ? units.typed(text, kind) : text.trim();
   };
   const several = (text) => {
-    const parts = text.split(/[,;]\s*/).filter((part) => part.trim() !== "");
+    const parts = text.split(kind === "plain" ? /[,;]\s*/ : BETWEEN).filter((part) => part.trim() !== "");
     // a unit at the end is that of all: "30, 60, 90 °C"
     const common = /[\d.]\s*([^\d\s.].*)$/.exec(parts.at(-1) ?? "")?.[1];
     const found = parts.map((part) => one(common && /^[\s\d.+−-]+$/.test(part) ? `${part.trim()} ${common}` : part));
@@ -116,7 +118,7 @@ function range({ spacing = ["log", "linear"], ...about }, own) {
   const box = (words, place, options, rest) =>
     html`<${Box} key=${place} aria-label="${label}${words}" ...${at(place, options)} ...${rest} ...${own} />`;
   const form = formOf(state.get(path));
-  if (form === "one") return html`${box("", path, about)}${slider(about)}`;
+  if (form === "one") return html`${box("", path, { ...about, list: true })}${slider(about)}`;
   if (form === "list") return box(": list, separated by commas", path, { ...about, list: "always" });
   const points = { type: "number", min: 2, step: 1 };
   return html`<span class="range">
