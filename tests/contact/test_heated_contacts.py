@@ -190,7 +190,11 @@ def test_the_contact_is_that_at_its_own_temperature() -> None:
     assert contact.friction_coefficient == pytest.approx(again.friction_coefficient, rel=1e-12)
     assert contact.temperature == pytest.approx(300.0)
     assert contact.temperature_rise == heat.temperature_rise > 0.2
-    assert abs(heat.residual) <= 0.01 * heat.temperature_rise
+    assert 0.0 < abs(heat.residual) <= 0.01 * heat.temperature_rise < heat.temperature_rise_error
+    # What the residual leaves in the friction is part of its error, by the slope among contacts accurate to 2 %.
+    off = vf.solve_steady(WARM, CYLINDER, **STATE | {"temperature": 300.0 + contact.temperature_rise + heat.residual})
+    left = abs(off.friction_coefficient - contact.friction_coefficient)
+    assert contact.friction_error - again.friction_error == pytest.approx(left, rel=0.5)
     assert heat.coulomb_rise + heat.loss_rise == pytest.approx(heat.temperature_rise + heat.residual)
     assert heat.isothermal_friction == vf.solve_steady(WARM, CYLINDER, **STATE).friction_coefficient
 

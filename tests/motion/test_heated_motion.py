@@ -44,6 +44,24 @@ def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> No
     assert set(run.to_dataset()) >= {"temperature_rise", "temperature_rise_error", "isothermal_friction_force"}
 
 
+@pytest.mark.apart  # four runs
+def test_errors_include_what_the_last_rise_changes() -> None:
+    """Bodies that hardly conduct, so that the loss of a pressed ball warms it by 0.3 K."""
+    poor = vf.ThermalProperties("1 uW/m/K", "200 kg/m**3", "1000 J/kg/K", "poor")
+    heating = vf.Heating(rubber=poor, counterface=poor)
+    history = vf.motion.History([0.0, 0.5, 1.0], load=[0.0, 5.0, 1.0], temperature="20 degC")
+    spectrum = vf.Material.standard_linear_solid("2 MPa", "20 MPa", "0.1 s").spectrum
+    rubber = vf.Material(spectrum, shift=vf.Arrhenius("100 kJ/mol", reference="20 degC"))
+    run = vf.motion.solve_transient(rubber, BALL, history, times=[0.5, 1.0], accuracy=3e-2, heating=heating)
+    assert run.heating is not None
+    assert run.heating.temperature_rise.min() > 0.3
+    assert rubber.shift is not None
+    shift = rubber.shift.log10(293.15 + run.heating.temperature_rise) - rubber.shift.log10(run.temperature)
+    # Depth follows E to the power of 2/3, and E at most 1/τ: 1.5 per decade.
+    assert np.all(run.errors.indentation > 1.5 * np.abs(shift) * run.indentation)
+    assert np.all(run.errors.energy > 1.5 * np.abs(shift) * run.dissipated)
+
+
 def test_a_heated_contact_has_no_state_to_go_on_from_and_one_progress_of_all_its_runs() -> None:
     told: list[float] = []
     history = vf.motion.History([0.1, 0.3, 0.3, 1.0], load=[1.0, 1.0, 5.0, 5.0], temperature="20 degC")
@@ -53,6 +71,10 @@ def test_a_heated_contact_has_no_state_to_go_on_from_and_one_progress_of_all_its
     )  # fmt: skip
     assert run.heating is not None
     assert run.heating.loss_heat == pytest.approx(run.dissipated)
+    # The rise by the loss is no better known than the loss.
+    part = run.heating.error / run.heating.loss_rise
+    assert np.all((run.errors.energy / run.dissipated <= part) & (part < 0.5))
+    assert run.to_dataset()["temperature_rise_error"].values == pytest.approx(run.heating.error)
     assert told[0] < 0.55  # the first run takes half of the history
     assert (np.diff(told).min() >= 0.0, told[-1]) == (True, 1.0)
     with refused("not-available"):

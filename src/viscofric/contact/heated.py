@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.fields.dissipation import Modes
     from viscofric.heat.branches import State
-    from viscofric.heat.result import ContactHeating
     from viscofric.notes import Note
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
@@ -228,12 +227,15 @@ def solve_heated(contact: ThermalContact, accuracy: float) -> Any:
     heating, notes = described(contact.heating, contact.speed, order, isothermal.friction)
     shear = coupling_notes([contact.sheared(order[0])])
     said = dict.fromkeys((*notes, *shear, *left_out, *sought(curve, ended, contact.kelvin)))
-    return finished(contact, order[0].solution, heating, tuple(said))
-
-
-def finished(contact: ThermalContact, solution: Any, heating: ContactHeating, notes: tuple[Note, ...]) -> Any:
-    """Return a solution at the temperature of the body, with its heat and more notes."""
-    return replace(solution, temperature=contact.kelvin, heating=heating, warnings=(*solution.warnings, *notes))
+    solution = order[0].solution
+    error = solution.diagnostics.friction_error + order[0].friction_left
+    return replace(
+        solution,
+        temperature=contact.kelvin,
+        heating=heating,
+        warnings=(*solution.warnings, *said),
+        diagnostics=replace(solution.diagnostics, friction_error=error),
+    )
 
 
 def sought(curve: HeatCurve, ended: str, kelvin: float) -> tuple[Note, ...]:
@@ -257,8 +259,8 @@ def _settled(contact: ThermalContact, curve: HeatCurve, state: State, accuracy: 
         last[:] = [contact.at(rise, accuracy, hot=state.hot)]
         return last[0].produced
 
-    settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)
-    return last[0]
+    rise, residual = settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)
+    return last[0]._replace(left=curve.left(rise, residual))
 
 
 def within_law(contact: ThermalContact, found: list[Warmed]) -> tuple[list[Warmed], tuple[Note, ...]]:

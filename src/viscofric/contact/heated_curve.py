@@ -109,8 +109,10 @@ class _Start(NamedTuple):
     state: State
     near: Knot | None
 
-    def settling(self, accuracy: float) -> Generator[_Call, Warmed, None]:
+    def settling(self, accuracy: float) -> Generator[_Call, Warmed, float]:
         """Yield the contact at rises until the one that it produces agrees, and take what it has produced.
+
+        Return by which part its friction may then be off.
 
         It keeps its resistances where α has hardly changed since they were found.
         """
@@ -126,8 +128,8 @@ class _Start(NamedTuple):
                 found = shift, contact.relative(one.heat)
             try:
                 rise = steps.send(one.produced)
-            except StopIteration:
-                return
+            except StopIteration as end:
+                return self.curve.left(*end.value)
 
 
 class _Solver(NamedTuple):
@@ -173,8 +175,8 @@ class _Solver(NamedTuple):
                 found[row] = one
                 try:
                     more[row] = searches[row].send(one)
-                except StopIteration:
-                    continue
+                except StopIteration as end:
+                    found[row] = one._replace(left=end.value)
             calls = more
         return [found[row] for row in range(len(starts))]
 

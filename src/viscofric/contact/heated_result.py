@@ -27,6 +27,10 @@ THIN = 0.5
 #: Rises per heat are accurate to this; a part of the loss that is left out is noted where it may change the rise by
 #: more, and friction by more than this.
 _ACCURATE, _FELT = 0.2, 1e-2
+#: Errors of the rise by Coulomb heat and by the loss, of the face and where the loss is released, as parts of them; and
+#: beyond a Péclet number of 1/skin² of 10 (see the theory page on heat).
+_ERRORS = {"contact": (0.03, 0.2), "loss": (0.2, 0.1)}
+_FAST_ERRORS, _FAST = {"contact": (0.03, 0.4), "loss": (0.36, 0.1)}, 10.0**-0.5
 
 
 class Heat(NamedTuple):
@@ -48,13 +52,22 @@ class Heat(NamedTuple):
 
 
 class Warmed(NamedTuple):
-    """A contact solved at a rise of temperature, K, what is kept of its solution, and the rise that it produces, K."""
+    """A contact solved at a rise of temperature, K, what is kept of its solution, and the rise that it produces, K.
+
+    `left` is the part of its friction by which that may change where both rises agree.
+    """
 
     rise: float
     friction: float
     solution: Any
     heat: Heat
     produced: float
+    left: float = 0.0
+
+    @property
+    def friction_left(self) -> float:
+        """Error of the friction coefficient by the difference of both rises."""
+        return self.left * abs(self.friction)
 
 
 def beyond(law: str, kelvin: float) -> InputError:
@@ -81,9 +94,12 @@ def described(
     heating: Heating, speed: float, found: list[Warmed], isothermal: float
 ) -> tuple[ContactHeating, tuple[Note, ...]]:
     """Return the heat of the first of one or two states of a contact, with the numbers of the other, and notes."""
-    rise, _, _, heat, produced = found[0]
+    rise, _, _, heat, produced, _ = found[0]
     balance, alone = heat.balance, HeatBalance.of(heat.resistances, heat.coulomb, 0.0)
     by_coulomb = heating.rise(alone)
+    skin = math.sqrt(2.0 * heating.rubber.diffusivity / (abs(speed) * heat.size))
+    parts = (_ERRORS if skin > _FAST else _FAST_ERRORS)[heating.average]
+    error = parts[0] * abs(by_coulomb) + parts[1] * abs(produced - by_coulomb) + abs(produced - rise)
     result = ContactHeating(
         temperature_rise=rise,
         coulomb_rise=by_coulomb,
@@ -97,8 +113,9 @@ def described(
         loss_beyond=heat.resistances.beyond * heat.loss,
         rubber_heat=balance.rubber_heat,
         counterface_heat=balance.counterface_heat,
-        skin=math.sqrt(2.0 * heating.rubber.diffusivity / (abs(speed) * heat.size)),
+        skin=skin,
         isothermal_friction=isothermal,
+        temperature_rise_error=error,
         other_rise=found[1].rise if len(found) > 1 else None,
         other_friction=found[1].friction if len(found) > 1 else None,
     )

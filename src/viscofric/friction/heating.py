@@ -97,7 +97,9 @@ def _record(one: States) -> Record:
     """Return the numbers of a contact at the temperature of the body, with the notes on its heat."""
     found, kelvin = one.wanted.solution, one.contact.kelvin
     record = found if isinstance(found, Record) else indenter_record(found, kelvin)
-    return replace(record, numbers={**record.numbers, "temperature": kelvin}, warnings=(*record.warnings, *one.notes))
+    error = record.numbers["friction_error"] + one.wanted.friction_left
+    numbers = {**record.numbers, "temperature": kelvin, "friction_error": error}
+    return replace(record, numbers=numbers, warnings=(*record.warnings, *one.notes))
 
 
 def _thermal(

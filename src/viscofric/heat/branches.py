@@ -69,12 +69,22 @@ class HeatCurve(NamedTuple):
 
     def tolerance(self, rise: float, accuracy: float) -> float:
         """Return the residual, K, that neither friction nor the rise itself feels."""
-        row = int(np.clip(np.searchsorted(self.rise, rise), 1, len(self.rise) - 1)) if len(self.rise) > 1 else 0
-        per_kelvin = 0.0
-        if row:
-            change = self.log_friction[row] - self.log_friction[row - 1]
-            per_kelvin = abs(change / (self.rise[row] - self.rise[row - 1]))
-        return min(LEFT * abs(rise) + 1e-9, 0.5 * accuracy / max(per_kelvin, 1e-300))
+        return min(LEFT * abs(rise) + 1e-9, 0.5 * accuracy / max(self._felt(rise)[0], 1e-300))
+
+    def left(self, rise: float, residual: float) -> float:
+        """Return the part of friction by which it differs from that of the state near a rise with a residual, K."""
+        per_kelvin, slope = self._felt(rise)
+        return per_kelvin * abs(residual) / (1.0 - min(slope, _STEEPEST))
+
+    def _felt(self, rise: float) -> tuple[float, float]:
+        """Return by which part friction changes with a kelvin near a rise, and dG/dΔT."""
+        if len(self.rise) == 1:
+            return 0.0, 0.0
+        row = int(np.clip(np.searchsorted(self.rise, rise), 1, len(self.rise) - 1))
+        step, friction, produced = (
+            float(one[row] - one[row - 1]) for one in (self.rise, self.log_friction, self.produced)
+        )
+        return abs(friction / step), produced / step
 
 
 def outermost(cold: HeatCurve, hot: HeatCurve) -> list[State]:

@@ -96,6 +96,8 @@ class ContactHeating(Shown):
     temperature_rise : float
         Mean rise that the rubber responds to, of the face or weighted with the loss (`Heating.average`), K; the contact
         was solved so much warmer.
+    temperature_rise_error : float
+        Its error: that of the rises per heat (see the theory page on heat), and `residual`, K.
     coulomb_rise, loss_rise : float
         Its parts due to the Coulomb heat and to the viscoelastic loss, K.
     track_rise : float
@@ -105,7 +107,8 @@ class ContactHeating(Shown):
     loss_weighted_rise : float
         Mean rise of the rubber where the loss is released, K.
     residual : float
-        Rise that the solved contact produces minus that at which it was solved, K.
+        Rise that the solved contact produces minus that at which it was solved, K.  What it changes in the friction
+        is part of the solution's `friction_error`.
     coulomb_heat, loss_heat : float
         Heat of Coulomb friction and of the viscoelastic loss.
     loss_beyond : float
@@ -135,12 +138,13 @@ class ContactHeating(Shown):
     counterface_heat: float
     skin: float
     isothermal_friction: float
+    temperature_rise_error: float
     other_rise: float | None = None
     other_friction: float | None = None
 
     def _shown(self) -> Rows:
         return (
-            ("rise of temperature", self.temperature_rise, "K"),
+            ("rise of temperature", self.temperature_rise, "K", self.temperature_rise_error),
             ("by Coulomb friction", self.coulomb_rise, "K"),
             ("by the loss", self.loss_rise, "K"),
             ("by earlier passes", self.track_rise, "K"),
@@ -153,6 +157,7 @@ class ContactHeating(Shown):
         """Return all numbers with units and long names; those of the other state only where there is one."""
         heat = "(W/m of a line contact, W/m² of a rough surface)"
         meanings = OF_CONTACT | {
+            "temperature_rise_error": ("K", "estimated error of the rise of temperature"),
             "residual": ("K", "rise produced minus rise assumed"),
             "coulomb_heat": ("W", f"heat of Coulomb friction {heat}"),
             "loss_heat": ("W", f"heat of the viscoelastic loss {heat}"),
@@ -177,8 +182,8 @@ class TransientHeating(Shown):
     ----------
     temperature_rise : array
         Mean rise that the rubber responds to by the heat of the solved contact, of the face or weighted with the loss
-        (`Heating.average`), K.  The contact was solved so much warmer, but for `residual`, which changes its friction
-        by less than the accuracy.
+        (`Heating.average`), K.  The contact was solved so much warmer, but for `residual`; what that changes is part
+        of the solution's `errors`.
     loss_rise : array
         Its part by the viscoelastic loss, before the counterface has taken any of it, K.
     face_rise : array
@@ -191,9 +196,11 @@ class TransientHeating(Shown):
         The part of their sum that the counterface has taken up; the rest is in the rubber.
     isothermal_friction_force : array
         Friction force without heating, N or N/m.
-    residual, error : array
-        Rise that the solved contact produces less that at which it was solved, in size, and its change with half as
-        many times, K.  Neither includes that the loss is released where it is only on average.
+    residual : array
+        Rise that the solved contact produces less that at which it was solved, in size, K.
+    error : array
+        Error of the rise, K: its change with half as many times, and the errors of the loss, also by `residual`.  That
+        the loss is released where it is only on average is not included.
     """
 
     temperature_rise: Array
@@ -224,7 +231,7 @@ class TransientHeating(Shown):
         """Return all with the units of force and energy, and long names."""
         return {
             "temperature_rise": (self.temperature_rise, "K", "rise of temperature that the rubber responds to"),
-            "temperature_rise_error": (self.error + self.residual, "K", "estimated error of the rise of temperature"),
+            "temperature_rise_error": (self.error, "K", "estimated error of the rise of temperature"),
             "loss_rise": (self.loss_rise, "K", "rise of temperature due to the viscoelastic loss"),
             "face_rise": (self.face_rise, "K", "mean rise of temperature of the face"),
             "loss_weighted_rise": (

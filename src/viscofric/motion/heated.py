@@ -24,15 +24,17 @@ from viscofric.motion.history import History, dense_times
 from viscofric.motion.problem import Problem
 from viscofric.motion.progress import Progress
 from viscofric.motion.shear import contact_sizes, shear_notes
-from viscofric.motion.solution import TransientSolution
+from viscofric.motion.solution import TransientErrors, TransientSolution
 from viscofric.notes import Note
 
 #: Times at which the rise is found, besides those asked for, and most runs.
 _POINTS, _MOST_RUNS = 60, 12
 #: Part of what remains of the work that the first run takes, and each of the next.
 _PARTS = 0.5, 0.5
-#: Friction changes by less than so many times itself with a decade of α.
+#: Friction, load, depth and energy change by less than so many times themselves with a decade of α.
 _STEEPEST = 2.5
+#: Part of the accuracy by which the rise that is left may change them.
+_LEFT = 0.5
 
 
 def solve_heated(
@@ -64,7 +66,7 @@ def solve_heated(
         warmer, by_loss = _answered(found, heating)
         change = np.abs(np.asarray(law.log10(around + warmer)) - np.asarray(law.log10(around + rise)))
         residual = np.abs(warmer - rise)
-        if float(change.max()) * _STEEPEST <= problem.accuracy:
+        if float(change.max()) * _STEEPEST <= _LEFT * problem.accuracy:
             break
         rise = warmer
         if told is not None:
@@ -81,14 +83,32 @@ def solve_heated(
     # The rise by the heat of the last run, even where that run could do without it.
     heated = TransientHeating(
         warmer, by_loss, found.face, found.below, *heats, np.cumsum(found.counterface), isothermal.friction_force,
-        residual, _change_with_half(problem, run, heating, heats, warmer),
+        residual, _error(problem, run, heating, heats, (warmer, by_loss), change),
     )  # fmt: skip
     keep = range(len(grid)) if times is None else _rows(grid, times)
     doubts = (*_thin_skin(problem, run, heating, found), *shear_notes(problem, run, heating.coulomb, around + warmer))
-    run = replace(run, warnings=(*run.warnings, *doubts))
+    run = replace(run, warnings=(*run.warnings, *doubts), errors=_with_what_is_left(run, history.control, change))
     # A state of the last run is no state of the heated contact.
     chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep), _restart=None)
     return chosen
+
+
+def _with_what_is_left(run: TransientSolution, control: str, change: Array) -> TransientErrors:
+    """Return the errors of a run with what it changes if α does, (n,) decades, up to each time."""
+    part = _STEEPEST * np.maximum.accumulate(change)
+
+    def more(error: Array, value: Array) -> Array:
+        return np.asarray(error + part * np.maximum.accumulate(np.abs(value)))
+
+    errors = run.errors
+    force = np.hypot(run.friction_force, run.lateral_force)
+    return replace(
+        errors,
+        load=more(errors.load, run.load) if control == "indentation" else errors.load,
+        indentation=errors.indentation if control == "indentation" else more(errors.indentation, run.indentation),
+        friction_force=more(errors.friction_force, force),
+        energy=more(errors.energy, run.dissipated),
+    )
 
 
 def _answered(found: PathRise, heating: Heating) -> tuple[Array, Array]:
@@ -185,13 +205,22 @@ def _heats(run: TransientSolution, heating: Heating) -> tuple[Array, Array]:
     return np.cumsum(coulomb), np.cumsum(loss)
 
 
-def _change_with_half(
-    problem: Problem, run: TransientSolution, heating: Heating, heats: tuple[Array, Array], rise: Array
+def _error(
+    problem: Problem,
+    run: TransientSolution,
+    heating: Heating,
+    heats: tuple[Array, Array],
+    rises: tuple[Array, Array],
+    change: Array,
 ) -> Array:
-    """Return how much the rise changes with every other time left out, interpolated."""
+    """Return the error of the rise, given also its part by the loss, and by how many decades α is off; (n,)."""
+    # By how much it changes with every other time left out, interpolated, and by the errors of the heat.
+    rise, by_loss = rises
+    unsure = np.divide(run.errors.energy, run.dissipated, out=np.zeros_like(rise), where=run.dissipated > 0.0)
     rows = np.unique(np.append(np.arange(0, len(run.time), 2), len(run.time) - 1))
-    change = np.abs(_answered(_rise(problem, run, heating, heats, rows), heating)[0] - rise[rows])
-    return np.asarray(np.interp(np.arange(len(run.time)), rows, change))
+    halves = np.abs(_answered(_rise(problem, run, heating, heats, rows), heating)[0] - rise[rows])
+    halved = np.interp(np.arange(len(run.time)), rows, halves)
+    return np.asarray(halved + _STEEPEST * np.maximum.accumulate(change) * np.abs(rise) + unsure * np.abs(by_loss))
 
 
 def _rows(grid: Sequence[float], times: Sequence[float]) -> list[int]:

@@ -141,7 +141,11 @@ def predict_heated(
     order = np.argsort([row for rows in curves.values() for row in rows])
     states = [found[row] for row in order]
     notes = dict.fromkeys(note for one in states for note in one.notes if note.code == "states-beyond")
-    return [one.wanted.solution for one in states], heat_columns(states), tuple(notes)
+    numbers = [
+        one.wanted.solution._replace(friction_error=one.wanted.solution.friction_error + one.wanted.friction_left)
+        for one in states
+    ]
+    return numbers, heat_columns(states), tuple(notes)
 
 
 #: Of the complementarity: what the grid does to friction is a thousand times more.
