@@ -49,6 +49,12 @@ class Unsteady:
     def pressure(self, state):
         return Field({"x": np.zeros(1)}, np.zeros(1))
 
+    def scatter(self, one, other):
+        return 0.0
+
+    def sudden(self, state):
+        return 0.0
+
     def early(self, since):
         return 1.0
 

@@ -57,6 +57,7 @@ class Difference(NamedTuple):
     dissipated: float = 0.0
     slopes_along: float = 0.0  # friction from the pressure on slopes
     slopes_across: float = 0.0
+    points: float = 0.0  # friction, from single points that each differ on their own; see `Mover.scatter`
 
 
 #: Of equal chains.
@@ -118,9 +119,10 @@ class Moment(Generic[State]):
         return replace(self, seen=seen, errors=self.errors._replace(friction=self.slopes))
 
 
-def faded(spread: Difference, pair: Pair[State]) -> Difference:
+def faded(spread: Difference, pair: Pair[State], points: float) -> Difference:
     """Return the size of the difference of the chains, or a part of an earlier one: it may pass through zero."""
-    return Difference(*(max(abs(now), _FADING * then) for now, then in zip(difference(pair), spread, strict=True)))
+    off = difference(pair)._replace(points=points)
+    return Difference(*(max(abs(now), _FADING * then) for now, then in zip(off, spread, strict=True)))
 
 
 def field_of(mover: Mover[State], pair: Pair[State]) -> Field:
@@ -152,7 +154,9 @@ def moment_of(
     left_out = tuple(early * one for one in fine.seen.left_out)
     off = difference(pair)
     each = spread.load, spread.depth, math.hypot(spread.along, spread.across), max(spread.work, spread.dissipated)
-    steps = (part * one for part, one in zip(_OF_STEPS, each, strict=True))
+    steps = Errors(*(part * one for part, one in zip(_OF_STEPS, each, strict=True)))
+    # Those of points touched within a step are of first order, and cancel in the friction only by chance.
+    steps = steps._replace(friction=max(steps.friction, spread.points))
     errors = Errors(*(sum(parts) for parts in zip(steps, left_out, floor, strict=True)))
     slopes = _OF_STEPS.friction * math.hypot(spread.slopes_along, spread.slopes_across) + left_out[2] + floor.friction
     # Sums over all steps are smooth enough to be extrapolated.

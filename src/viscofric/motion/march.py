@@ -244,6 +244,8 @@ class _March(Generic[State]):
             reached = end if step == left else time + step
             tried = self._try(pair, [time, 0.5 * (time + reached), reached])
             ratio = self._ratio(pair, tried)
+            if self._instant(reached).clock - self._instant(time).clock > self.mover.quickest:  # or it may not fall
+                ratio = max(ratio, self.mover.sudden(tried.fine.state) / (self._with(tried).friction * self.accuracy))
             too_quick = ratio * self.share > 1.0  # the step alone adds more than the accuracy
             if ratio > 1.0 and step > (least if too_quick else max(least, _LEAST * (end - start))):
                 self.rejected += 1
@@ -349,7 +351,8 @@ class _March(Generic[State]):
         )
 
     def _seen(self, pair: Pair[State]) -> Pair[State]:
-        self._scales, self._spread = self._with(pair), faded(self._spread, pair)
+        points = max(self.mover.scatter(*(link.state for link in pair)), self.mover.sudden(pair.fine.state))
+        self._scales, self._spread = self._with(pair), faded(self._spread, pair, points)
         return pair
 
     def _record(self, pair: Pair[State], instant: Instant, *, asked: bool, times: int = 1) -> None:

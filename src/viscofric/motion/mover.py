@@ -133,6 +133,14 @@ class Mover(Protocol[State]):
         """Return the pressure of a state."""
         ...
 
+    def scatter(self, one: State, other: State) -> float:
+        """Return the friction by which the points of two states differ, each on its own: the root of their squares."""
+        return 0.0
+
+    def sudden(self, state: State) -> float:
+        """Return the change of the friction by points touched within the last steps, which it may not show yet."""
+        return 0.0
+
     def early(self, since: float) -> float:
         """Return how many times as large `Observation.left_out` is so soon after a jump, s of the clock."""
         return 1.0

@@ -61,6 +61,8 @@ class PeriodicState:
     dissipated: float
     trend: Array | None = None  # (nx, ny) rate of change of the pressure in the step before, 1/s
     lagging: float = 0.0  # after a jump: energy of the modes without a field minus that after they have followed
+    touched: float = 0.0  # 1 if a point was touched in the last step, else 0
+    sudden: float = 0.0  # change of the friction per area by points touched within a step at rest
 
 
 class _Step(NamedTuple):
@@ -173,7 +175,14 @@ class PeriodicMover(Mover[PeriodicState]):
     def step(self, state: PeriodicState, start: Instant, end: Instant, *, keep: bool = True) -> PeriodicState:
         """Return the state at the end of a step or jump; without `keep` its memory overwrites that of the one given."""
         lagging = self.modes.at_once if end.clock - start.clock == 0.0 else 0.0
+        before, friction = state.pressure, state.friction
         found = self._stepped(state, start, end, lagging, keep=keep)
+        if end.clock > start.clock:
+            touched = float(before.any() and np.any(found.pressure[before == 0.0]))
+            resting = np.array_equal(end.position, start.position)
+            if resting and max(touched, state.touched) > 0.0:
+                found = replace(found, sudden=self._change_of_rate(friction, found, start, end))
+            return replace(found, touched=touched)
         if lagging == 0.0:
             return found
         change = np.linalg.norm(self._scale * state.waves) ** 2 - np.linalg.norm(self._scale * found.waves) ** 2
@@ -188,6 +197,15 @@ class PeriodicMover(Mover[PeriodicState]):
         work = float(found.pressure.mean()) * (found.depth - state.depth)
         lost = work - (found.stored - state.stored - state.lagging)
         return replace(found, dissipated=state.dissipated + lost)
+
+    def _change_of_rate(self, before: tuple[float, float], state: PeriodicState, start: Instant, end: Instant) -> float:
+        """Return how much less steadily the friction would change in another such step."""
+        # A point touched late in a step carries nothing yet, but changes at which rates all pressures go on.
+        pressure = None if end.pressure is None else max(0.0, 2.0 * end.pressure - start.pressure)  # type: ignore[operator]
+        gap = None if end.gap is None else 2.0 * end.gap - start.gap  # type: ignore[operator]
+        later = self._stepped(state, start, end._replace(pressure=pressure, gap=gap), 0.0, keep=True)
+        along, across = np.array(before) - 2.0 * np.array(state.friction) + np.array(later.friction)
+        return math.hypot(along, across)
 
     def _stepped(
         self,
@@ -241,6 +259,14 @@ class PeriodicMover(Mover[PeriodicState]):
     def pressure(self, state: PeriodicState) -> Field:
         """Return the pressure of a state, Pa, on the surface's own points."""
         return Field({"x": self.surface.x, "y": self.surface.y}, self.pressure_unit * state.pressure)
+
+    def scatter(self, one: PeriodicState, other: PeriodicState) -> float:
+        """Return the friction by which the points of two states differ, each on its own: the root of their squares."""
+        return self.pressure_unit * float(np.linalg.norm((one.pressure - other.pressure) * self._steepness))
+
+    def sudden(self, state: PeriodicState) -> float:
+        """Return the change of the friction by points touched within the last steps, which it may not show yet."""
+        return self.pressure_unit * self.depth_unit * state.sudden
 
     def early(self, since: float) -> float:
         """Return how many times as large the error of merged modes is so soon after a jump, s of the clock."""

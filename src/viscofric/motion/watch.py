@@ -65,6 +65,14 @@ class Watch:
         """Return the pressure of the state."""
         return self.mover.pressure(state.state)
 
+    def scatter(self, one: Watched, other: Watched) -> float:
+        """Return the friction by which the points of two states differ."""
+        return self.mover.scatter(one.state, other.state)
+
+    def sudden(self, state: Watched) -> float:
+        """Return the change of the friction by points touched within the last steps."""
+        return self.mover.sudden(state.state)
+
     def memory_of(self, state: Watched) -> NDArray[Any]:
         """Return the memory of the state."""
         return self.mover.memory_of(state.state)
