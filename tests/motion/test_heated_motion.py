@@ -44,6 +44,19 @@ def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> No
     assert set(run.to_dataset()) >= {"temperature_rise", "temperature_rise_error", "isothermal_friction_force"}
 
 
+@pytest.mark.slow
+def test_the_loss_of_a_dent_that_recovers_is_not_released_on_the_last_of_its_contact() -> None:
+    """The last thousandth of an unloading, in which 0.2 % of the heat is released, warms by no more than 1 %."""
+    spectrum = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "0.1 s").spectrum
+    rubber = vf.Material(spectrum, shift=vf.Arrhenius("60 kJ/mol", reference="20 degC"))
+    history = vf.motion.History([0.0, 0.5, 1.0], load=[0.0, 2.0, 0.0], temperature="20 degC")
+    run = vf.motion.solve_transient(rubber, BALL, history, times=[0.999, 1.0], accuracy=5e-2, heating=HEATING)
+    assert run.heating is not None
+    assert run.contact_radius is not None
+    assert run.contact_radius[-1] == 0.0
+    assert run.heating.temperature_rise[1] == pytest.approx(run.heating.temperature_rise[0], rel=1e-2)
+
+
 @pytest.mark.apart  # four runs
 def test_errors_include_what_the_last_rise_changes() -> None:
     """Bodies that hardly conduct, so that the loss of a pressed ball warms it by 0.3 K."""

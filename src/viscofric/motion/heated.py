@@ -188,8 +188,16 @@ def _rise(
     coulomb, loss = heats
     rows = np.arange(len(run.time), dtype=np.intp) if rows is None else rows
     shape = "strip" if problem.kind == "line" else "disc"
-    passage = Passage(run.time[rows], run.position[rows], contact_sizes(problem, run)[rows], shape)
+    passage = Passage(run.time[rows], run.position[rows], _touched_sizes(problem, run)[rows], shape)
     return path_rise(passage, np.diff(coulomb[rows], prepend=0.0), np.diff(loss[rows], prepend=0.0), heating)
+
+
+def _touched_sizes(problem: Problem, run: TransientSolution) -> Array:
+    """Return the radii or half-widths of the largest faces around the places that have been in contact, (n,), m."""
+    # What a contact that shrinks or has gone releases while its dent recovers, it does not release on less and less.
+    away = np.linalg.norm(run.position[:, None] - run.position, axis=2)
+    inside = np.tril(contact_sizes(problem, run) - away)
+    return np.asarray(np.maximum(inside.max(axis=1), 0.0))
 
 
 def _heats(run: TransientSolution, heating: Heating) -> tuple[Array, Array]:
