@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.interpolate import BSpline
 
 from friction.synthetic_curves import curves_of, noisy, planted_law, synthetic_curves
 from refusals import refused
@@ -19,12 +18,15 @@ from viscofric.errors import SuperpositionError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.prediction import predict_friction
 from viscofric.friction.shifting.found_shifts import LEFT_OUT, widened, widening
+from viscofric.friction.shifting.isotherms import friction_isotherms
+from viscofric.friction.shifting.placement import scan_pairs
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import codes
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.shifts.laws import WLF, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.superposition.common_curve import Basis, Smoother
 
 LAW = WLF(C1=8.86, C2=101.6, reference="50 degC")
 SPEEDS = np.geomspace(0.02, 0.2, 10)
@@ -121,11 +123,21 @@ def test_95_per_cent_intervals_hold_95_per_cent() -> None:
 
 def test_curves_without_an_end_are_read_with_the_basis_of_the_whole_curve(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each of five comparisons of a pair had its own, which took most of the time."""
-    matrices = []
-    whole = BSpline.design_matrix
-    monkeypatch.setattr(BSpline, "design_matrix", lambda *given: (matrices.append(1), whole(*given))[1])
+    read = []
+    whole = Smoother.basis
+    monkeypatch.setattr(Smoother, "basis", lambda *given: (read.append(1), whole(*given))[1])
     shift_friction(made(power, 20.0, 25.0, 30.0, noise=0.01))
-    assert len(matrices) == 2 * 3  # of three pairs
+    assert len(read) == 2 * 3  # of three pairs
+
+
+def test_curves_of_one_temperature_share_their_knots_and_roughness(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They depend on the speeds only, and each round, with other weights, and each curve without an end had its own."""
+    made_of = []
+    whole = Basis.of
+    monkeypatch.setattr(Basis, "of", lambda *given: (made_of.append(len(given[0])), whole(*given))[1])
+    isotherms = friction_isotherms(made(power, 20.0, 25.0, 30.0, noise=0.01))
+    scan_pairs(isotherms, 1.0)
+    assert made_of == [len(one) for one in isotherms]
 
 
 @pytest.mark.parametrize("true", [3.0, 4.0, 8.0])

@@ -194,16 +194,15 @@ def scatter_about_parabolas(curves: FrictionCurves) -> float | None:
     """Return the relative scatter about a parabola in ln v of each temperature; None if points are too few."""
     squares, freedom = 0.0, 0
     for rows in nominal_rows(curves.temperature):
-        mine = curves.select(rows)
-        different = np.unique(mine.speed).size
-        if different <= PARABOLA or not np.all(mine.viscoelastic > 0.0):
+        speed, friction = curves.speed[rows], curves.viscoelastic[rows]
+        if np.unique(speed).size <= PARABOLA or not np.all(friction > 0.0):
             continue
-        place = np.log(mine.speed / mine.speed.mean())
+        place = np.log(speed / speed.mean())
         design = np.vander(place / np.ptp(place), PARABOLA)
-        values = np.log(mine.viscoelastic)
+        values = np.log(friction)
         left = values - design @ np.linalg.lstsq(design, values, rcond=None)[0]
         squares += float(left @ left)
-        freedom += len(mine) - PARABOLA
+        freedom += len(rows) - PARABOLA
     if freedom < FEWEST_ABOUT:
         return None
     return float(np.sqrt(squares / max(freedom - 2.0, 0.5 * freedom)))  # of Student's distribution
@@ -225,18 +224,17 @@ def implausible(curves: FrictionCurves) -> tuple[Note, ...]:
 def _too_steep(curves: FrictionCurves) -> Iterator[Note]:
     steepest, where = np.inf, ""
     for rows in nominal_rows(curves.temperature):
-        mine = curves.select(rows)
-        x = np.log(mine.speed / np.exp(np.log(mine.speed).mean()))
-        if len(mine) < _FEWEST_POINTS or not np.any(x):
+        x = np.log(curves.speed[rows] / np.exp(np.log(curves.speed[rows]).mean()))
+        if len(rows) < _FEWEST_POINTS or not np.any(x):
             continue
-        y = np.log(mine.viscoelastic)
+        y = np.log(curves.viscoelastic[rows])
         slope = float(x @ y / (x @ x))
         left = y - y.mean() - slope * x
-        own = mine.viscoelastic_error / mine.viscoelastic
-        about = threshold(len(mine) - 2, STEEPER) ** 2 * float(left @ left) / (len(mine) - 2)
+        own = curves.viscoelastic_error[rows] / curves.viscoelastic[rows]
+        about = threshold(len(rows) - 2, STEEPER) ** 2 * float(left @ left) / (len(rows) - 2)
         by_own = threshold(np.inf, STEEPER) ** 2 * float(np.mean(own**2))
         if slope + np.sqrt(max(about, by_own) / (x @ x)) < min(STEEPEST, steepest):
-            steepest, where = slope, f"{shown_celsius(float(mine.temperature.mean()))} °C"
+            steepest, where = slope, f"{shown_celsius(float(curves.temperature[rows].mean()))} °C"
     if np.isfinite(steepest):
         yield Note(
             "too-steep",

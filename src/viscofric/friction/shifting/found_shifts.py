@@ -30,7 +30,7 @@ from viscofric.friction.shifting.placement import (
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.shift_law import NOMINAL
-from viscofric.rheology.superposition.common_curve import Smoother
+from viscofric.rheology.superposition.common_curve import Basis
 from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.overlap import Join
@@ -181,7 +181,7 @@ def _fit(
         places = np.concatenate([isotherm.speed + value for isotherm, value in zip(counted, values, strict=True)])
         friction = np.concatenate([isotherm.friction for isotherm in counted])[:, None]
         weight = 1.0 / (larger * np.concatenate([isotherm.variance for isotherm in counted]))
-        curves = Smoother.fitted(places, friction, weight).curves(places, friction, weight)
+        curves = Basis.of(places).curves(friction, weight)
         freedom = max(curves.freedom - len(chosen) + 1.0, 1.0)
         scale = float(np.sum(curves.residual**2)) / (MEAN_SQUARE * freedom)
         before, larger = larger, counted_less(distances(curves, larger) / scale)

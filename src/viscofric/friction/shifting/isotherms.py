@@ -16,7 +16,7 @@ from viscofric.arrays import Array, Indices, Integers
 from viscofric.friction.curve_checks import MEAN_SQUARE, ROUNDS, counted_less, error_freedom, settled
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import nominal_rows
-from viscofric.rheology.superposition.common_curve import Curves, Smoother
+from viscofric.rheology.superposition.common_curve import Basis, Curves
 from viscofric.rheology.superposition.overlap import LogSweep
 
 #: Points of an isotherm whose speeds differ by less are one point.
@@ -50,6 +50,7 @@ class FrictionIsotherm:
     range: tuple[float, float]  # smallest and largest friction coefficient
     logarithmic: bool  # whether `friction` is the logarithm
     larger: Array  # (n,), factors of the variance of points that lie off the others; 1 for the others
+    basis: Basis  # of the curve through them
 
     def __len__(self) -> int:
         return len(self.speed)
@@ -57,8 +58,7 @@ class FrictionIsotherm:
     @cached_property
     def curves(self) -> Curves:
         """The curve through the points of this temperature alone."""
-        columns = self.speed, self.friction[:, None], 1.0 / (self.larger * self.variance)
-        return Smoother.fitted(*columns).curves(*columns)
+        return self.basis.curves(self.friction[:, None], 1.0 / (self.larger * self.variance))
 
     @cached_property
     def _with_and_without_an_end(self) -> tuple[Curves, ...]:
@@ -68,21 +68,24 @@ class FrictionIsotherm:
         apart = 1.0 + (_LEFT_OUT - 1.0) * np.eye(len(self))[[0, -1]]
         return self.curves, *(replace(self, larger=self.larger * end).curves for end in apart)
 
-    def read(self, speed: Array) -> list[tuple[Array, Array]]:
-        """Return the curve at log10 speeds (k, m) within the range, and the covariance of each m values (k, m, m).
+    @cached_property
+    def _coefficients(self) -> tuple[Array, Array]:
+        """Coefficients (c, K, 1) of these c curves, and their covariances (c, K, K)."""
+        coefficients, inverse = zip(
+            *((curves.coefficients, curves.inverse[0]) for curves in self._with_and_without_an_end), strict=True
+        )
+        return np.array(coefficients), np.array(inverse)
 
-        After it the same of the curves without the first and without the last point, where these are determined.
+    def read(self, speed: Array) -> tuple[Array, Array]:
+        """Return c curves at log10 speeds (k, m) within the range, and the covariances of each m values (c, k, m, m).
+
+        They are the curve, (c, k, m), and those without the first and without the last point, where determined.
         """
-        from scipy.interpolate import BSpline
-
-        smoother = self.curves.smoother  # knots depend on the speeds only
-        inside = np.clip(speed, self.speed[0], self.speed[-1]).ravel()
-        basis = BSpline.design_matrix(inside, smoother.knots, smoother.degree).toarray().reshape(*speed.shape, -1)
-        turned = np.swapaxes(basis, -1, -2)
-        return [
-            (basis @ curves.coefficients[:, 0], basis @ curves.inverse[0] @ turned)
-            for curves in self._with_and_without_an_end
-        ]
+        coefficients, inverse = self._coefficients
+        basis = self.curves.smoother.basis(np.clip(speed, self.speed[0], self.speed[-1]).ravel())
+        shape = len(inverse), *speed.shape
+        onto = (basis @ inverse).reshape(*shape, -1)
+        return (basis @ coefficients).reshape(shape), onto @ np.swapaxes(basis.reshape(*speed.shape, -1), -1, -2)
 
     def raised(self, part: float) -> FrictionIsotherm:
         """Return the same with all friction larger by a relative amount."""
@@ -142,7 +145,7 @@ def distances(curves: Curves, larger: Array) -> Array:
 
 def _expected(curves: Curves, larger: Array) -> Array:
     """Return the expected squared residuals (n,) of points in units of their own variances."""
-    pull = np.minimum(np.einsum("ni,ij,nj->n", curves.basis, curves.inverse[0], curves.basis), 1.0 - _LEAST_LEFT)
+    pull = np.minimum(np.sum((curves.basis @ curves.inverse[0]) * curves.basis, axis=1), 1.0 - _LEAST_LEFT)
     return np.asarray((1.0 - pull) * (1.0 - pull + pull * larger))
 
 
@@ -157,9 +160,10 @@ def with_tails(
     larger, squares = np.ones(len(place)), np.zeros(len(place))
     if len(place) <= _FEWEST_FOR_SCATTER:
         return larger, squares, 0.0
+    basis = Basis.of(place)
     for _ in range(ROUNDS):
         weight = 1.0 / (larger * variance)
-        curves = Smoother.fitted(place, value[:, None], weight).curves(place, value[:, None], weight)
+        curves = basis.curves(value[:, None], weight)
         shared = sharing.T * curves.root
         shared = np.sum((shared - curves.basis @ (curves.inverse[0] @ (curves.basis.T @ shared))) ** 2, axis=1)
         left, freedom = curves.residual[:, 0] ** 2, curves.freedom
@@ -231,12 +235,14 @@ def _merged(
     number[1:] = np.cumsum(np.diff(speed[order]) > SAME_SPEED)
     weight = 1.0 / variance[order]
     total = np.bincount(number, weight)
+    speed = np.bincount(number, weight * speed[order]) / total
     return FrictionIsotherm(
         temperature,
-        np.bincount(number, weight * speed[order]) / total,
+        speed,
         np.bincount(number, weight * ordinate[order]) / total,
         1.0 / total,
         (float(friction.min()), float(friction.max())),
         logarithmic,
         np.ones(len(total)),
+        Basis.of(speed),
     )

@@ -101,18 +101,13 @@ def _chi2(colder: FrictionIsotherm, warmer: FrictionIsotherm, steps: Array, scal
     low = np.maximum(colder.speed[0] + steps, warmer.speed[0])
     high = np.minimum(colder.speed[-1] + steps, warmer.speed[-1])
     places = low[:, None] + (high - low)[:, None] * PLACES
-    first, *colder_without = colder.read(places - steps[:, None])
-    second, *warmer_without = warmer.read(places)
-    chi2 = _apart(first, second, scale)
-    for one, other in [(one, second) for one in colder_without] + [(first, other) for other in warmer_without]:
-        chi2 = np.minimum(chi2, _apart(one, other, scale) + ONE_OUTLIER)
-    return chi2
-
-
-def _apart(one: tuple[Array, Array], other: tuple[Array, Array], scale: float) -> Array:
-    """Return χ² of values (k, m) of two curves with their covariances."""
-    difference, spread = one[0] - other[0], scale * (one[1] + other[1]) + READING**2 * np.eye(len(PLACES))
-    return np.asarray(np.einsum("si,si->s", difference, np.linalg.solve(spread, difference[..., None])[..., 0]))
+    first, second = colder.read(places - steps[:, None]), warmer.read(places)
+    difference = np.concatenate([first[0] - second[0][0], first[0][0] - second[0][1:]])
+    spread = scale * np.concatenate([first[1] + second[1][0], first[1][0] + second[1][1:]])
+    spread += READING**2 * np.eye(len(PLACES))
+    chi2 = np.sum(difference * np.linalg.solve(spread, difference[..., None])[..., 0], axis=-1)
+    chi2[1:] += ONE_OUTLIER
+    return np.asarray(chi2.min(axis=0))
 
 
 def _bounded(steps: Array, chi2: Array) -> list[tuple[float, float, float]]:

@@ -20,11 +20,38 @@ POINTS_PER_KNOT = 5
 KNOT_SPACING = 0.4
 #: Smoothing parameters tried, decades⁵.
 SMOOTHING = np.logspace(-8.0, 6.0, 57)
+_LOG_SMOOTHING = np.log(SMOOTHING)
 #: Order of the derivative whose square is penalised; parabolas are free.
 ROUGHNESS = 3
 #: Regularises bases that the points do not determine; relative.
 RIDGE = 1e-10
 SMALLEST_SCATTER = 1e-6  # decades; noise-free data would have none
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """K basis functions of smoothing splines at n points, which do not depend on values and weights of the points."""
+
+    knots: Array  # (k,), log10 of the reduced frequency, ends repeated
+    degree: int  # 3, or less where the points are very few
+    penalty: Array  # (K, K), integrals of products of third derivatives of the basis functions, 1/decades⁵
+    splines: Array  # (3, n, K), the functions at the points, and their first and second derivatives
+
+    @classmethod
+    def of(cls, frequency: Array, points: int = POINTS_PER_KNOT) -> Basis:
+        """Place knots for points at log10 frequencies (n,)."""
+        knots, degree = knots_for(frequency, points)
+        return cls(knots, degree, roughness(knots, degree), splines(knots, degree, frequency))
+
+    def smoother(self, moduli: Array, weights: Array | None = None) -> Smoother:
+        """Choose the smoothing for moduli (n, m) with weights (n,)."""
+        root = _roots(moduli, weights)
+        smoothing, scatter, _ = restricted_likelihood(self.splines[0] * root, self.penalty, moduli * root)
+        return Smoother(self.knots, self.degree, self.penalty, smoothing, scatter)
+
+    def curves(self, moduli: Array, weights: Array | None = None) -> Curves:
+        """Choose the smoothing for moduli (n, m) with weights (n,), and draw the curves through them."""
+        return self.smoother(moduli, weights).drawn(self.splines, moduli, weights)
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,21 +72,20 @@ class Smoother:
         # `frequency` (n,) is log10 of the reduced angular frequency; `moduli` (n, m) are log10 of E' and E'' without
         # vertical shifts, or other quantities; `weights` (n,) are the inverse variances of the points relative to each
         # other, all equal if None; every interval of the splines holds so many `points`.
-        knots, degree = knots_for(frequency, points)
-        penalty = roughness(knots, degree)
-        basis = splines(knots, degree, frequency)[0]
-        root = _roots(frequency, weights)
-        smoothing, scatter, _ = restricted_likelihood(basis * root, penalty, moduli * root)
-        return cls(knots, degree, penalty, smoothing, scatter)
+        return Basis.of(frequency, points).smoother(moduli, weights)
 
     def basis(self, frequency: Array) -> Array:
-        """Return the basis functions (n, K) at other places."""
-        return np.asarray(splines(self.knots, self.degree, frequency)[0])
+        """Return the basis functions (…, K) at other places (…)."""
+        return np.asarray(splines(self.knots, self.degree, frequency, orders=1)[0])
 
     def curves(self, frequency: Array, moduli: Array, weights: Array | None = None) -> Curves:
         """Draw the curves through points; shapes as for `fitted`."""
-        root = _roots(frequency, weights)
-        found = splines(self.knots, self.degree, frequency) * root
+        return self.drawn(splines(self.knots, self.degree, frequency), moduli, weights)
+
+    def drawn(self, at_points: Array, moduli: Array, weights: Array | None) -> Curves:
+        """Draw the curves through points where the basis functions and their derivatives are known, (3, n, K)."""
+        root = _roots(moduli, weights)
+        found = at_points * root
         basis = found[0]
         moduli = moduli * root
         square = ridged(basis.T @ basis)
@@ -81,7 +107,7 @@ class Curves:
 
     def cost(self, weights: Array) -> float:
         """Return the objective of the fit: squared residuals and penalised roughness, with weights (m,)."""
-        rough = np.einsum("im,ij,jm->m", self.coefficients, self.smoother.penalty, self.coefficients)
+        rough = np.sum(self.coefficients * (self.smoother.penalty @ self.coefficients), axis=0)
         return float(weights @ (np.sum(self.residual**2, axis=0) + self.smoother.smoothing * rough))
 
     @property
@@ -106,8 +132,8 @@ class Curves:
         return np.asarray(self.splines[2] @ self.coefficients)
 
 
-def _roots(frequency: Array, weights: Array | None) -> Array:
-    return np.ones((len(frequency), 1)) if weights is None else np.sqrt(weights)[:, None]
+def _roots(moduli: Array, weights: Array | None) -> Array:
+    return np.ones((len(moduli), 1)) if weights is None else np.sqrt(weights)[:, None]
 
 
 def knots_for(frequency: Array, points: int = POINTS_PER_KNOT) -> tuple[Array, int]:
@@ -123,13 +149,13 @@ def knots_for(frequency: Array, points: int = POINTS_PER_KNOT) -> tuple[Array, i
     return np.concatenate([frequency[0] * ends, inner[1:], frequency[-1] * ends]), degree
 
 
-def splines(knots: Array, degree: int, at: Array) -> Array:
+def splines(knots: Array, degree: int, at: Array, orders: int = 3) -> Array:
     """Return basis functions at points (n,), and their first and second derivatives: (3, n, K)."""
     from scipy.interpolate import BSpline
 
     # Beyond the ends the outermost polynomials continue.
-    every = BSpline(knots, np.eye(len(knots) - degree - 1), degree)
-    return np.stack([every(at, order) for order in range(3)])
+    every = BSpline.construct_fast(knots, np.eye(len(knots) - degree - 1), degree)
+    return np.array([every(at, order) for order in range(orders)])
 
 
 def roughness(knots: Array, degree: int) -> Array:
@@ -146,7 +172,9 @@ def roughness(knots: Array, degree: int) -> Array:
 
 def ridged(square: Array) -> Array:
     """Return BᵀB with a small multiple of the identity, for bases that the points do not determine."""
-    return np.asarray(square + RIDGE * np.trace(square) / len(square) * np.eye(len(square)))
+    found = square.copy()
+    np.fill_diagonal(found, found.diagonal() + RIDGE * np.mean(found.diagonal()))
+    return found
 
 
 def restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple[Array, Array, Array]:
@@ -155,20 +183,21 @@ def restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple[
     # log L = (n − q) log S + Σ log(1 + λd) − (K − q) log λ, with S the penalised squares and q the number of
     # coefficients without penalty; S/(n − q) is the squared scatter.
     factor = np.linalg.cholesky(ridged(basis.T @ basis))
-    whitened = np.linalg.solve(factor, np.linalg.solve(factor, penalty).T)
+    inverse = np.linalg.inv(factor)
+    whitened = inverse @ penalty @ inverse.T
     rough, modes = np.linalg.eigh(0.5 * (whitened + whitened.T))
     unpenalised = min(ROUGHNESS, len(rough))
     rough = np.maximum(rough, 0.0)
     rough[:unpenalised] = 0.0
-    within = np.linalg.solve(factor, basis.T @ moduli)
+    within = inverse @ (basis.T @ moduli)
     parts = modes.T @ within
-    left = np.sum((moduli - basis @ np.linalg.solve(factor.T, within)) ** 2, axis=0)
+    left = np.sum((moduli - basis @ (inverse.T @ within)) ** 2, axis=0)
     freedom = max(len(basis) - unpenalised, 1)
     growth = 1.0 + SMOOTHING[:, None] * rough
-    squares = left[:, None] + np.einsum("lk,km->ml", 1.0 - 1.0 / growth, parts**2)
+    squares = left[:, None] + ((1.0 - 1.0 / growth) @ parts**2).T
     squares = np.maximum(squares, freedom * SMALLEST_SCATTER**2)
     penalised = len(rough) - unpenalised
-    criterion = freedom * np.log(squares) + np.sum(np.log(growth), axis=1) - penalised * np.log(SMOOTHING)
+    criterion = freedom * np.log(squares) + np.sum(np.log(growth), axis=1) - penalised * _LOG_SMOOTHING
     best = np.argmin(criterion, axis=1)
     chosen = np.arange(len(best)), best
     constant = 2.0 * np.sum(np.log(np.diag(factor)))
