@@ -49,11 +49,13 @@ def numbers(values: object, name: str, *, infinite: bool = False, missing: bool 
         raise wrong_argument(
             name, values, f"must be an array of numbers, but contains {error}.", "not-a-number"
         ) from None
-    allowed = np.isfinite(found) | (np.isinf(found) & infinite) | (np.isnan(found) & missing)
-    if not allowed.all():
-        wrong = float(found[~allowed].flat[0])
-        raise wrong_argument(name, values, f"must hold finite numbers; {wrong} cannot be used.", "not-a-number")
-    beyond = np.isfinite(found) & (np.abs(found) > LARGEST)
+    finite = np.isfinite(found)
+    if not finite.all():
+        allowed = finite | (np.isinf(found) & infinite) | (np.isnan(found) & missing)
+        if not allowed.all():
+            wrong = float(found[~allowed].flat[0])
+            raise wrong_argument(name, values, f"must hold finite numbers; {wrong} cannot be used.", "not-a-number")
+    beyond = finite & (np.abs(found) > LARGEST)
     if beyond.any():
         wrong = float(found[beyond].flat[0])
         raise wrong_argument(name, values, f"holds {wrong:g}, too large for computations ({LARGEST:g}).", "too-large")

@@ -161,6 +161,8 @@ def _unlabelled(values: Any, unit: str, name: str) -> Any:
 
 def to_si(value: Quantity, unit: str, name: str = "value") -> float:
     """Convert one value to a float in an SI unit; plain numbers are in `unit` already."""
+    if isinstance(value, float) and abs(value) <= LARGEST:  # as in each step of a fit, where the rest takes most time
+        return float(value)
     value = _unlabelled(value, unit, name)
     if isinstance(value, str):
         number = _parse(value, unit, name)
