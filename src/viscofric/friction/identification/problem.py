@@ -295,4 +295,4 @@ class Problem(SpectrumProblem):
 
     def _padded(self, change: Array) -> Array:
         """Return derivatives (r, p) of what does not depend on the errors in common."""
-        return np.pad(change, ((0, 0), (0, self.others)))
+        return np.concatenate([change, np.zeros((len(change), self.others))], axis=1)
