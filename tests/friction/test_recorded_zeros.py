@@ -374,6 +374,17 @@ def _one_after_the_other(runs: TractionRuns, seconds: float) -> TractionRuns:
     return replace(runs_from(rows[order]), time=seconds * np.arange(len(rows)))
 
 
+def test_a_drift_between_configurations_is_told_by_the_whole_test_where_repetitions_follow_at_once() -> None:
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=3, noise=0.01)
+    time = 10.0 * np.arange(len(runs))
+    curves = separate(replace(runs, time=time, traction_force=runs.traction_force + 4e-4 * time))
+    (note,) = [note for note in curves.notes if note.code == "zero-drifts"]
+    # 18 zeros of 0.01 N over the root of 4 readings, within 210 s of their mean time: 6e-6 N/s; five of them.
+    assert note.values["rate"] == pytest.approx(4e-4, abs=3e-5)
+    # 72 readings of 0.01 N: 5e-5 of 25 N; five of them.  The drift of 30 s between configurations is 4.8e-4.
+    assert np.mean(curves.viscoelastic) == pytest.approx(0.03, abs=2.5e-4)
+
+
 @given(rate=st.floats(-1e-2, 1e-2), replicates=st.integers(3, 5), seed=st.integers(0, 1000))
 @settings(deadline=None, max_examples=20, derandomize=True)
 def test_an_even_drift_of_the_zero_is_taken_out(rate: float, replicates: int, seed: int) -> None:

@@ -16,6 +16,8 @@ from viscofric.notes import Note
 from viscofric.units import shown_number
 
 _FEWEST = 3  # degrees of freedom of a rate
+#: The zeros of a condition are used alone unless the error of their rate is so many times that of the whole test.
+_FAR_BETTER = 3.0
 # The recorded zeros are followed where this reduces the sum of squares by more than chance.
 _WORTH = 0.8
 _PER_HOUR = 3600.0
@@ -44,36 +46,28 @@ class Drift:
     def of(cls, fits: list[Fit]) -> Drift:
         """Estimate the drift from the fitted zeros."""
         # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
-        # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
+        # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not, or
+        # where they were repeated at once, so that the whole test tells it far better.
         fitted = [fit for fit in fits if fit.fits_offset]
         follows = _follows(fitted)
         plain = cls(follows=follows).weights
         timed = [fit for fit in fitted if np.isfinite(fit.time)]
         repeated = [fit for fit in timed if len(fit.each) > 1]
-        taken = repeated or timed
-        if not taken:
+        if not timed:
             return cls(follows=follows, wandering=_in_order_of_rows(fitted, plain), timed=False)
-        zero = np.concatenate([fit.offset(plain) for fit in taken])
-        # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
-        time = np.concatenate([fit.time - fit.each[:, 0, DRIFT] for fit in taken])
-        line = np.repeat(np.arange(len(taken)), [len(fit.each) for fit in taken])
-        if not repeated:
-            line = np.zeros(line.size, dtype=np.int64)
-        early = _centred(time, line)
-        sensitivity, freedom = float(np.sum(early**2)), line.size - line.max() - 2
-        if freedom < _FEWEST or sensitivity <= 0.0:
+        found = _Line.of(timed, plain, apart=False)
+        if repeated and (own := _Line.of(repeated, plain, apart=True)).error < _FAR_BETTER * found.error:
+            found = own
+        if not np.isfinite(found.error):
             return cls(follows=follows)
-        centred = _centred(zero, line)
-        rate = float(np.sum(early * centred)) / sensitivity
-        residual = centred - rate * early
-        error = float(np.sqrt(np.sum(residual**2) / freedom / sensitivity))
-        rounding = ROUNDING * max(fit.group.load for fit in taken)
-        unexplained = float(np.sqrt(np.mean(residual**2)))
-        if unexplained > rounding and wanders(residual[np.argsort(time, kind="stable")]):
-            return cls(follows=follows, wandering=float(np.std(zero, ddof=1)))
-        if abs(rate) * float(np.ptp(time)) <= rounding or abs(rate) < threshold(freedom, CHANCE) * error:
+        rounding = ROUNDING * max(fit.group.load for fit in timed)
+        unexplained = float(np.sqrt(np.mean(found.residual**2)))
+        if unexplained > rounding and wanders(found.residual[np.argsort(found.time, kind="stable")]):
+            return cls(follows=follows, wandering=float(np.std(found.zero, ddof=1)))
+        certain = abs(found.rate) >= threshold(found.freedom, CHANCE) * found.error
+        if abs(found.rate) * float(np.ptp(found.time)) <= rounding or not certain:
             return cls(follows=follows)
-        return cls(rate, error, freedom, follows)
+        return cls(found.rate, found.error, found.freedom, follows)
 
     def entry(self, fit: Fit, zeros: Zeros, error: Array, freedom: Array) -> Entry:
         """Return the result of a condition, with the error of the drift in its standard errors (4,)."""
@@ -116,6 +110,35 @@ class Drift:
                 f"{advice}.",
                 values={"standard_deviation": self.wandering, "of_load": self.wandering / load},
             )
+
+
+@dataclass(frozen=True, eq=False)
+class _Line:
+    """Straight lines of one slope through zeros (n,), N, at times (n,), s."""
+
+    zero: Array
+    time: Array
+    residual: Array  # (n,), N
+    rate: float  # N/s
+    error: float  # its standard error, infinite where it has too few degrees of freedom
+    freedom: float
+
+    @classmethod
+    def of(cls, fits: list[Fit], weights: Array, *, apart: bool) -> _Line:
+        """Fit a line for each condition if `apart`, else one for all."""
+        zero = np.concatenate([fit.offset(weights) for fit in fits])
+        # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
+        time = np.concatenate([fit.time - fit.each[:, 0, DRIFT] for fit in fits])
+        line = np.repeat(np.arange(len(fits)) * apart, [len(fit.each) for fit in fits])
+        early = _centred(time, line)
+        sensitivity, freedom = float(np.sum(early**2)), line.size - line.max() - 2
+        if freedom < _FEWEST or sensitivity <= 0.0:
+            return cls(zero, time, zero, 0.0, np.inf, float(freedom))
+        centred = _centred(zero, line)
+        rate = float(np.sum(early * centred)) / sensitivity
+        residual = centred - rate * early
+        error = float(np.sqrt(np.sum(residual**2) / freedom / sensitivity))
+        return cls(zero, time, residual, rate, error, float(freedom))
 
 
 def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:
