@@ -604,3 +604,16 @@ def test_a_force_that_never_changes_is_noted() -> None:
     stuck = replace(runs, traction_force=np.full(len(runs), 0.12))
     assert "constant-force" in codes(separate(stuck).notes)
     assert "constant-force" not in codes(separate(runs).notes)
+
+
+def test_loads_that_differ_between_the_directions_of_the_disc_are_taken_together() -> None:
+    """As where friction acts on the load; 12 % apart are no two nominal loads that lack a direction each."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, offset=0.0)
+    factor = 1.0 + 0.06 * np.sign(runs.disc_speed)
+    apart = replace(runs, load=factor * runs.load, traction_force=factor * runs.traction_force)
+    curves = separate(apart)
+    assert codes(curves.notes) == {"loads-differ"}
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, rtol=ROUNDING)
+    np.testing.assert_allclose(curves.load, 25.0, rtol=0.02)
+    # Two loads with all directions each are two conditions, however near.
+    assert len(separate(runs_from(np.concatenate([rows_of(runs), rows_of(runs) * [1, 1, 1.1, 1.1, 1, 1]])))) == 12

@@ -210,11 +210,15 @@ def _full_rank(signs: frozenset[tuple[int, int]], offset: bool, coulomb: bool) -
 
 
 def conditions(
-    runs: TractionRuns, course: Course, speed_tolerance: float, temperature_tolerance: float
+    runs: TractionRuns,
+    course: Course,
+    speed_tolerance: float,
+    temperature_tolerance: float,
+    load_tolerance: float = SAME_LOAD,
 ) -> tuple[list[Condition], tuple[str, ...]]:
     """Group the readings of a traction test by their measured temperature, load, speed and slip, in this order."""
     # Values are sorted, and a gap wider than the tolerance starts the next nominal value. The tolerance of temperature
-    # is in K, that of speed relative; that of load is 5 %. The tolerance of the slip ratio follows from the measured
+    # is in K, those of speed and load are relative. The tolerance of the slip ratio follows from the measured
     # jitter of the speeds, since slip is a small difference of two of them: it is three standard deviations of that
     # difference, at least a tenth of the speeds' tolerance. Slip of either sense within it, or with a mean within three
     # of its own standard deviations, is pure rolling. Slip that was swept without gaps is cut into intervals four
@@ -249,13 +253,13 @@ def conditions(
     )
     loading = clusters(
         load,
-        SAME_LOAD * load,
+        load_tolerance * load,
         Gapless(
             runs,
             runs.load,
             "runs.load",
             lambda low, high: f"load from {shown_number(low, '.4g')} to {shown_number(high, '.4g')} N",
-            gap=SAME_LOAD,
+            gap=load_tolerance,
         ),
     )
     pace = clusters(

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +16,6 @@ from viscofric.friction.measurement.assumed_coulomb import Assumed
 from viscofric.friction.measurement.conditions import (
     SPEED_TOLERANCE,
     Condition,
-    Course,
     conditions,
     of_both,
     of_the_disc,
@@ -40,6 +41,8 @@ _OF_FORCE = 0.5
 _MOST, _FEWEST_PAIRS = 0.8, 5
 #: Smallest share of the readings in a group: fewer are outliers.
 _SHARE = 0.2
+#: Loads that differ by less between configurations may be those of one condition, as where friction acts on the load.
+_LOADS_TOGETHER = 3.0 * SAME_LOAD
 # Speeds within this part of each other may have one nominal value.
 _NEAR = 0.5
 # (sgn u_disc, sgn(u_disc − u_ball)) in words
@@ -159,26 +162,29 @@ class Grouping:
     def of(
         cls, runs: TractionRuns, zeros: Zeros, assumed: Assumed, speed_tolerance: float, temperature_tolerance: float
     ) -> Grouping:
-        """Group the readings by the speed of the disc, or by that of disc and ball where this puts more together."""
+        """Group the readings by the speed of the disc, or by that of disc and ball where this puts more together.
 
-        def grouped(course: Course) -> tuple[list[Condition], tuple[str, ...], list[Condition]]:
-            groups, notes = conditions(runs, course, speed_tolerance, temperature_tolerance)
-            return groups, notes, [group for group in groups if not assumed.suffices(group, zeros)]
-
-        problem = None
-        try:
-            groups, notes, poor = grouped(of_the_disc(runs))
-        except InputError as error:
-            problem, groups, notes, poor = error, [], (), []
-        if problem or poor:
-            # Slip separates the disc's speeds by as much as nominal speeds may differ only at some of them.
+        Loads that differ by more than those of one condition are put together where nothing is separated otherwise.
+        """
+        problem: InputError | None = None
+        groups: list[Condition] = []
+        poor: list[Condition] = []
+        notes: list[str] = []
+        # Slip separates the disc's speeds by as much as nominal speeds may differ only at some of them.
+        for load_tolerance, course in product((SAME_LOAD, _LOADS_TOGETHER), (of_the_disc, of_both)):
+            separated = len(groups) - len(poor)
+            if (groups and not poor) or (load_tolerance > SAME_LOAD and (separated or not groups)):
+                break
             try:
-                others, other_notes, still_poor = grouped(of_both(runs))
-            except InputError:
-                others, other_notes, still_poor = [], (), []
-            if _readings(others) - _readings(still_poor) > _readings(groups) - _readings(poor):
-                groups, notes, poor, problem = others, other_notes, still_poor, None
-        if problem:
+                others, said = conditions(runs, course(runs), speed_tolerance, temperature_tolerance, load_tolerance)
+            except InputError as error:
+                if not groups:
+                    problem = problem or error
+                continue
+            still_poor = [group for group in others if not assumed.suffices(group, zeros)]
+            if not groups or _readings(others) - _readings(still_poor) > _readings(groups) - _readings(poor):
+                groups, poor, notes = others, still_poor, [*said, *_of_loads(runs, others, load_tolerance)]
+        if problem and (not groups or len(poor) == len(groups)):
             raise problem
         if not groups:
             raise InputError(
@@ -197,6 +203,19 @@ class Grouping:
             noted.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
         out = mixed.union(map(id, poor))
         return cls([group for group in groups if id(group) not in out], noted)
+
+
+def _of_loads(runs: TractionRuns, groups: list[Condition], tolerance: float) -> Iterator[Note]:
+    """Yield a note on conditions that have loads apart from each other, if there are any."""
+    apart = [float(np.ptp(runs.load[group.rows])) / group.load for group in groups]
+    some = [group for group, one in zip(groups, apart, strict=True) if one > SAME_LOAD]
+    if some and tolerance > SAME_LOAD:
+        yield Note(
+            "loads-differ",
+            f"{where(some, len(groups))} the loads of the configurations differ by up to {100.0 * max(apart):.2g} %; "
+            "they are taken together, as friction coefficients at the mean load.",
+            values={"conditions": len(some), "of": len(groups), "difference": max(apart)},
+        )
 
 
 def _readings(groups: list[Condition]) -> int:

@@ -58,7 +58,8 @@ def separate(
         the largest of those of their configuration, their condition and the whole test, each estimated by the median
         absolute deviation.  They are noted in either case.
     speed_tolerance : float
-        Relative gap between nominal speeds and slips; measured ones scatter by less.  For loads it is 5 %.
+        Relative gap between nominal speeds and slips; measured ones scatter by less.  For loads it is 5 %,
+        or 15 % where nothing can be separated otherwise.
     temperature_tolerance : float, str or pint.Quantity
         Gap between nominal temperatures, K.
 
