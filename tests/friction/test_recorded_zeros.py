@@ -385,6 +385,24 @@ def test_a_drift_between_configurations_is_told_by_the_whole_test_where_repetiti
     assert np.mean(curves.viscoelastic) == pytest.approx(0.03, abs=2.5e-4)
 
 
+def test_coulomb_friction_that_grows_with_wear_does_not_reach_viscoelastic_friction() -> None:
+    """Configurations in the order of the paper, whose viscoelastic part has half of what grows from one to the next."""
+    rows = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=6, noise=0.01))
+    order = [FOUR.index(signs) for signs in zip(np.sign(rows[:, 0]), np.sign(rows[:, 0] - rows[:, 1]), strict=True)]
+    rows = rows[np.lexsort((order, rows[:, 5]))]
+    time = 10.0 * np.arange(len(rows))
+    rows[:, 2] += 0.05 * rows[:, 3] * np.sign(rows[:, 0] - rows[:, 1]) * 0.8 * time / time.max()
+    curves = separate(replace(runs_from(rows), time=time))
+    (note,) = curves.notes
+    assert note.code == "coulomb-drifts"
+    # From 1 to 1.8 times as much, over 1.4 in the middle; six replicates of 0.01 N of 1.75 N tell it to 1 %.
+    assert note.values["rate"] * time.max() == pytest.approx(0.8 / 1.4, rel=0.03)
+    # 144 readings of 0.01 N: 3e-5 of the load over all, five of them.  Half of 0.8/24 of 0.05 is 8e-4.
+    assert np.mean(curves.viscoelastic) == pytest.approx(0.03, abs=1.7e-4)
+    # What Coulomb friction changes by is in its own errors: 0.8/√12 of 0.05, over the root of six.
+    assert np.median(curves.coulomb_error) == pytest.approx(0.005, rel=0.2)  # type: ignore[arg-type]
+
+
 @given(rate=st.floats(-1e-2, 1e-2), replicates=st.integers(3, 5), seed=st.integers(0, 1000))
 @settings(deadline=None, max_examples=20, derandomize=True)
 def test_an_even_drift_of_the_zero_is_taken_out(rate: float, replicates: int, seed: int) -> None:

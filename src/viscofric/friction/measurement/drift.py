@@ -1,16 +1,17 @@
-"""Drift of the force cell's zero: estimated from the fitted zeros, and removed from the separation."""
+"""Drift of the force cell's zero and of Coulomb friction: estimated from the fits, and removed from the separation."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from viscofric.arrays import Array, Integers
 from viscofric.friction.intervals import threshold
 from viscofric.friction.measurement.doubts import CHANCE
-from viscofric.friction.measurement.fit import DRIFT, FORCE, ZERO_CHANGES, Entry, Fit
+from viscofric.friction.measurement.fit import DRIFT, FORCE, WEAR, ZERO_CHANGES, Entry, Fit
 from viscofric.friction.measurement.zeros import ROUNDING, Zeros, wanders
 from viscofric.notes import Note
 from viscofric.units import shown_number
@@ -23,13 +24,23 @@ _WORTH = 0.8
 _PER_HOUR = 3600.0
 
 
+class Rate(NamedTuple):
+    """A change that is linear in time; zero where it is not significant."""
+
+    value: float = 0.0
+    error: float = 0.0  # its standard error
+    freedom: float = np.inf
+
+
+_NONE = Rate()
+
+
 @dataclass(frozen=True)
 class Drift:
     """Drift that is subtracted from the forces besides the zero of each condition."""
 
-    rate: float = 0.0  # of a zero that is linear in time, N/s
-    error: float = 0.0  # standard error of the rate, N/s
-    freedom: float = np.inf
+    zero: Rate = _NONE  # N/s
+    coulomb: Rate = _NONE  # of Coulomb friction over its mean, 1/s
     follows: bool = False  # whether the zero follows its changes from one recording to the next
     # standard deviation, N, of a zero that drifts otherwise, or without recorded times; zero where it does not
     wandering: float = 0.0
@@ -37,14 +48,20 @@ class Drift:
 
     @property
     def weights(self) -> Array:
-        """Of force, drift and changes of the recorded zero."""
-        weights = np.zeros(3)
-        weights[FORCE], weights[DRIFT], weights[ZERO_CHANGES] = 1.0, self.rate, float(self.follows)
+        """Of the force and its corrections."""
+        weights = np.zeros(4)
+        weights[FORCE], weights[DRIFT], weights[ZERO_CHANGES] = 1.0, self.zero.value, float(self.follows)
+        weights[WEAR] = self.coulomb.value
         return weights
 
     @classmethod
     def of(cls, fits: list[Fit]) -> Drift:
-        """Estimate the drift from the fitted zeros."""
+        """Estimate the drift from the fitted zeros and Coulomb coefficients."""
+        drift = cls._of_zeros(fits)
+        return replace(drift, coulomb=_of_coulomb(fits, drift.weights))
+
+    @classmethod
+    def _of_zeros(cls, fits: list[Fit]) -> Drift:
         # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
         # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not, or
         # where they were repeated at once, so that the whole test tells it far better.
@@ -55,24 +72,23 @@ class Drift:
         repeated = [fit for fit in timed if len(fit.each) > 1]
         if not timed:
             return cls(follows=follows, wandering=_in_order_of_rows(fitted, plain), timed=False)
-        found = _Line.of(timed, plain, apart=False)
-        if repeated and (own := _Line.of(repeated, plain, apart=True)).error < _FAR_BETTER * found.error:
+        # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
+        points = {id(fit): (fit.offset(plain), fit.time - fit.each[:, 0, DRIFT]) for fit in timed}
+        found = _Line.of([points[id(fit)] for fit in timed], apart=False)
+        own = _Line.of([points[id(fit)] for fit in repeated], apart=True) if repeated else found
+        if own.error < _FAR_BETTER * found.error:
             found = own
-        if not np.isfinite(found.error):
-            return cls(follows=follows)
         rounding = ROUNDING * max(fit.group.load for fit in timed)
-        unexplained = float(np.sqrt(np.mean(found.residual**2)))
-        if unexplained > rounding and wanders(found.residual[np.argsort(found.time, kind="stable")]):
-            return cls(follows=follows, wandering=float(np.std(found.zero, ddof=1)))
-        certain = abs(found.rate) >= threshold(found.freedom, CHANCE) * found.error
-        if abs(found.rate) * float(np.ptp(found.time)) <= rounding or not certain:
-            return cls(follows=follows)
-        return cls(found.rate, found.error, found.freedom, follows)
+        if found.wanders(rounding):
+            return cls(follows=follows, wandering=float(np.std(found.value, ddof=1)))
+        return cls(found.rate(rounding), follows=follows)
 
     def entry(self, fit: Fit, zeros: Zeros, error: Array, freedom: Array) -> Entry:
         """Return the result of a condition, with the error of the drift in its standard errors (4,)."""
         entry = fit.entry(self.weights, zeros, error, freedom)
-        return entry.widened((self.error * fit.each[:, :, DRIFT].mean(axis=0)) ** 2, self.freedom)
+        for rate, number in ((self.zero, DRIFT), (self.coulomb, WEAR)):
+            entry = entry.widened((rate.error * fit.each[:, :, number].mean(axis=0)) ** 2, rate.freedom)
+        return entry
 
     def notes(self, fits: list[Fit]) -> Iterator[Note]:
         """Yield notes on the drift and its treatment."""
@@ -83,18 +99,31 @@ class Drift:
                 "The zero of the force cell changes from one recording to the next and the forces change with it, so "
                 "that each reading is taken relative to its own recorded zero.",
             )
-        if self.rate:
+        if self.coulomb.value:
+            moved = np.array([fit.each[:, 1, WEAR].mean() for fit in fits])
+            size = float(np.abs(self.coulomb.value * moved).max())
+            per_hour = 100.0 * _PER_HOUR
+            yield Note(
+                "coulomb-drifts",
+                f"Coulomb friction changes by {shown_number(per_hour * self.coulomb.value, '.2g')} ± "
+                f"{per_hour * self.coulomb.error:.1g} % per hour in the course of the test, as by wear; this is in the "
+                "errors of Coulomb friction and taken out of viscoelastic friction, which it would change by up to "
+                f"{size:.2g} where configurations follow one after the other.",
+                # rate and its error in 1/s
+                values={"rate": self.coulomb.value, "error": self.coulomb.error, "viscoelastic": size},
+            )
+        if self.zero.value:
             moved = np.array([fit.each[:, 1:3, DRIFT].mean(axis=0) for fit in fits if fit.fits_offset])
-            size = np.abs(self.rate * moved).max(axis=0)
+            size = np.abs(self.zero.value * moved).max(axis=0)
             yield Note(
                 "zero-drifts",
-                f"The zero of the force cell drifts by {shown_number(_PER_HOUR * self.rate, '.2g')} ± "
-                f"{_PER_HOUR * self.error:.1g} N/h, "
+                f"The zero of the force cell drifts by {shown_number(_PER_HOUR * self.zero.value, '.2g')} ± "
+                f"{_PER_HOUR * self.zero.error:.1g} N/h, "
                 f"which is taken out; left in, it would change the friction coefficients by up to {size[0]:.2g} "
                 f"(viscoelastic) and {size[1]:.2g} (Coulomb).",
                 values={  # rate and its error in N/s
-                    "rate": self.rate,
-                    "error": self.error,
+                    "rate": self.zero.value,
+                    "error": self.zero.error,
                     "viscoelastic": float(size[0]),
                     "coulomb": float(size[1]),
                 },
@@ -114,31 +143,50 @@ class Drift:
 
 @dataclass(frozen=True, eq=False)
 class _Line:
-    """Straight lines of one slope through zeros (n,), N, at times (n,), s."""
+    """Straight lines of one slope through values (n,) at times (n,), s."""
 
-    zero: Array
+    value: Array
     time: Array
-    residual: Array  # (n,), N
-    rate: float  # N/s
+    residual: Array
+    slope: float  # per s
     error: float  # its standard error, infinite where it has too few degrees of freedom
     freedom: float
 
     @classmethod
-    def of(cls, fits: list[Fit], weights: Array, *, apart: bool) -> _Line:
-        """Fit a line for each condition if `apart`, else one for all."""
-        zero = np.concatenate([fit.offset(weights) for fit in fits])
-        # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
-        time = np.concatenate([fit.time - fit.each[:, 0, DRIFT] for fit in fits])
-        line = np.repeat(np.arange(len(fits)) * apart, [len(fit.each) for fit in fits])
-        early = _centred(time, line)
-        sensitivity, freedom = float(np.sum(early**2)), line.size - line.max() - 2
+    def of(cls, points: list[tuple[Array, Array]], *, apart: bool) -> _Line:
+        """Fit values and times of several conditions, by a line for each if `apart`, else by one for all."""
+        value, time = (np.concatenate(column) for column in zip(*points, strict=True))
+        line = np.repeat(np.arange(len(points)) * apart, [len(values) for values, _ in points])
+        early, centred = _centred(time, line), _centred(value, line)
+        sensitivity, freedom = float(np.sum(early**2)), int(line.size - line.max() - 2)
         if freedom < _FEWEST or sensitivity <= 0.0:
-            return cls(zero, time, zero, 0.0, np.inf, float(freedom))
-        centred = _centred(zero, line)
-        rate = float(np.sum(early * centred)) / sensitivity
-        residual = centred - rate * early
-        error = float(np.sqrt(np.sum(residual**2) / freedom / sensitivity))
-        return cls(zero, time, residual, rate, error, float(freedom))
+            return cls(value, time, np.zeros(value.size), 0.0, np.inf, freedom)
+        slope = float(np.sum(early * centred)) / sensitivity
+        residual = centred - slope * early
+        return cls(value, time, residual, slope, float(np.sqrt(np.sum(residual**2) / freedom / sensitivity)), freedom)
+
+    def wanders(self, rounding: float) -> bool:
+        """Whether the values move otherwise than along the lines."""
+        unexplained = float(np.sqrt(np.mean(self.residual**2)))
+        return unexplained > rounding and wanders(self.residual[np.argsort(self.time, kind="stable")])
+
+    def rate(self, rounding: float) -> Rate:
+        """Return the slope, zero where it is within what chance makes."""
+        if abs(self.slope) * float(np.ptp(self.time)) <= rounding:
+            return _NONE
+        if not np.isfinite(self.error) or abs(self.slope) < threshold(self.freedom, CHANCE) * self.error:
+            return _NONE
+        return Rate(self.slope, self.error, self.freedom)
+
+
+def _of_coulomb(fits: list[Fit], weights: Array) -> Rate:
+    """Return the rate of Coulomb friction over its mean, by one slope for all conditions that were repeated."""
+    points = []
+    for fit in fits:
+        each = fit.each[:, 2] @ weights
+        if len(each) > 1 and fit.slides and fit.coulomb is None and np.isfinite(fit.time) and np.all(each > 0.0):
+            points.append((each / each.mean(), fit.time - fit.each[:, 2, WEAR] / each.mean()))
+    return _Line.of(points, apart=True).rate(ROUNDING) if points else _NONE
 
 
 def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:
@@ -159,7 +207,7 @@ def _follows(fits: list[Fit]) -> bool:
     """Whether the forces follow the changes of the recorded zero, by their residuals."""
     left, force = np.zeros(2), 0.0
     for follows in (0, 1):
-        weights = np.array([1.0, 0.0, float(follows)])
+        weights = np.array([1.0, 0.0, float(follows), 0.0])
         for fit in fits:
             force = max(force, fit.group.load)
             if len(fit.each) > 1:

@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.arrays import Array, Indices, Integers, Mask
 from viscofric.friction.measurement.conditions import where
 from viscofric.friction.measurement.doubts import CHANCE
-from viscofric.friction.measurement.fit import Fit
+from viscofric.friction.measurement.fit import WEAR, Fit
 from viscofric.friction.measurement.zeros import ROUNDING
 from viscofric.notes import Note
 from viscofric.units import shown_number
@@ -48,7 +48,7 @@ class BetweenRuns:
 
     @classmethod
     def of(cls, fits: list[Fit], weights: Array) -> BetweenRuns:
-        """Estimate them; `weights` (3,) are those of force, drift and changes of the zero."""
+        """Estimate them; `weights` (4,) are those of force and corrections."""
         scatters = [_scatters(fit, weights) for fit in fits]
         variance = np.array([[one.variance for one in several] for several in scatters])
         freedom = np.array([[one.freedom for one in several] for several in scatters], dtype=np.float64)
@@ -167,13 +167,16 @@ def _size(fit: Fit, weights: Array) -> float:
 
 def _scatters(fit: Fit, weights: Array) -> list[Scatter]:
     """Return the deviations between repetitions of a condition, for each of the four numbers."""
+    # A change of Coulomb friction in the course of the test is scatter of Coulomb friction.
+    unchanged = np.where(np.arange(4) == WEAR, 0.0, weights)
     if fit.paired:
         each = fit.each @ weights
+        each[:, _COULOMB] = fit.each[:, _COULOMB] @ unchanged
         run = np.arange(len(each))
         return [Scatter(column - column.mean(), run, len(each) - 1.0, 1.0 / len(each)) for column in each.T]
     found = []
     for number, operator in enumerate(fit.operator):
-        left, unknowns = fit.residual @ weights, fit.unknowns
+        left, unknowns = fit.residual @ (unchanged if number == _COULOMB else weights), fit.unknowns
         if number == _CONSISTENCY:
             left, unknowns = fit.checked @ weights, fit.unknowns + 1
         if fit.by_steps:
@@ -198,8 +201,8 @@ def of_readings(
 ) -> tuple[dict[tuple[int, int], tuple[float, float]], float]:
     """Estimate the variance of coefficients whose passes leave no residual, from the scatter within the passes."""
     # Readings of a pass are an autoregressive series of first order. Its autocorrelation is that of all passes
-    # together, with which the mean products of deviations from means agree in expectation. `weights` (3,) are those of
-    # force, drift and changes of the zero; `lacking` (k, 4) marks the numbers of each condition without an error.
+    # together, with which the mean products of deviations from means agree in expectation. `weights` (4,) are those of
+    # force and corrections; `lacking` (k, 4) marks the numbers of each condition without an error.
     # Returns variance and degrees of freedom by condition and number, where there are several readings in a pass, and
     # the autocorrelation.
     places = [

@@ -86,8 +86,9 @@ _OFFSET, _VISCOELASTIC, _COULOMB, _CONSISTENCY = range(4)
 _FEWEST_STEPS = 3
 _MOST_PASSES = 1_000_000_000
 _FOUR = {(-1, -1), (-1, 1), (1, -1), (1, 1)}
-#: The force as read, and its corrections: drift (per N/s) and changes of the recorded zero.
-FORCE, DRIFT, ZERO_CHANGES = range(3)
+#: The force as read, and its corrections: drift (per N/s), changes of the recorded zero, and change of Coulomb friction
+#: (per s, of itself).
+FORCE, DRIFT, ZERO_CHANGES, WEAR = range(4)
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,8 +155,8 @@ class Fit:
     """Least squares on the readings of a condition, of the force and of its corrections."""
 
     group: Condition
-    # (r, 4, 3): zero, viscoelastic and Coulomb coefficient and consistency of each replicate (of all readings where
-    # they are fitted together), of the force, of time and of the changes of the recorded zero
+    # (r, 4, 4): zero, viscoelastic and Coulomb coefficient and consistency of each replicate (of all readings where
+    # they are fitted together), of the force and of its corrections
     each: Array
     time: float  # mean time of the readings, s; NaN where it was not recorded
     replicates: int
@@ -164,8 +165,8 @@ class Fit:
     coulomb: tuple[float, float] | None
     slides: bool
     checks: bool
-    residual: Array = field(repr=False)  # (n, 3), of the fit without the consistency, N
-    checked: Array = field(repr=False)  # (n, 3), of the fit with it, N
+    residual: Array = field(repr=False)  # (n, 4), of the fit without the consistency, N
+    checked: Array = field(repr=False)  # (n, 4), of the fit with it, N
     operator: Array = field(repr=False)  # (4, n), from readings to coefficients
     first_rows: Integers = field(repr=False)  # (r,), first row of the readings behind each entry of `each`
     step: Indices = field(repr=False)  # (n,), number of each reading's step within the condition
@@ -215,6 +216,9 @@ class Fit:
         scale = np.array([1.0, *[group.load] * 3])
         fourth = crossed if checks else None
         operator = operators(design, fourth, parts) / scale[:, None]
+        if coulomb is None:
+            change = pattern * float(operator[_COULOMB] @ target[:, FORCE]) / len(parts)
+            target[:, WEAR] = _earlier(runs, group) * change
         each = np.stack([operator[:, rows] @ target[rows] for rows in parts])
         residual, checked = residuals(design, fourth, operator * scale[:, None], target)
         unknowns = int(np.count_nonzero(np.any(design != 0.0, axis=0)))
@@ -267,7 +271,7 @@ class Fit:
         return np.asarray((self.each @ weights).mean(axis=0))
 
     def entry(self, weights: Array, zeros: Zeros, error: Array, freedom: Array) -> Entry:
-        """Return the result over all replicates; `weights` (3,) are those of force, drift and changes of the zero."""
+        """Return the result over all replicates; `weights` (4,) are those of force and corrections."""
         value, freedom = self.mean(weights), freedom.copy()
         scatter = error * np.sqrt(self.replicates)
         unknown = np.array([False, False, not self.slides, not self.checks])
@@ -284,24 +288,27 @@ class Fit:
 
 def _parts(runs: TractionRuns, group: Condition, zeros: Zeros, offset: bool) -> Array:
     force = runs.traction_force[group.rows]
-    target = np.zeros((force.size, 3))
-    time = _times(runs, group)
-    if np.all(np.isfinite(time)):
-        target[:, DRIFT] = -(time - time.mean())
+    target = np.zeros((force.size, 4))
     known = zeros.of(group)
     if offset:
         target[:, FORCE] = force
+        target[:, DRIFT] = _earlier(runs, group)
         if np.all(np.isfinite(known)):
             target[:, ZERO_CHANGES] = -(known - known.mean())
     else:
-        target[:, FORCE] = force - known
         # Recorded zeros include their own drift.
-        target[:, DRIFT] = 0.0
+        target[:, FORCE] = force - known
     return target
 
 
 def _times(runs: TractionRuns, group: Condition) -> Array:
     return np.full(group.rows.size, np.nan) if runs.time is None else runs.time[group.rows]
+
+
+def _earlier(runs: TractionRuns, group: Condition) -> Array:
+    """Return by how much readings are before their mean time, s; zero where it was not recorded."""
+    time = _times(runs, group)
+    return np.asarray(time.mean() - time) if np.all(np.isfinite(time)) else np.zeros(time.size)
 
 
 def _replicates(runs: TractionRuns, group: Condition) -> tuple[Indices, Indices]:

@@ -122,7 +122,8 @@ def separate(
 
     A linear drift of the zero is estimated from the zeros of repeated conditions, by lines of one common slope (of the
     whole test where repetitions follow each other at once), and removed before configurations measured one after the
-    other are compared; zeros recorded more than once are used reading by reading if the forces follow them.
+    other are compared; zeros recorded more than once are used reading by reading if the forces follow them.  A linear
+    change of Coulomb friction, as by wear, is found from repeated conditions, and taken out of viscoelastic friction.
 
     Readings of one step and time are one point of the test and count at their mean speed.  Where the disc's speeds
     put no reversed slips together, those of equal mean speed of disc and ball are.  Viscoelastic friction is then the
