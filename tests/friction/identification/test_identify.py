@@ -231,6 +231,28 @@ def test_a_point_off_by_many_errors_moves_nothing_and_is_noted() -> None:
     assert np.abs(moved / plain.standard_error(omega)).max() < 1.0
 
 
+@pytest.mark.slow
+@pytest.mark.usefixtures("closed_form")
+@pytest.mark.parametrize("off", [1.035, 1.06])
+def test_a_point_off_by_few_errors_counts_less(off: float) -> None:
+    """With its whole weight the point moves E'' by 1 %, as 18 points have errors of 1 %."""
+    curves = closed_form_curves(*WARM)
+    noisy = curves.viscoelastic * (1.0 + 0.01 * np.random.default_rng(2).standard_normal(len(curves)))
+    plain, found = (
+        vf.identify_material(
+            replace(curves, viscoelastic=each, viscoelastic_error=0.01 * each),
+            anchor=planted_anchor(),
+            shift=RUBBER.shift,
+            **FEW,
+        )
+        for each in (noisy, noisy * np.where(np.arange(len(curves)) == 8, off, 1.0))
+    )
+    assert found.error_scale == 1.0
+    omega = np.geomspace(*plain.frequency_range, 9)
+    moved = np.log(found.material.complex_modulus(omega).imag / plain.material.complex_modulus(omega).imag)
+    assert np.abs(moved).max() < 0.004
+
+
 @pytest.mark.usefixtures("closed_form")
 def test_an_error_that_all_points_share_is_noted() -> None:
     """Coulomb friction was assumed too small by 6 % of friction, within its error: no scatter shows it."""

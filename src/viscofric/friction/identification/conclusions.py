@@ -12,10 +12,14 @@ from viscofric.friction.assumption_check import ContactSize
 from viscofric.friction.coulomb import check_coupling
 from viscofric.friction.curve_checks import (
     LEAST_FREEDOM,
+    MEAN_SQUARE,
     MOST_OUTLYING,
+    ROUNDS,
+    counted_less,
     implausible,
     outliers,
     outlying_points,
+    settled,
 )
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import Findings, Posterior, level_family, limits
@@ -70,8 +74,7 @@ class Outcome:
 
 def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels: Sequence[float]) -> IdentifiedMaterial:
     """Return the result; see `identify_material` for the arguments."""
-    fits, away = _without_outliers(outcome.fits)
-    fits, error_scale = _with_enlarged_errors(fits)
+    fits, away, error_scale = _with_tails(outcome.fits)
     best = most_evident(fits)
     low, high = _frequencies(best)
     ratio, anchored = outcome.contacts.poisson_ratio, outcome.anchored
@@ -108,36 +111,31 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     return replace(result, material=with_origin(result, outcome.curves.source))
 
 
-def _without_outliers(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], Array]:
-    """Enlarge the errors of single points that do not agree with the others, and fit again.
+def _with_tails(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], Array, float]:
+    """Count points less that lie off the others, enlarge errors that the residuals exceed, and fit again.
 
-    Also returns by how many standard errors each point (n,) lies off; zero for all that are no outliers.
+    Also returns by how many standard errors each outlier (n,) lies off, zero for other points, and the factor of the
+    errors.
     """
     best = most_evident(fits)
     errors = best.problem.point_errors
-    found, larger = fits, np.zeros(len(errors))
-    while np.count_nonzero(larger) <= MOST_OUTLYING * len(errors):
-        freedom = np.maximum(1.0 - leverage_of(best, len(errors)), LEAST_FREEDOM)
-        squares, outlying = outliers(_residuals(best) ** 2 / freedom, float(np.sum(freedom)), 1.0)
-        worst = int(np.argmax(squares))
-        if not outlying[worst]:
-            return found, np.abs(_residuals(best)) * larger
-        larger[worst] = max(larger[worst], 1.0) * np.sqrt(squares[worst])
-        found = weighed(best.problem.with_errors(errors * np.maximum(larger, 1.0)), best.minimum.place)
-        best = most_evident(found)
-    return fits, np.zeros(len(errors))
-
-
-def _with_enlarged_errors(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], float]:
-    """Enlarge the errors of the points where their residuals exceed them, and fit again."""
-    best = most_evident(fits)
-    points = best.problem.points
-    away = _residuals(best)
-    ratio, doubtful = misfit(best, away)
-    if not doubtful:
-        return fits, 1.0
-    scale = float(np.sqrt(ratio))
-    return weighed(best.problem.with_errors(scale * points.error), best.minimum.place), scale
+    larger, scale = np.ones(len(errors)), 1.0
+    for _ in range(ROUNDS):
+        own = np.maximum(1.0 - leverage_of(best, len(errors)), LEAST_FREEDOM)
+        away = np.sqrt(scale) * _residuals(best)
+        # Squared distances from the fit to the others, over their expectation: the point itself has its stated error.
+        squares = larger * away**2 / (own * (own + (1.0 - own) * larger))
+        ratio, doubtful = misfit(best, away / np.sqrt(MEAN_SQUARE))
+        before = scale * larger
+        scale = ratio if doubtful else 1.0
+        larger = counted_less(squares / scale)
+        if np.all(settled(before, scale * larger)):
+            break
+        fits = weighed(best.problem.with_errors(errors * np.sqrt(scale * larger)), best.minimum.place)
+        best = most_evident(fits)
+    _, outlying = outliers(squares, freedom_of(best, len(errors)), 1.0)
+    few = np.count_nonzero(outlying) <= MOST_OUTLYING * len(errors)
+    return fits, np.where(outlying & few, np.sqrt(squares), 0.0), float(np.sqrt(scale))
 
 
 def _coupling(outcome: Outcome, material: Material) -> tuple[str, ...]:

@@ -154,8 +154,9 @@ def identify_material(
     that of fits to other errors, of the measurement and of the prior (randomised maximum likelihood).
 
     Errors of the points are taken as independent.  Those of replicates are moderated towards a common scatter.  Points
-    that do not agree with the others, a tenth at most, get the error of their distance, with a note.  Errors
-    that points share cannot be seen in the residuals: a fit follows them.  Those that are given (`level_error` …) are
+    more than two standard errors off the others weigh less by the square of their distance; those off by more than
+    chance explains, if they are a tenth at most, have a note.  Errors that points share cannot be seen in the
+    residuals: a fit follows them.  Those that are given (`level_error` …) are
     unknowns with these standard errors, and widen all bands; others are not in the bands.  Contacts are solved
     without shear: a note gives the effect of measured Coulomb friction on a half-space of the Poisson ratio; for thin
     rubber call `check_assumptions` with the material found, and its thickness.
