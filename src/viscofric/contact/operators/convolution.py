@@ -41,7 +41,7 @@ _CELLS_AT_ONCE = 20_000
 # Cells from which on corrections are in single precision.
 _FEWEST_SINGLE = 2**18
 # Cells along an edge from which on residuals are extended.
-_FEWEST_EXTENDED = 128
+_FEWEST_EXTENDED = 256
 _SINGLE = {"f": np.float32, "c": np.complex64}
 # Part of the largest value by which values that are even in y may differ, and do by rounding.
 _ROUNDING = 1e-12
