@@ -290,6 +290,7 @@ def test_threads_change_no_digit(name: str) -> None:
         lambda by: by.forward(values),
         lambda by: by.inverse(one.forward(values), values.shape),
         lambda by: by.convolved(values, factor, (1800, 1280)),
+        lambda by: by.convolved_even(values, factor[:901, :640], (1800, 640)),
     ):
         np.testing.assert_array_equal(transformed(one), transformed(two))
 
@@ -308,6 +309,16 @@ def test_even_pressures_need_the_cells_on_one_side_only(name: str, beside: int) 
             assert is_even(expected)
             # Rounding of FFTs.
             np.testing.assert_allclose(some(half), upper_half(expected), atol=1e-13 * np.abs(expected).max())
+
+
+def test_the_dissipated_force_takes_no_more_threads_than_those_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    window = Window(spacing=0.25, behind=9, ahead=7, beside=8)
+    operator = HalfSpaceOperator(window, TWO_MODES, backend=Backend("scipy", threads=1))
+    expected = operator.dissipated_force(np.ones(window.shape))
+    monkeypatch.setattr("viscofric.threads._LARGE", 1)
+    monkeypatch.setattr("viscofric.threads._EACH", 1)
+    monkeypatch.setattr("viscofric.threads.usable_threads", None)
+    assert operator.dissipated_force(np.ones(window.shape)) == expected
 
 
 def test_parts_cover_all_rows_in_their_order_with_any_threads() -> None:

@@ -265,7 +265,7 @@ class ConvolutionOperator(ABC):
     def _even_overlaps(self, half: Array) -> Array:
         """Return the same of pressures that are even in y, of those at y > 0: with them the sums are even in x too."""
         (nx, ny), (px, py) = self.window.shape, self.even._padded
-        threads = threads_for(px * py)
+        threads = threads_for(px * py, self.backend.threads)
         lines = scipy.fft.dct(half, 2, py, axis=1, workers=threads)
         waves = scipy.fft.rfft(lines, px, axis=0, workers=threads)
         squares = waves.real**2 + waves.imag**2
