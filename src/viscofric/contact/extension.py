@@ -274,11 +274,10 @@ def _corners_ahead(toward: tuple[float, float], sign: float) -> list[list[tuple[
 
 def _with_neighbours(xp: Any, values: AnyArray, axis: int, *, periodic: bool = True) -> AnyArray:
     """Return the values before, at and behind each place along an axis, along a new axis after it."""
-    if periodic:
-        return xp.stack([xp.roll(values, step, axis=axis) for step in (1, 0, -1)], axis=axis + 1)
-    before = xp.concat([values[:, :1], values[:, :-1]], axis=1)
-    behind = xp.concat([values[:, 1:], values[:, -1:]], axis=1)
-    return xp.stack([before, values, behind], axis=2)
+    before, behind = (xp.roll(values, step, axis=axis) for step in (1, -1))
+    if not periodic:
+        before[:, 0], behind[:, -1] = values[:, 0], values[:, -1]
+    return xp.stack([before, values, behind], axis=axis + 1)
 
 
 def _interpolation(size: int) -> Array:
