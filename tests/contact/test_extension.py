@@ -14,6 +14,7 @@ from marks import slow
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.extension import Extension, lag
+from viscofric.contact.operators.convolution import both_halves, upper_half
 from viscofric.contact.periodic import one_grid
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.surface import interpolated
@@ -26,6 +27,24 @@ SPECTRUM = vf.RetardationSpectrum(1.0, 100.0, np.full(20, 0.99 / 20), np.logspac
 def sliding(points: int, velocity: tuple[float, float]) -> PeriodicOperator:
     transfer = SlidingSolid(SPECTRUM, 0.4, velocity).transfer((points, points), (1.0 / points,) * 2)
     return PeriodicOperator(transfer / np.abs(transfer).max(), (points, points))
+
+
+@pytest.mark.parametrize("beside", [40, 67])
+@pytest.mark.parametrize("late", [0.0, 0.7, -0.7])
+def test_even_residuals_are_extended_on_one_side_as_on_both(late: float, beside: int) -> None:
+    """In blocks of eight cells and, where their number is prime, of one."""
+    backend, random = Backend("scipy"), np.random.default_rng(2)
+    half = random.random((96, beside)) < 0.3
+    whole = backend.cells(both_halves(half))
+    values = both_halves(random.standard_normal(half.shape))
+    block = 1 if beside % 8 else 8
+    expected = Extension(backend, (96, 2 * beside), float, lag=late, block=block).on(whole)
+    contact = backend.cells(half)
+    found = Extension(backend, half.shape, float, lag=late, block=block, even=True).on(contact)
+    # Rounding of FFTs and of cosines.
+    np.testing.assert_allclose(
+        both_halves(found(contact.gathered(upper_half(values)))), expected(whole.gathered(values)), atol=1e-12
+    )
 
 
 @pytest.mark.parametrize("fixed_load", [True, False])
