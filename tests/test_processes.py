@@ -202,7 +202,6 @@ def test_script_need_not_guard_its_first_lines(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
     script.write_text(
         "import statistics\n"
-        "from viscofric.processes import LimitedProcess\n"
         "from viscofric.processes import Workers, call_all\n"
         "with Workers(2) as workers:\n"
         "    for _ in range(2):\n"

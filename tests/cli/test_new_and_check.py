@@ -104,7 +104,7 @@ def test_check_shows_what_is_wrong_with_every_data_file(tmp_path: Path) -> None:
 
 
 def test_check_names_the_files_that_a_study_writes(tmp_path: Path) -> None:
-    text = template_text("layer") + '\n[outputs]\nformats = ["zarr", "csv", "excel"]\n'
+    text = template_text("layer") + '\n[outputs]\nformats = ["csv", "excel"]\n'
     (tmp_path / "study.toml").write_text(text, encoding="utf-8")
     (line,) = (one for one in call("check", tmp_path / "study.toml").stdout.splitlines() if one.startswith("writes"))
     assert set(NAMES.values()) - {NAMES["netcdf"]} <= set(line.replace(",", "").split())
