@@ -17,6 +17,7 @@ from viscofric.units import (
     in_either,
     in_si,
     kelvin_hint,
+    plain,
     positive,
     registry,
     shown_celsius,
@@ -211,6 +212,14 @@ def test_an_array_of_xarray_is_read_in_the_unit_that_it_states() -> None:
         in_si(speeds, "Pa", "speeds")
     with refused("unknown-unit", naming="speeds"):
         to_si_array(speeds.assign_attrs(units="banana"), "m/s", "speeds")
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [(12.0, 1, "10"), (9.6, 1, "10"), (99.96, 2, "100"), (-0.0961, 1, "−0.1"), (4.44, 2, "4.4"), (2e6, 2, "2e+06")],
+)
+def test_numbers_up_to_a_million_are_shown_without_a_power_of_ten(value: float, digits: int, text: str) -> None:
+    assert plain(value, digits) == text
 
 
 def test_an_array_of_xarray_without_a_unit_holds_plain_numbers() -> None:

@@ -417,9 +417,8 @@ def kelvin_hint(kelvin: float) -> str:
 
 def plain(number: float, digits: int = 4) -> str:
     """Return a number in the usual notation: at most so many significant digits, no power of ten up to a million."""
-    if 10**digits <= abs(number) < 1e6:
-        return shown_number(float(f"{number:.{digits - 1}e}"), ".0f")
-    return shown_number(number, f".{digits}g")
+    rounded = float(f"{number:.{digits - 1}e}")
+    return shown_number(rounded, ".0f" if 10**digits <= abs(rounded) < 1e6 else f".{digits}g")
 
 
 def shown_speed(speed: float, digits: int = 4) -> str:

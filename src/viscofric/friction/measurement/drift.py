@@ -14,7 +14,7 @@ from viscofric.friction.measurement.doubts import CHANCE
 from viscofric.friction.measurement.fit import DRIFT, FORCE, WEAR, ZERO_CHANGES, Entry, Fit
 from viscofric.friction.measurement.zeros import ROUNDING, Zeros, wanders
 from viscofric.notes import Note
-from viscofric.units import shown_number
+from viscofric.units import plain, shown_number
 
 _FEWEST = 3  # degrees of freedom of a rate
 #: The zeros of a condition are used alone unless the error of their rate is so many times that of the whole test.
@@ -64,7 +64,7 @@ class Drift:
     def _of_zeros(cls, fits: list[Fit]) -> Drift:
         # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
         # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not, or
-        # where they were repeated at once, so that the whole test tells it far better.
+        # where they were repeated at once, so that it is known far better from the whole test.
         fitted = [fit for fit in fits if fit.fits_offset]
         follows = _follows(fitted)
         plain = cls(follows=follows).weights
@@ -102,13 +102,12 @@ class Drift:
         if self.coulomb.value:
             moved = np.array([fit.each[:, 1, WEAR].mean() for fit in fits])
             size = float(np.abs(self.coulomb.value * moved).max())
-            per_hour = 100.0 * _PER_HOUR
+            rate, error = (plain(100.0 * _PER_HOUR * one, 2) for one in (self.coulomb.value, self.coulomb.error))
             yield Note(
                 "coulomb-drifts",
-                f"Coulomb friction changes by {shown_number(per_hour * self.coulomb.value, '.2g')} ± "
-                f"{per_hour * self.coulomb.error:.1g} % per hour in the course of the test, as by wear; this is in the "
-                "errors of Coulomb friction and taken out of viscoelastic friction, which it would change by up to "
-                f"{size:.2g} where configurations follow one after the other.",
+                f"Coulomb friction changes by {rate} ± {error} % per hour in the course of the test, for example by wear. "
+                "Its errors include this; from viscoelastic friction, which it would change by up to "
+                f"{size:.2g}, it is subtracted.",
                 # rate and its error in 1/s
                 values={"rate": self.coulomb.value, "error": self.coulomb.error, "viscoelastic": size},
             )

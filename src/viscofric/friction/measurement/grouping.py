@@ -25,6 +25,7 @@ from viscofric.friction.measurement.zeros import Zeros
 from viscofric.nominal import SAME_LOAD, SAME_TEMPERATURE
 from viscofric.notes import Note, Remedy, setting
 from viscofric.traction import TractionRuns
+from viscofric.units import plain
 
 #: Normal numbers, split at their largest gap: how many, their rms distance from the means of both parts, and the
 #: distance of these means that one split in 10⁴ exceeds, both in standard deviations (of 10⁵ draws each).
@@ -212,8 +213,8 @@ def _of_loads(runs: TractionRuns, groups: list[Condition], tolerance: float) -> 
     if some and tolerance > SAME_LOAD:
         yield Note(
             "loads-differ",
-            f"{where(some, len(groups))} the loads of the configurations differ by up to {100.0 * max(apart):.2g} %; "
-            "they are taken together, as friction coefficients at the mean load.",
+            f"{where(some, len(groups))} the loads of the configurations differ by up to "
+            f"{plain(100.0 * max(apart), 2)} %; they are taken together, as friction coefficients at the mean load.",
             values={"conditions": len(some), "of": len(groups), "difference": max(apart)},
         )
 

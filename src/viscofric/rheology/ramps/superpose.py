@@ -23,7 +23,7 @@ from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
 from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, checked_poisson_ratio, kelvin_hint, positive, shown_celsius
+from viscofric.units import Quantity, checked_poisson_ratio, kelvin_hint, plain, positive, shown_celsius
 
 RampLaw: TypeAlias = Literal["wlf", "arrhenius", "vft", "wlf+arrhenius"]
 #: Points of a ramp that a common curve needs; a law has up to three constants.
@@ -90,10 +90,10 @@ def superpose_ramps(
     temperatures and frequencies together (variable projection, splines smoothed by restricted maximum likelihood, as
     for isotherms in `superpose`).  E' and E'' have the weights of their own scatter.  The covariance of the constants
     follows from the scatter of the points about the curves; neighbours that are alike count for fewer.  Moduli of whole
-    ramps that are off by a factor each, as from clamping anew, are included where the ramps show it, with a note: four
-    ramps show 2 %, two ramps only in every other case, and their intervals then held 69 % of α(T).  95 % intervals of
-    planted constants and of α(T) hold 95 % (`benchmarks/rheology/ramps.py`).  Two things are not in them: that
-    α(T) may follow another law (`check`; compare a second one), and errors of the temperature.
+    ramps that are off by a factor each, as after clamping anew, are included where the ramps show it, with a note.  Four
+    ramps show offsets of 2 %, two ramps in half of the cases only: their intervals then held 69 % of α(T).  95 %
+    intervals of planted constants and of α(T) hold 95 % (`benchmarks/rheology/ramps.py`).  Two things are not in them:
+    that α(T) may follow another law (`check`; compare a second one), and errors of the temperature.
 
     At one frequency the master curve is the ramp itself, drawn over α(T) ω: no data contradict a wrong α(T), except
     that E' and E'' must belong to each other (Kramers and Kronig).  An activation energy that is too high by a factor
@@ -248,10 +248,11 @@ def _on_fit(ramps: TemperatureRamps, shift: ShiftLaw, check: RampCheck) -> Itera
 def _on_offsets(found: CommonLaw) -> Iterator[Note]:
     if np.any(found.offsets):
         storage, loss = 10.0**found.offsets - 1.0
+        words = [f"{plain(100.0 * one, 2)} % in {name}" for one, name in ((storage, "E'"), (loss, "E''"))]
         yield Note(
             "ramp-offsets",
-            f"Moduli of whole ramps are off by {100.0 * storage:.1g} % in E' and {100.0 * loss:.1g} % in E'' (rms), as "
-            "from clamping anew for each frequency; errors of the law include that.",
+            f"Moduli of whole ramps are off by {' and '.join(words)} (rms), for example because the sample was clamped "
+            "anew for each frequency; errors of the law include this.",
             values={"storage": float(storage), "loss": float(loss)},
         )
 
