@@ -1,4 +1,4 @@
-"""Processes that carry out calls: several share them out, one has limits of time and memory.
+"""Processes that carry out calls: several that share a set of calls, or one with limits of time and memory.
 
 A `Child` is such a process, and `viscofric.serving` its other end.  Starting one takes most of a second, mainly for
 imports: `Workers` stay for several sets of calls, with the same digits as in one process, and a `LimitedProcess` for

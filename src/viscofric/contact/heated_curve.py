@@ -112,7 +112,7 @@ class _Start(NamedTuple):
     def settling(self, accuracy: float) -> Generator[_Call, Warmed, float]:
         """Yield the contact at rises until the one that it produces agrees, and take what it has produced.
 
-        Return by which part its friction may then be off.
+        Return the relative error that is left in its friction.
 
         It keeps its resistances where α has hardly changed since they were found.
         """

@@ -54,7 +54,7 @@ class Heat(NamedTuple):
 class Warmed(NamedTuple):
     """A contact solved at a rise of temperature, K, what is kept of its solution, and the rise that it produces, K.
 
-    `left` is the part of its friction by which that may change where both rises agree.
+    `left` is the relative change of its friction where both rises agree.
     """
 
     rise: float
@@ -66,7 +66,7 @@ class Warmed(NamedTuple):
 
     @property
     def friction_left(self) -> float:
-        """Error of the friction coefficient by the difference of both rises."""
+        """Error of the friction coefficient due to the difference of both rises."""
         return self.left * abs(self.friction)
 
 

@@ -72,12 +72,12 @@ class HeatCurve(NamedTuple):
         return min(LEFT * abs(rise) + 1e-9, 0.5 * accuracy / max(self._felt(rise)[0], 1e-300))
 
     def left(self, rise: float, residual: float) -> float:
-        """Return the part of friction by which it differs from that of the state near a rise with a residual, K."""
+        """Return the relative difference of friction from that of the state near a rise with a residual, K."""
         per_kelvin, slope = self._felt(rise)
         return per_kelvin * abs(residual) / (1.0 - min(slope, _STEEPEST))
 
     def _felt(self, rise: float) -> tuple[float, float]:
-        """Return by which part friction changes with a kelvin near a rise, and dG/dΔT."""
+        """Return the relative change of friction per kelvin near a rise, in size, and dG/dΔT."""
         if len(self.rise) == 1:
             return 0.0, 0.0
         row = int(np.clip(np.searchsorted(self.rise, rise), 1, len(self.rise) - 1))

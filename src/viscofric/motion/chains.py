@@ -57,7 +57,7 @@ class Difference(NamedTuple):
     dissipated: float = 0.0
     slopes_along: float = 0.0  # friction from the pressure on slopes
     slopes_across: float = 0.0
-    points: float = 0.0  # friction, from single points that each differ on their own; see `Mover.scatter`
+    points: float = 0.0  # friction, from the differences of single points; see `Mover.scatter` and `Mover.sudden`
 
 
 #: Of equal chains.

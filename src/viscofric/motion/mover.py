@@ -134,7 +134,7 @@ class Mover(Protocol[State]):
         ...
 
     def scatter(self, one: State, other: State) -> float:
-        """Return the friction by which the points of two states differ, each on its own: the root of their squares."""
+        """Return the root of the sum of the squares by which the friction of each point differs between two states."""
         return 0.0
 
     def sudden(self, state: State) -> float:

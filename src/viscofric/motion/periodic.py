@@ -199,11 +199,14 @@ class PeriodicMover(Mover[PeriodicState]):
         return replace(found, dissipated=state.dissipated + lost)
 
     def _change_of_rate(self, before: tuple[float, float], state: PeriodicState, start: Instant, end: Instant) -> float:
-        """Return how much less steadily the friction would change in another such step."""
-        # A point touched late in a step carries nothing yet, but changes at which rates all pressures go on.
-        pressure = None if end.pressure is None else max(0.0, 2.0 * end.pressure - start.pressure)  # type: ignore[operator]
-        gap = None if end.gap is None else 2.0 * end.gap - start.gap  # type: ignore[operator]
-        later = self._stepped(state, start, end._replace(pressure=pressure, gap=gap), 0.0, keep=True)
+        """Return by how much the change of the friction in another such step would differ from that in this one."""
+        # A point touched late in a step carries nothing yet, but alters the rates at which all pressures change.
+        following = end
+        if start.pressure is not None and end.pressure is not None:
+            following = end._replace(pressure=max(0.0, 2.0 * end.pressure - start.pressure))
+        elif start.gap is not None and end.gap is not None:
+            following = end._replace(gap=2.0 * end.gap - start.gap)
+        later = self._stepped(state, start, following, 0.0, keep=True)
         along, across = np.array(before) - 2.0 * np.array(state.friction) + np.array(later.friction)
         return math.hypot(along, across)
 
@@ -261,7 +264,7 @@ class PeriodicMover(Mover[PeriodicState]):
         return Field({"x": self.surface.x, "y": self.surface.y}, self.pressure_unit * state.pressure)
 
     def scatter(self, one: PeriodicState, other: PeriodicState) -> float:
-        """Return the friction by which the points of two states differ, each on its own: the root of their squares."""
+        """Return the root of the sum of the squares by which the friction of each point differs between two states."""
         return self.pressure_unit * float(np.linalg.norm((one.pressure - other.pressure) * self._steepness))
 
     def sudden(self, state: PeriodicState) -> float:

@@ -302,7 +302,7 @@ class ConvolutionOperator(ABC):
         """
         if min(self.window.shape) < _FEWEST_EXTENDED or self._is_damped:
             return None
-        (nx, ny) = self.window.shape
+        nx, ny = self.window.shape
         late = -lag(self._inverse_symbol, ny, (1.0, 0.0))  # an inverse has the opposite loss angle
         return Extension(self.backend, (nx, ny // 2 if even else ny), dtype, (1.0, 0.0), late, even=even)
 

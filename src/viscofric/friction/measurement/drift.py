@@ -105,8 +105,8 @@ class Drift:
             rate, error = (plain(100.0 * _PER_HOUR * one, 2) for one in (self.coulomb.value, self.coulomb.error))
             yield Note(
                 "coulomb-drifts",
-                f"Coulomb friction changes by {rate} ± {error} % per hour in the course of the test, for example by wear. "
-                "Its errors include this; from viscoelastic friction, which it would change by up to "
+                f"Coulomb friction changes by {rate} ± {error} % per hour in the course of the test, for example by "
+                "wear. Its errors include this; from viscoelastic friction, which it would change by up to "
                 f"{size:.2g}, it is subtracted.",
                 # rate and its error in 1/s
                 values={"rate": self.coulomb.value, "error": self.coulomb.error, "viscoelastic": size},

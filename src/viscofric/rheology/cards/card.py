@@ -25,7 +25,7 @@ _ENERGY = {"Pa": 1.0, "MPa": 1e-3}  # J in one J or N mm
 
 #: A temperature without unit below this is in °C: no rubber has a reference of −73 °C, nor of 200 °C.
 _KELVIN_FROM = 200.0
-#: A card whose absolute zero lies below this counts in degrees Fahrenheit, where it is −459.67.
+#: A card whose absolute zero lies below this is in degrees Fahrenheit, where it is −459.67.
 _FAHRENHEIT_BELOW = -400.0
 
 
@@ -204,7 +204,7 @@ def unread_shift(command: str, option: str, constants: Sequence[float] = ()) -> 
 
 
 def poisson_ratio_of(shear: float, bulk: float) -> float:
-    """Return ν = (3K − 2G)/(2(3K + G)); zero where only rounding of the moduli parts it from zero."""
+    """Return ν = (3K − 2G)/(2(3K + G)); zero where it differs from zero by rounding only."""
     ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
     return 0.0 if abs(ratio) < _ALIKE else ratio
 

@@ -85,7 +85,7 @@ def write_card(
     Parameters
     ----------
     material : Material
-        For all but json with a retardation spectrum.
+        It needs a retardation spectrum, except for json.
     path : str or path
         The file; it is overwritten.
     format : {"abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json"}

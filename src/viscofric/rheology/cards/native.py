@@ -1,4 +1,4 @@
-"""A material as plain numbers and text, and back: JSON, viscofric's own material file; comments of cards."""
+"""A material as plain numbers and text, and back: viscofric's own material file (JSON), and comments of cards."""
 
 from __future__ import annotations
 

@@ -90,8 +90,8 @@ def superpose_ramps(
     temperatures and frequencies together (variable projection, splines smoothed by restricted maximum likelihood, as
     for isotherms in `superpose`).  E' and E'' have the weights of their own scatter.  The covariance of the constants
     follows from the scatter of the points about the curves; neighbours that are alike count for fewer.  Moduli of whole
-    ramps that are off by a factor each, as after clamping anew, are included where the ramps show it, with a note.  Four
-    ramps show offsets of 2 %, two ramps in half of the cases only: their intervals then held 69 % of α(T).  95 %
+    ramps that are off by a factor each, as after clamping anew, are included where the ramps show it, with a note.
+    Four ramps show offsets of 2 %, two ramps in half of the cases only: their intervals then held 69 % of α(T).  95 %
     intervals of planted constants and of α(T) hold 95 % (`benchmarks/rheology/ramps.py`).  Two things are not in them:
     that α(T) may follow another law (`check`; compare a second one), and errors of the temperature.
 

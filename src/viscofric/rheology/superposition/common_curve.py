@@ -150,7 +150,7 @@ def knots_for(frequency: Array, points: int = POINTS_PER_KNOT) -> tuple[Array, i
 
 
 def splines(knots: Array, degree: int, at: Array, orders: int = 3) -> Array:
-    """Return basis functions at points (n,), and their first and second derivatives: (3, n, K)."""
+    """Return basis functions at points (n,), with their derivatives of the lowest orders: (orders, n, K)."""
     from scipy.interpolate import BSpline
 
     # Beyond the ends the outermost polynomials continue.

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 #: What is done in each stage of a study.
 STAGES = {
     "measurement": "reading the measurement",
-    "material": "making the rubber",
+    "material": "building the material",
     "shift": "shifting the measurement",
     "contacts": "solving contacts",
     "heating": "solving heated contacts",

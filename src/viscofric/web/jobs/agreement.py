@@ -54,7 +54,7 @@ class Options(JobOptions):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Predict friction where and how it was measured; return both by temperature, and how well they agree."""
     curves = friction_curves(study, context)
-    context.progress(0, 1, "Making the rubber")
+    context.progress(0, 1, "Building the material")
     contacts = _contacts(_as_measured(study, curves, options), curves, context)
 
     with Processes() as executor:

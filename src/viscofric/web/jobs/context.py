@@ -63,7 +63,7 @@ class Context:
             self.send("progress", {"done": plain(done), "total": plain(total), "label": label})
 
     def show(self, event: Event, stage: str = "") -> None:
-        """Say how far a study is, from one of its events, and if given what is done."""
+        """Report the progress of a study from one of its events, with the stage in words if given."""
         self.progress(event.done or 0, event.total or 0, ": ".join(filter(None, (stage, event.label))))
 
     def part(self, part: dict[str, Any]) -> None:
