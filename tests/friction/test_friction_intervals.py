@@ -111,7 +111,7 @@ def test_sound_tests_are_seldom_doubted_however_many_conditions_they_have(size: 
     assert reported <= 2
 
 
-def test_one_run_of_each_configuration_tells_no_error_of_its_consistency() -> None:
+def test_the_error_of_the_consistency_is_unknown_from_one_run_of_each_configuration() -> None:
     """Runs that differ by 2 % leave a residual that readings within steps, of much less scatter, do not explain."""
     curves = separate(timed_sweeps(np.array([0.02, 0.1]), runs=1, variation=0.02, noise=0.001))
     assert np.all(np.isinf(curves.consistency_error))  # type: ignore[arg-type]

@@ -374,7 +374,7 @@ def _one_after_the_other(runs: TractionRuns, seconds: float) -> TractionRuns:
     return replace(runs_from(rows[order]), time=seconds * np.arange(len(rows)))
 
 
-def test_a_drift_between_configurations_is_told_by_the_whole_test_where_repetitions_follow_at_once() -> None:
+def test_a_drift_between_configurations_is_found_from_the_whole_test_where_repetitions_follow_at_once() -> None:
     runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=3, noise=0.01)
     time = 10.0 * np.arange(len(runs))
     curves = separate(replace(runs, time=time, traction_force=runs.traction_force + 4e-4 * time))
@@ -395,7 +395,7 @@ def test_coulomb_friction_that_grows_with_wear_does_not_reach_viscoelastic_frict
     curves = separate(replace(runs_from(rows), time=time))
     (note,) = curves.notes
     assert note.code == "coulomb-drifts"
-    # From 1 to 1.8 times as much, over 1.4 in the middle; six replicates of 0.01 N of 1.75 N tell it to 1 %.
+    # From 1 to 1.8 times as much, over 1.4 in the middle; six replicates of 0.01 N of 1.75 N determine it to 1 %.
     assert note.values["rate"] * time.max() == pytest.approx(0.8 / 1.4, rel=0.03)
     # 144 readings of 0.01 N: 3e-5 of the load over all, five of them.  Half of 0.8/24 of 0.05 is 8e-4.
     assert np.mean(curves.viscoelastic) == pytest.approx(0.03, abs=1.7e-4)
