@@ -41,26 +41,26 @@ class Reply(NamedTuple):
     """What a process says of a call."""
 
     number: int | None  # of the call; None where the process ended
-    #: ``"told"`` before the end of the call, ``"result"``, ``"error"``, ``"interrupted"``, ``"ended"``, or ``"unfit"``
+    #: ``"part"`` before the end of the call, ``"result"``, ``"error"``, ``"interrupted"``, ``"ended"``, or ``"unfit"``
     #: where the call or its result cannot be sent
     kind: str
-    value: bytes  # pickled, unless the call tells; of an error, the exception
+    value: bytes  # pickled, unless the call sends parts; of an error, the exception
 
 
-def message_of(function: Callable[..., Any] | str, call: dict[str, Any], tells: bool = False) -> bytes:
+def message_of(function: Callable[..., Any] | str, call: dict[str, Any], in_parts: bool = False) -> bytes:
     """Return a call as a process gets it.
 
-    The function, or its ``"module:name"``, is importable; with `tells`, it also gets an argument ``tell``, a function
-    whose calls become replies, and what it tells and returns is bytes, which are sent as they are.
+    The function, or its ``"module:name"``, is importable.  With `in_parts` it also gets an argument ``send``, a
+    function that sends a part of the result; what it sends and returns is then bytes, which are not pickled.
     """
     name = function if isinstance(function, str) else f"{function.__module__}:{function.__qualname__}"
-    return pickle.dumps((name, call, tells))
+    return pickle.dumps((name, call, in_parts))
 
 
 class Child:
     """A process that carries out calls, one at a time.
 
-    It imports the module `needed` at once and those of `later` where it has nothing to do.  `memory` limits its
+    It imports the module `needed` at once and those of `later` while it is idle.  `memory` limits its
     address space in bytes, unless it is zero.  With `group`, what it started ends with it.
     """
 

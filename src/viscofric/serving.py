@@ -75,7 +75,7 @@ class _Desk:
             threading.Thread(target=work, args=(pipe,), daemon=True).start()
 
     def _listen(self, orders: BinaryIO) -> None:
-        """Take in calls and wishes to interrupt them; end everything once nobody can wish any more."""
+        """Take in calls and requests to interrupt them; end this process when the input closes."""
         try:
             while True:
                 number, message = pickle.load(orders)
@@ -101,7 +101,7 @@ class _Desk:
         """Make the call of a message and send its end."""
         try:
             with self._interruptible(number):
-                reply = _reply(message, lambda told: self._send(number, "told", True, told))
+                reply = _reply(message, lambda part: self._send(number, "part", True, part))
         except KeyboardInterrupt as stop:
             reply = "interrupted", not _was_importing(stop.__traceback__), pickle.dumps(KeyboardInterrupt())
         self._send(number, *reply)
@@ -122,21 +122,21 @@ class _Desk:
                 self._at_work = None
 
 
-def _reply(message: bytes, tell: Callable[[bytes], None]) -> tuple[str, bool, bytes]:
+def _reply(message: bytes, send: Callable[[bytes], None]) -> tuple[str, bool, bytes]:
     """Make the call of a message; return the kind of its end, whether this process stays, and the value in bytes."""
     try:
-        name, call, tells = pickle.loads(message)
+        name, call, in_parts = pickle.loads(message)
         module, _, function = name.partition(":")
         called = getattr(import_module(module), function)
     except (AttributeError, ImportError) as error:
         return "unfit", True, pickle.dumps(str(error))
     try:
-        result = called(**call, tell=tell) if tells else called(**call)
+        result = called(**call, send=send) if in_parts else called(**call)
     except Exception as error:  # noqa: BLE001 - it is raised again in the calling process
         # one that lacked memory may be damaged
         return "error", not isinstance(error, MemoryError), _pickled(error)
     try:
-        return "result", True, result if tells else pickle.dumps(result)
+        return "result", True, result if in_parts else pickle.dumps(result)
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         return "unfit", True, pickle.dumps(str(error))
 

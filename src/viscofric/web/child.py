@@ -45,9 +45,9 @@ def prepare(modules: Sequence[str]) -> None:
 
 
 def do(
-    kind: Kind, study: dict[str, Any], options: dict[str, Any], folder: Path, tell: Callable[[bytes], None]
+    kind: Kind, study: dict[str, Any], options: dict[str, Any], folder: Path, send: Callable[[bytes], None]
 ) -> bytes:
-    """Do a job and return its result or its error, a line of JSON as what is told before; files lose their folder."""
+    """Do a job and return its result or its error as a line of JSON, like its parts; files lose their folder."""
     files = folder / "files"
     try:
         limit("AS", kind.memory)
@@ -55,7 +55,7 @@ def do(
         check_confined(study)
         look_after(folder / "cache")
         context = Context(
-            files, folder / "downloads", folder / "cache", lambda event, more: tell(_line(event, more, files))
+            files, folder / "downloads", folder / "cache", lambda event, more: send(_line(event, more, files))
         )
         result = module.run(study, module.Options.model_validate(options), context)
         return _line("result", {"result": result}, files)

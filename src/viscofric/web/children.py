@@ -125,12 +125,12 @@ class Children:
         try:
             yield line("started", job=number)
             job = {"kind": doing, "study": study, "options": options, "folder": folder}
-            order = message_of("viscofric.web.child:do", job, tells=True)
+            order = message_of("viscofric.web.child:do", job, in_parts=True)
             sending = asyncio.get_running_loop().run_in_executor(None, child.send, number, order)
             await asyncio.shield(sending)  # a job that is cancelled must be sent all the same: its end is reported
             while not finished:
                 reply = await child.messages.get()
-                finished = reply.kind != "told"
+                finished = reply.kind != "part"
                 late = doing if time.monotonic() >= latest else None
                 yield self._last_words(reply, late) if finished else reply.value
         finally:
@@ -238,7 +238,7 @@ class Children:
             asyncio.get_running_loop().run_in_executor(None, child.send, child.number, None)
             # one that is still loading replies once it has loaded
             async with asyncio.timeout(_SOFT if child.ready else _LONGEST_START):
-                while (await child.messages.get()).kind == "told":
+                while (await child.messages.get()).kind == "part":
                     pass
         except TimeoutError:
             child.kill()
