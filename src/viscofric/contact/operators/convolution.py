@@ -263,7 +263,7 @@ class ConvolutionOperator(ABC):
         return folded
 
     def _even_overlaps(self, half: Array) -> Array:
-        """Return the same of pressures that are even in y, of those at y > 0: with them the sums are even in x too."""
+        """Return the same for pressures that are even in y, given those at y > 0; the sums are then even in x too."""
         (nx, ny), (px, py) = self.window.shape, self.even._padded
         threads = threads_for(px * py, self.backend.threads)
         lines = scipy.fft.dct(half, 2, py, axis=1, workers=threads)

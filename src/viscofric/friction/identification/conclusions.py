@@ -112,7 +112,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
 
 
 def _with_tails(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], Array, float]:
-    """Count points less that lie off the others, enlarge errors that the residuals exceed, and fit again.
+    """Give points far from the others less weight, enlarge errors that the residuals exceed, and fit again.
 
     Also returns by how many standard errors each outlier (n,) lies off, zero for other points, and the factor of the
     errors.

@@ -71,7 +71,7 @@ class BetweenRuns:
                         own = variance[place, number] if one.freedom else 0.0
                         variance[place, number] = max(own, one.factor * pool.variance * sizes[place] ** 2)
                         freedom[place, number] = pool.freedom
-        # Not of the consistency, which differs from zero by what varies from run to run too.
+        # Not for the consistency: it also varies from run to run, which readings within a run do not show.
         lacking = (freedom <= 0.0) & (np.arange(4) != _CONSISTENCY)
         found, autocorrelation = of_readings(fits, weights, lacking)
         for at, (some_variance, some_freedom) in found.items():

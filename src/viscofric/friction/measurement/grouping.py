@@ -165,7 +165,7 @@ class Grouping:
     ) -> Grouping:
         """Group the readings by the speed of the disc, or by that of disc and ball where this puts more together.
 
-        Loads that differ by more than those of one condition are put together where nothing is separated otherwise.
+        Loads up to 15 % apart are those of one condition where nothing can be separated otherwise.
         """
         problem: InputError | None = None
         groups: list[Condition] = []
@@ -207,14 +207,14 @@ class Grouping:
 
 
 def _of_loads(runs: TractionRuns, groups: list[Condition], tolerance: float) -> Iterator[Note]:
-    """Yield a note on conditions that have loads apart from each other, if there are any."""
+    """Yield a note if the loads within conditions differ by more than is usual."""
     apart = [float(np.ptp(runs.load[group.rows])) / group.load for group in groups]
     some = [group for group, one in zip(groups, apart, strict=True) if one > SAME_LOAD]
     if some and tolerance > SAME_LOAD:
         yield Note(
             "loads-differ",
             f"{where(some, len(groups))} the loads of the configurations differ by up to "
-            f"{plain(100.0 * max(apart), 2)} %; they are taken together, as friction coefficients at the mean load.",
+            f"{plain(100.0 * max(apart), 2)} %; they are combined into friction coefficients at the mean load.",
             values={"conditions": len(some), "of": len(groups), "difference": max(apart)},
         )
 

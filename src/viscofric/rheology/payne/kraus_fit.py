@@ -223,8 +223,8 @@ def _doubts(sweep: AmplitudeSweep, law: KrausLaw, scatter: Array) -> list[Note]:
     if before > LARGEST_FALL_BEFORE:
         said = (
             f"By Kraus's law {letter}' has fallen by {100.0 * before:.0f} % before the smallest amplitude, "
-            f"{100.0 * first:.3g} %: the strains of the linear range, which count from there, are too large; measure "
-            "from smaller amplitudes."
+            f"{100.0 * first:.3g} %: the strains of the linear range, which are relative to the modulus there, are too "
+            "large; measure from smaller amplitudes."
         )
         notes.append(Note("starts-nonlinear", said, values={"fall": before, "strain": first}))
     return notes

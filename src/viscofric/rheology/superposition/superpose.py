@@ -142,9 +142,9 @@ def superpose(
 
     Of step tests log J(t), or log E(t), is brought onto one curve over log t, by the same fit.  Its points are averaged
     over twentieths of a decade of time first: instruments record far more of them at long times, with errors that are
-    alike.  An average counts for more, the more readings are in it, as far as their errors are seen to be independent,
-    and for eight at most.  One curve for each temperature shows less than E' and E'': offsets of isotherms are found as
-    far as the curve bends, and where it is a power law, they pass for shifts.  The shifts are the most likely ones with
+    alike.  The weight of an average grows with its number of readings, as far as their errors are independent, up to
+    that of eight.  One curve for each temperature shows less than E' and E'': offsets of isotherms are found as far as
+    the curve bends, and where it is a power law, they are taken for shifts.  The shifts are the most likely ones with
     offsets of the size found (`step_profiles`).  With ``vertical="free"`` offsets are part of b.
 
     Given or fixed factors that join the isotherms clearly worse than shifts of their own would are mentioned in a note.

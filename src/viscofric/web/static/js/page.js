@@ -51,7 +51,7 @@ function stepOf(path) {
   return own || (PLACES[table] ?? "contact");
 }
 
-/** An error for a note of a step: its sentence, and a way to the step where it can be mended; options of a job are here. */
+/** An error for a note of a step: its sentence, and a way to the step of its field; options of a job are in this step. */
 export function explain(error, here) {
   const step = error.field && !/^(@|options\b)/.test(error.field) ? stepOf(error.field) : here;
   if (step === here || !page.steps.has(step)) return error.message;
