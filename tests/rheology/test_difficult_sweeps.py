@@ -43,11 +43,12 @@ def sweep(first, last, low, high):
     return LogSweep(frequency, np.stack([storage, storage - 1.0], axis=1))
 
 
-def test_neighbours_moved_past_each_other_are_found():
+def test_neighbours_moved_apart_are_found():
     colder, warmer = sweep(0.0, 3.0, 9.0, 9.2), sweep(0.0, 3.0, 8.9, 9.1)
     assert parted([colder, warmer], np.array([1.5, 0.0])) == []  # where they belong
     assert parted([colder, warmer], np.array([3.1, 0.0])) == [0]
     assert parted([colder, warmer], np.array([2.8, 0.0])) == [0]  # a fifteenth of them overlaps
+    assert parted([colder, warmer], np.array([-3.1, 0.0])) == [0]  # a gap between them
     softer = sweep(0.0, 3.0, 8.7, 8.95)  # moduli that have nothing in common may lie apart
     assert parted([colder, softer], np.array([3.1, 0.0])) == []
 

@@ -17,7 +17,7 @@ from viscofric.rheology.superposition.gauge import BEND, Gauge, continued, conti
 from viscofric.rheology.superposition.isotherm_offsets import BEFORE, SIZES, IsothermOffsets, OffsetSizes, estimated
 from viscofric.rheology.superposition.overlap import LogSweep, join, join_at
 from viscofric.rheology.superposition.shift_problem import ShiftProblem
-from viscofric.rheology.superposition.step_profiles import StepProfiles
+from viscofric.rheology.superposition.step_profiles import StepProfiles, sampled
 
 STEP = 0.5  # decades of α between neighbours of the power law
 EXPONENT = 0.5  # of its moduli
@@ -262,6 +262,18 @@ def test_the_vendors_factors_of_an_adhesive_are_those_of_its_storage_modulus_alo
     # Beside the vendor's factors, a free vertical shift brings E' no closer than half as close as beside fitted ones.
     given = vf.superpose(sweeps, "25 degC", vertical="free", shift=vendor).quality
     assert given.storage > 1.5 * vf.superpose(sweeps, "25 degC", vertical="free").quality.storage
+
+
+def test_heavy_tails_of_a_likelihood_widen_errors_that_its_curvature_gives():
+    """Student's distribution of five degrees of freedom has twice the variance that its curvature shows."""
+    curvature = np.diag([5.0 / 6.0, 0.0, 1.0])  # the second is held, the third a parabola
+
+    def likelihood(moved):
+        return 6.0 * np.log1p(moved[:, 0] ** 2 / 5.0) + moved[:, 2] ** 2
+
+    found = sampled(likelihood, np.zeros(3), curvature)
+    assert found == pytest.approx(np.diag([5.0 / 3.0, 0.0, 1.0]), abs=0.15)  # 2000 draws
+    assert not np.any(found[1])
 
 
 def test_a_likelihood_does_not_depend_on_what_else_is_evaluated():

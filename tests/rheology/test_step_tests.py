@@ -253,6 +253,24 @@ def test_the_slope_of_a_curve_is_no_noise_where_points_lie_unevenly():
     assert _noise(LogSweep.of_step(steep, "creep")) < 1e-9
 
 
+def test_tests_on_a_plateau_are_not_moved_apart():
+    """A step ran off by seven decades, thirty times its error, where noise alone tells tests apart."""
+    tau, law, random = np.logspace(-6.0, 6.0, 49), vf.WLF(8.0, 100.0, "20 degC"), np.random.default_rng(7)
+    spectrum, time, tests = (
+        vf.RelaxationSpectrum(1e6, 2e4 / np.sqrt(tau), tau).to_retardation(),
+        np.linspace(1.0, 1000.0, 200),
+        [],
+    )
+    for kelvin in np.arange(283.15, 318.0, 5.0):
+        true = spectrum.creep_compliance(time / float(law(kelvin)))
+        tests.append(vf.readers.StepTest(kelvin, time, true * (1.0 + 0.01 * random.standard_normal(time.size))))
+    fit = vf.superpose(vf.readers.StepTests(tuple(tests), "creep"), "20 degC")
+    factors, away = fit.shift_factors, fit.shift_factors.log10_values - law.log10(fit.shift_factors.temperatures)
+    assert np.all(np.abs(away) <= 3.0 * factors.standard_errors)
+    assert "alpha-not-identified" in codes(fit.notes)
+    assert "no-overlap" not in codes(fit.notes)
+
+
 def test_tests_of_other_materials_do_not_superpose():
     tests, _, reference = planted_steps(1, 0.005)
     bent = tuple(

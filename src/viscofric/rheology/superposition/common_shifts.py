@@ -19,7 +19,7 @@ from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermO
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, Join, LogSweep, join, parted
 from viscofric.rheology.superposition.quantity import BOTH, Quantities
 from viscofric.rheology.superposition.shift_problem import ShiftProblem, inverse_curvature
-from viscofric.rheology.superposition.step_profiles import StepProfiles, most_likely
+from viscofric.rheology.superposition.step_profiles import BROAD, StepProfiles, most_likely, sampled
 
 OFFSET_PASSES = 3  # each smooths the curves again, with the offsets found
 TEST_PASSES = 2  # of step tests; the second has the variance of correlated points
@@ -37,7 +37,7 @@ class CommonShifts:
     vertical: Array  # (n,), log10 b
     vertical_covariance: Array
     cross_covariance: Array  # of log10 α (rows) with log10 b (columns)
-    parted: tuple[int, ...] = ()  # neighbours joined pair by pair because a common curve moved them past each other
+    parted: tuple[int, ...] = ()  # neighbours joined pair by pair because a common curve moved them apart
     freedom: float = np.inf  # of the scatter of the points
     offsets: IsothermOffsets | None = None  # of whole isotherms, where fitted
 
@@ -52,9 +52,10 @@ def common_shifts(
     # they are kept, since plateaus determine these. Where neighbours disagree by many times the typical misfit,
     # superposition itself fails, and one flexible curve would hide that by moving them apart. There each side gets its
     # own curve, and the two are joined where the two neighbours overlap best, with that join's uncertainty. The same is
-    # done, with an uncertainty of at least half a decade, where a common curve moves neighbours past each other
+    # done, with an uncertainty of at least half a decade, where a common curve moves neighbours apart
     # although their storage moduli overlap (`overlap.parted`): sweeps that disagree in E'' alone, as at a resonance of
-    # the instrument, do not increase the misfit of a flexible curve once they are apart. `sweeps` contain the moduli
+    # the instrument, or that show noise alone, as on a plateau, do not increase the misfit of a flexible curve once
+    # they are apart. `sweeps` contain the moduli
     # measured. The `quantities` shifted may be one of them or tan δ, or have other weights; `joins` are those of the
     # quantities.
     search, apart = _torn_apart(quantities.of(sweeps), joins, gauge, quantities)
@@ -103,7 +104,7 @@ class _Search:
 def _torn_apart(
     sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, quantities: Quantities
 ) -> tuple[_Search, set[int]]:
-    """Fit all isotherms, join those pair by pair that the fit moves past each other, and return their indices too."""
+    """Fit all isotherms, join those pair by pair that the fit moves apart, and return their indices too."""
     apart: set[int] = set()
     held = {place for place in gauge.held if place + 1 in gauge.held}
     while True:
@@ -115,10 +116,10 @@ def _torn_apart(
         if not more:
             return search, apart
         apart |= more
-        joins = [
-            replace(one, uncertainty=max(one.uncertainty, PAIR_UNCERTAINTY)) if place in more else one
-            for place, one in enumerate(joins)
-        ]
+        joins = list(joins)
+        for place in more:
+            one = join(sweeps[place], sweeps[place + 1], search.noise)
+            joins[place] = replace(one, uncertainty=max(one.uncertainty, PAIR_UNCERTAINTY))
 
 
 def _search(problem: ShiftProblem, joins: list[Join]) -> _Search:
@@ -188,6 +189,9 @@ def _with_offsets_of_tests(
     follow = np.zeros((2 * size, size))
     follow[:size] = covariance @ onto
     widened = profiles.widened(parameters, covariance, covariance, covariance)
+    steps = np.diff(np.eye(size), axis=0)
+    if np.max(np.einsum("ij,jk,ik->i", steps, widened, steps)) > BROAD**2:
+        widened = sampled(profiles.in_parts, parameters, widened)
     return replace(
         _result(search, widened, freedom),
         offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, quantities.onto_moduli),

@@ -83,8 +83,9 @@ class Join:
     uncertainty: float
 
 
-def join(colder: LogSweep, warmer: LogSweep) -> Join:
+def join(colder: LogSweep, warmer: LogSweep, noise: float = 0.0) -> Join:
     """Slide one sweep along the other and find where their quantities (E' and E'') overlap best, jointly."""
+    # A misfit below `noise`, decades, is chance, as of two points that overlap: the uncertainty is that of `noise`.
     # The colder one is compared at its own points, as in `OverlapQuality`. Where the data do not fix the step (a
     # plateau), the smallest of the equally good steps is taken.
     lowest, highest = steps_that_overlap(colder, warmer)
@@ -109,7 +110,7 @@ def join(colder: LogSweep, warmer: LogSweep) -> Join:
     if misfit[best] == np.inf:
         return Join(float(steps[best]), np.inf, np.inf)
     found = join_at(colder, warmer, float(steps[best]))
-    allowed = (found.misfit + SMALLEST_NOISE) ** 2 * (1.0 + LEVEL_95**2 / columns)
+    allowed = max(found.misfit + SMALLEST_NOISE, noise) ** 2 * (1.0 + LEVEL_95**2 / columns)
     half = allowed_half_width(steps - found.step, misfit**2, allowed)
     means = np.where(np.isfinite(misfit)[:, None], squares, np.inf) / np.maximum(count, 1)[:, None]
     away = steps[np.argmin(means, axis=0)] - found.step
@@ -160,16 +161,15 @@ def failures(joins: list[Join]) -> list[int]:
 
 
 def parted(sweeps: list[LogSweep], log10_shifts: Array) -> list[int]:
-    """Return neighbours whose E' would fall with frequency, since shifts move them past each other."""
+    """Return neighbours that shifts move apart although E', which rises with frequency, has values in common."""
     found = []
     for place, (colder, warmer) in enumerate(pairwise(sweeps)):
-        step = log10_shifts[place] - log10_shifts[place + 1]
-        shorter = min(np.ptp(colder.frequency), np.ptp(warmer.frequency))
+        lowest, highest = steps_that_overlap(colder, warmer)
         moduli = colder.moduli[:, 0], warmer.moduli[:, 0]
         common = min(float(one.max()) for one in moduli) - max(float(one.min()) for one in moduli)
         smaller = min(float(np.ptp(one)) for one in moduli)
-        past = warmer.frequency[-1] - (colder.frequency[0] + step) < SMALLEST_OVERLAP * shorter
-        if past and common > COMMON_MODULI * smaller:
+        overlap = lowest <= log10_shifts[place] - log10_shifts[place + 1] <= highest
+        if not overlap and common > COMMON_MODULI * smaller:
             found.append(place)
     return found
 

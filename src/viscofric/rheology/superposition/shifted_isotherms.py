@@ -261,7 +261,7 @@ def badly_given(logs: list[LogSweep], log10_shifts: Array) -> list[str]:
 
 
 def joined_by_pairs(temperatures: Array, places: tuple[int, ...], quantities: int) -> list[str]:
-    """Return a note on the temperatures where a common curve moved neighbours past each other."""
+    """Return a note on the temperatures where a common curve moved neighbours apart."""
     if not places:
         return []
     one, why, cure = "moduli", "", ""
@@ -270,7 +270,7 @@ def joined_by_pairs(temperatures: Array, places: tuple[int, ...], quantities: in
         cure = " Look for loss moduli that the instrument itself makes, as a resonance does at its highest frequencies."
     sentence = (
         f"The isotherms from {ranges(steps_at(temperatures, places))} were joined pair by pair: one common curve would "
-        f"move them past each other although their {one} overlap{why}; each step there is uncertain by "
+        f"move them apart although their {one} overlap{why}; each step there is uncertain by "
         f"{PAIR_UNCERTAINTY:g} decades or more.{cure}"
     )
     return [Note("joined-by-pairs", sentence)]

@@ -8,7 +8,9 @@ nothing from the freedom of their curves.
 
 For step tests the likelihood also gives the shifts: least squares attribute a part of each offset to the shift, but an
 offset changes all points of a test equally, so that differences between points of one test determine its shift better
-than their level does.  With offsets, errors of the shifts are typically three to seven times smaller.
+than their level does.  With offsets, errors of the shifts are typically three to seven times smaller.  Where a step is
+hardly determined, as on a plateau, neither a parabola nor a profile along a straight line shows how far several shifts
+may move together; the likelihood is then sampled (T. Kloek, H. K. van Dijk, Econometrica 46 (1978) 1).
 """
 
 from __future__ import annotations
@@ -237,6 +239,32 @@ def _third_differences(K: int) -> Array:
     rough = np.diff(np.eye(K), ROUGHNESS, axis=0)
     square = rough.T @ rough
     return np.array([np.append(np.diag(square, -below), np.zeros(below)) for below in range(LOCAL)])
+
+
+#: Steps with a larger error, decades, are sampled: so often, from Student's distribution of so many degrees of freedom,
+#: whose scale is so many times the covariance's.
+BROAD = 0.1
+SAMPLES, STUDENT, WIDER = 2000, 4, 2.0
+
+
+def sampled(likelihood: Callable[[Array], Array], found: Array, covariance: Array) -> Array:
+    """Return the second moments (p, p) about parameters (p,) by importance sampling, `covariance` at least."""
+    parts, modes = np.linalg.eigh(covariance)
+    free = parts > SMALLEST
+    ways = modes[:, free] * np.sqrt(parts[free]) * (np.diag(covariance) > SMALLEST)[:, None]  # not of those held
+    random = np.random.default_rng(0)
+    normal = random.standard_normal((SAMPLES, ways.shape[1]))
+    heavy = random.chisquare(STUDENT, SAMPLES) / STUDENT
+    moves = WIDER * normal / np.sqrt(heavy)[:, None]
+    drawn = -(STUDENT + ways.shape[1]) * np.log1p(np.sum(normal**2, axis=1) / (STUDENT * heavy))  # 2 log of the density
+    fall = likelihood(found + moves @ ways.T) + drawn
+    weight = np.exp(-0.5 * (fall - fall.min()))
+    weight /= weight.sum()
+    prior = ways.shape[1] * float(weight @ weight)  # few draws that count, in many directions, show little
+    moments = ((moves.T * weight) @ moves + prior * np.eye(ways.shape[1])) / (1.0 + prior)
+    known, modes = np.linalg.eigh(moments)
+    root = ways @ modes * np.sqrt(np.maximum(known, 1.0))
+    return np.asarray(root @ root.T)
 
 
 #: Step of the finite differences, in standard errors.
