@@ -214,6 +214,17 @@ def test_a_poisson_ratio_of_zero_is_read(tmp_path, modulus):
     assert opened(tmp_path, other, modulus_unit="MPa").material.poisson_ratio == 0.0
 
 
+def test_exponents_of_fortran_are_read(tmp_path):
+    plain, units = opened(tmp_path, ABAQUS, modulus_unit="MPa").material, {"modulus_unit": "MPa"}
+    written = ABAQUS.replace("60.0, 0.49", "6.D1, 49.d-2").replace("0.3, 0.3, 1.0", "3.-1, 3.0-1, 1.0+0")
+    assert opened(tmp_path, written, **units).material.spectrum.E_inf == plain.spectrum.E_inf
+    text = LS_DYNA.replace("1.1E-09    2000.0", " 1.1-09   2.0D+03").replace("   1000.0", "   1.00+3")
+    assert opened(tmp_path, text, **units).material == opened(tmp_path, LS_DYNA, **units).material
+    other = opened(tmp_path, ANSYS.replace("60.0e6", "6.D7").replace("303.15", "300.+3.15"), modulus_unit="Pa").material
+    assert other.spectrum.E_inf == pytest.approx(60e6)
+    assert other.shift.reference == pytest.approx(303.15)  # a sum in APDL
+
+
 WLF_IN_CELSIUS = {"abaqus": "20., 8.86, 101.6", "ansys": "20,8.86,101.6", "ls-dyna": "20.,-20.4,101.6"}
 WLF_IN_FAHRENHEIT = {"abaqus": "68., 8.86, 182.88", "ansys": "68,8.86,182.88", "ls-dyna": "68.,-20.4,182.88"}
 

@@ -79,7 +79,8 @@ def test_what_is_written_comes_back(tmp_path, program, law):
         path = write_card(material, tmp_path / "card", program, density=1100.0)
     without = law != "none" and program in FINITE_ELEMENTS
     without = without and (law not in ("wlf", "vft", "arrhenius") or program == "comsol-branches")
-    assert codes(notes) == ({"card-without-shift"} if without else set())
+    lacks = {"card-without-density"} if program in ("comsol-branches", "json") else set()
+    assert codes(notes) == lacks | ({"card-without-shift"} if without else set())
     assert_same(read_card(path), material)  # no warning: nothing had to be assumed
     assert_same(read_card(path, program), material)
 
@@ -238,6 +239,15 @@ def test_a_table_of_moduli_is_kept_to_the_last_digit(tmp_path):
 def test_an_elastic_solid_is_no_prony_series(tmp_path, program):
     with refused("no-modes"):
         write_card(Material(RetardationSpectrum(1e6, 1e6, [], [])), tmp_path / "card", program, density=1e3)
+
+
+def test_a_poisson_ratio_for_the_file_is_in_it_and_a_density_is_missed(tmp_path):
+    path = write_card(rubber(), tmp_path / "card", "json", poisson_ratio=0.25)
+    assert read_card(path).poisson_ratio == 0.25
+    for program in ("json", "comsol-branches"):
+        with warned() as notes:
+            write_card(rubber(), path, program, density=1100.0)
+        assert "card-without-density" in codes(notes)
 
 
 def test_json_keeps_every_digit_of_the_modes(tmp_path):

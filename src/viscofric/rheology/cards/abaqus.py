@@ -19,6 +19,7 @@ from viscofric.rheology.cards.card import (
     Solid,
     Writing,
     first_of_several,
+    number_in,
     number_text,
     poisson_ratio_of,
     relative_series,
@@ -170,7 +171,7 @@ def _blocks(text: str) -> list[_Block]:
             continued = line.endswith(",")
         elif blocks and blocks[-1].keyword in _UNDERSTOOD:
             try:
-                numbers = [float(part) if part.strip() else 0.0 for part in line.rstrip(",").split(",")]
+                numbers = [number_in(part) if part.strip() else 0.0 for part in line.rstrip(",").split(",")]
             except ValueError:
                 raise InputError(
                     f"line {row}: {line[:40]!r} is not a row of numbers parted by commas.", code="not-a-number"
@@ -288,7 +289,7 @@ def _hyperelastic(block: _Block) -> tuple[float, float]:
 
 def _number(block: _Block, option: str) -> float:
     try:
-        return float(block.options[option])
+        return number_in(block.options[option])
     except ValueError:
         raise InputError(
             f"line {block.row}: {option} = {block.options[option]!r} is not a number.", code="not-a-number"

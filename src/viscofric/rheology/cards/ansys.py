@@ -22,6 +22,7 @@ from viscofric.rheology.cards.card import (
     Solid,
     Writing,
     first_of_several,
+    number_in,
     relative_series,
     tensile,
     unread_shift,
@@ -230,7 +231,7 @@ def _property(fields: list[str], row: int) -> float:
 def _number(field_text: str, row: int) -> float:
     """Return the value of a field, which may be an arithmetic expression such as 273-5."""
     try:
-        return float(field_text)
+        return number_in(field_text, bare=False)  # 2.0+3 is 5
     except ValueError:
         pass
     try:

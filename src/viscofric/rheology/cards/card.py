@@ -161,6 +161,16 @@ class Solid:
     notes: tuple[str, ...] = ()  # what was assumed or left out
 
 
+_FORTRAN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))[dD]([+-]?\d+)", re.ASCII)
+_BARE = re.compile(r"([+-]?(?:\d+\.\d*|\.\d+))([+-]\d+)", re.ASCII)
+
+
+def number_in(text: str, *, bare: bool = True) -> float:
+    """Return a number, whose exponent may be Fortran's: ``60.D6`` or, if `bare`, ``2.0+3``; else raise ValueError."""
+    found = _FORTRAN.fullmatch(text.strip()) or (_BARE.fullmatch(text.strip()) if bare else None)
+    return float(text if found is None else f"{found[1]}e{found[2]}")
+
+
 def number_text(value: float, longest: int) -> str:
     """Return a finite number as text of at most `longest` (≥ 19) characters, with a decimal point."""
     # All digits are kept where they fit: 20 characters hold 16 of the 17 digits, 19 hold 15 (two fewer where the

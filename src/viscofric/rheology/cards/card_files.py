@@ -32,6 +32,7 @@ CardFormat: TypeAlias = Literal["abaqus", "ansys", "ls-dyna", "comsol", "comsol-
 CardLaw: TypeAlias = Literal["best", "wlf", "vft", "arrhenius"]
 #: Programs whose cards have no units: those of the model apply.
 _WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
+_WITH_DENSITY = (*_WITHOUT_UNITS, "comsol")
 
 
 class _Program(NamedTuple):
@@ -93,7 +94,7 @@ def write_card(
     poisson_ratio : float, optional
         For the card instead of the material's own.  ANSYS and LS-DYNA cannot take 0.5.  E stays as it is.
     density : float or quantity, optional
-        kg/m³; LS-DYNA needs it.
+        kg/m³; LS-DYNA needs it, "json" and "comsol-branches" hold none.
     temperature_unit : {"K", "degC"}
         In which the model counts temperatures; COMSOL parameters carry their unit.
     domain : {"time", "frequency"}
@@ -116,7 +117,8 @@ def write_card(
     -----
     UserWarning
         With a `Note`: ``card-without-shift`` where the program gets no dependence on temperature,
-        ``card-without-vertical-shift`` where it gets no b(T), ``card-law-misfit`` where a fitted law misses the table.
+        ``card-without-vertical-shift`` where it gets no b(T), ``card-without-density`` where it gets no density,
+        ``card-law-misfit`` where a fitted law misses the table.
 
     Raises
     ------
@@ -158,10 +160,13 @@ def write_card(
         modulus_unit,
     )
     if format == "json":
-        text = native.write_json(material)
+        own = material.poisson_ratio if writing.poisson_ratio is None else writing.poisson_ratio
+        text = native.write_json(replace(material, poisson_ratio=own))
     else:
         text = _PROGRAMS[format].write(material, writing)
         notes += _left_out(material, format, domain, text)
+    if density is not None and format not in _WITH_DENSITY:
+        notes.append(Note("card-without-density", f"The card for {format} lacks the density."))
     file = file_path(path)
     try:
         file.write_text(text, encoding="utf-8")

@@ -18,7 +18,7 @@ from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note, Remedy
-from viscofric.rheology.cards.card import Reading, Solid, Writing, number_text, tensile
+from viscofric.rheology.cards.card import Reading, Solid, Writing, number_in, number_text, tensile
 from viscofric.rheology.cards.comments import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
@@ -157,7 +157,7 @@ def _values(line: str, row: int, width: int) -> list[float]:
     parts = line.split(",") if "," in line else [line[start : start + width] for start in range(0, len(line), width)]
     parts = [part.strip() for part in parts][:8]
     try:
-        return [float(part) if part else 0.0 for part in parts] + [0.0] * (8 - len(parts))
+        return [number_in(part) if part else 0.0 for part in parts] + [0.0] * (8 - len(parts))
     except ValueError:
         raise InputError(
             f"line {row}: {line.strip()[:40]!r} is not a row of numbers in fields of {width}.", code="not-a-number"
