@@ -45,7 +45,7 @@ def joint(spectrum):
 
 def test_a_strength_at_the_end_of_those_tried_has_a_note_with_a_code():
     """Noise-free moduli of one mode are predicted best without smoothing."""
-    one = master_of(RetardationSpectrum(1e6, 1e8, [1e-6 - 1e-8], [1.0]), -3.0, 3.0, noise=0.0, points=60)
+    one = master_of(RetardationSpectrum(1e6, 1e8, [1e-6 - 1e-8], [1.0]), -2.0, 2.0, noise=0.0, points=20)
     fit = fit_retardation_spectrum(one, method="regularised").fit
     assert "regularisation-at-end" in codes(fit.notes)
 
