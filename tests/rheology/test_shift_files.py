@@ -45,6 +45,14 @@ def test_standard_errors_are_those_of_their_column(tmp_path, heading, rows):
     assert "errors-of-column" in codes(found.notes)
 
 
+@pytest.mark.parametrize(("unit", "value"), [("decades", 0.05), ("log10", 0.05), ("%", 5.0 * np.log(10.0))])
+def test_standard_errors_have_the_unit_of_their_heading(tmp_path, unit, value):
+    path = written(tmp_path, f"T (degC),aT,standard error ({unit})\n0,100,{value}\n20,1,0\n")
+    found = read_shift_factors(path)
+    assert found.standard_errors == pytest.approx([0.05, 0.0])
+    assert "errors-of-column" not in codes(found.notes)
+
+
 @pytest.mark.parametrize("reference", [283.15, 293.15, 288.6180339887])
 def test_saved_factors_come_back_with_their_covariance(tmp_path, reference):
     rng = np.random.default_rng(1)

@@ -38,6 +38,12 @@ _SCALES: dict[str, float | None] = {
     "ln shift factor": 1.0 / math.log(10.0),
     "shift factor": None,
 }
+#: Unit of standard errors that is not that of the column of factors -> log10 α for one of it.
+_UNITS_OF_ERRORS = {
+    **dict.fromkeys(("decades", "decade", "log10", "log", "lg"), 1.0),
+    "ln": 1.0 / math.log(10.0),
+    "%": 0.01 / math.log(10.0),  # of α
+}
 #: The words of tables of shift factors.
 SHIFT_FACTORS = Vocabulary(
     "a table of shift factors",
@@ -218,14 +224,17 @@ def _from_table(source: Source) -> _Factors:
     assert at is not None  # nothing needed is missing
     log10 = _logarithms(table, table.numbers(of), _SCALES[name])
     reference, notes = _stated(source)
-    used = (at, of, table.place("standard error"))
+    error = table.place("standard error")
+    used = (at, of, error)
     unused = [one.heading for one in table.unused(used) if not _COVARIANCE.match(one.name)]
     if unused:
         said = f"Columns of the file of shift factors that are not read: {', '.join(map(repr, unused))}."
         notes += (Note("unused-columns", said, values={"headings": unused}),)
-    slope = np.full(len(log10), _SCALES[name]) if _SCALES[name] else 1.0 / (table.numbers(of) * math.log(10.0))
+    own = None if error is None else _UNITS_OF_ERRORS.get(table.columns[error].unit)
+    scale = own or _SCALES[name]
+    slope = np.full(len(log10), scale) if scale else 1.0 / (table.numbers(of) * math.log(10.0))
     covariance = _covariance(table, slope)
-    if name != "log10 shift factor" and table.place("standard error") is not None:
+    if error is not None and own is None and scale != 1.0:
         said = f"The standard errors of the file were read as those of its column {table.columns[of].heading!r}."
         notes += (Note("errors-of-column", said, values={"heading": table.columns[of].heading}),)
     return _Factors(table.values(at, "K"), log10, reference, covariance, notes)
