@@ -34,7 +34,7 @@ def test_a_printed_report_has_light_figures_where_the_screen_is_dark(tmp_path: P
     body = f'<body><figure><img src="data:image/svg+xml;base64,{source}"></figure></body>'
     head = f'<head><meta name="color-scheme" content="light dark"><style>{style}</style></head>'
     (tmp_path / "page.html").write_text(f"<!doctype html><html>{head}{body}</html>", encoding="utf-8")
-    corner = {}
+    corner, edge = {}, {}
     with launched(path) as browser:
         page = browser.new_page(color_scheme="dark")
         page.goto((tmp_path / "page.html").as_uri())
@@ -43,5 +43,7 @@ def test_a_printed_report_has_light_figures_where_the_screen_is_dark(tmp_path: P
             shot = io.BytesIO(page.locator("img").screenshot(animations="disabled"))
             pixels = imread(shot)
             corner[medium] = float(pixels[10, 10, :3].mean())
+            edge[medium] = float(pixels[len(pixels) // 2, 0, :3].mean())
     assert corner["screen"] < 0.3
     assert corner["print"] == 1.0
+    assert corner["screen"] < edge["screen"] < 0.4  # its border is as faint as on paper
