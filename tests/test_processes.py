@@ -197,6 +197,17 @@ def test_exception_that_cannot_be_handed_back_keeps_its_sentence(
         assert call_all(statistics.fmean, ONES, workers=workers) == [1.0] * 4
 
 
+def test_result_that_cannot_be_restored_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "odd_results.py").write_text(
+        "class Odd:\n    def __reduce__(self):\n        return divmod, (1, 0)\n", encoding="utf-8"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    from odd_results import Odd  # type: ignore[import-not-found]
+
+    with refused("process-ended", ViscofricError):
+        call_all(Odd, [{}] * 2, workers=2)
+
+
 @pytest.mark.slow
 def test_script_need_not_guard_its_first_lines(tmp_path: Path) -> None:
     script = tmp_path / "script.py"
