@@ -67,7 +67,7 @@ class _Desk:
 
     def __init__(self, orders: BinaryIO, replies: BinaryIO) -> None:
         self.calls: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
-        self._replies: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+        self._replies: queue.SimpleQueue[tuple[bytes, bytes]] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._at_work: int | None = None  # number of the call that may be interrupted
         self._interrupted: int | None = None
@@ -92,7 +92,7 @@ class _Desk:
     def _write(self, replies: BinaryIO) -> None:
         try:
             while True:
-                replies.write(self._replies.get())
+                replies.writelines(self._replies.get())
                 replies.flush()
         finally:  # nobody reads any more
             _end()
@@ -107,7 +107,7 @@ class _Desk:
         self._send(number, *reply)
 
     def _send(self, number: int, kind: str, stays: bool, value: bytes) -> None:
-        self._replies.put(f"{number} {kind} {'stays' if stays else 'ends'} {len(value)}\n".encode() + value)
+        self._replies.put((f"{number} {kind} {'stays' if stays else 'ends'} {len(value)}\n".encode(), value))
 
     @contextlib.contextmanager
     def _interruptible(self, number: int) -> Iterator[None]:
