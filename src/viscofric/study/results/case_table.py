@@ -127,7 +127,8 @@ def common_cases(one: CaseTable, other: CaseTable) -> Common:
                 continue
             if table.varies(name):
                 raise InputError(
-                    f"{table.name} varies the {name}, which {other_table.name} does not state: no case can be paired.",
+                    f"{table.name} varies the {name}, which is not known of {other_table.name}: no case can be paired; "
+                    "in place of an exported table, compare results.nc.",
                     code="no-common-cases",
                 )
             value = shown(name, table.columns[name][0], table.per_length)
