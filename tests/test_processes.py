@@ -201,8 +201,8 @@ def test_result_that_cannot_be_restored_is_reported(tmp_path: Path, monkeypatch:
     (tmp_path / "odd_results.py").write_text(
         "class Odd:\n    def __reduce__(self):\n        return divmod, (1, 0)\n", encoding="utf-8"
     )
-    monkeypatch.syspath_prepend(str(tmp_path))
-    from odd_results import Odd  # type: ignore[import-not-found]
+    monkeypatch.syspath_prepend(tmp_path)
+    from odd_results import Odd
 
     with refused("process-ended", ViscofricError):
         call_all(Odd, [{}] * 2, workers=2)
