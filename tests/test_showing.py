@@ -149,7 +149,9 @@ def test_a_result_draws_itself(objects, name):
         assert isinstance(axes, Axes)
         assert axes.has_data()
         assert axes.get_xlabel()
-        axes.figure.canvas.draw()
+        if len(axes.figure.axes) == 1 and axes.get_legend() is None:
+            axes.figure.set_layout_engine("none")  # nothing stands beside the axes that could leave them no room
+        axes.figure.draw_without_rendering()  # measures all texts, and turns nothing into dots
         _, given = pyplot.subplots()
         assert objects[name].plot(given) is given
     finally:
