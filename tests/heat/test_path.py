@@ -139,3 +139,15 @@ def _steady(lasting: list[float], line: bool, speed: float) -> tuple[vf.contact.
         contact = vf.solve_steady(vf.Material(spectrum), indenter, speed=speed, load=load, accuracy=1e-2)
         size = 0.5 * contact.contact_area if line else float(np.sqrt(contact.contact_area / np.pi))
     return contact, size, Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
+
+
+def test_loss_below_more_than_the_face_leaves_the_heat_of_the_face_where_it_is() -> None:
+    time, other = np.linspace(0.0, 1.0, 11), vf.Heating(rubber=RUBBER, counterface=STEEL)
+    heat, nothing = np.append(0.0, np.ones(10)), np.zeros(11)
+    path = Passage(time, np.zeros((11, 2)), np.full(11, SIZE), "disc")
+    wide = path._replace(size=np.full(11, 2.0 * SIZE))
+    both = path._replace(loss_size=wide.size)
+    assert path_rise(both, heat, nothing, other).face == pytest.approx(path_rise(path, heat, nothing, other).face)
+    assert path_rise(both, nothing, heat, other).below_by_loss == pytest.approx(
+        path_rise(wide, nothing, heat, other).below_by_loss
+    )

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric.motion.heated import _loss_sizes
 from viscofric.notes import note_of
 
 RUBBER = vf.ThermalProperties("0.3 W/m/K", "1150 kg/m**3", "1700 J/kg/K", "rubber")
@@ -57,6 +59,17 @@ def test_the_loss_of_a_dent_that_recovers_is_not_released_on_the_last_of_its_con
     assert run.heating.temperature_rise[1] == pytest.approx(run.heating.temperature_rise[0], rel=1e-2)
 
 
+def test_loss_is_released_on_what_a_dent_was_pressed_with_until_it_has_recovered() -> None:
+    """At 0.1 N, what was pressed with 10 N stays so wide; from no load, the dent has a fiftieth of the next energy."""
+    rubber = vf.Material.standard_linear_solid("2 MPa", "4 MPa", "10 ms")
+    history = vf.motion.History([0.0, 0.1, 0.2, 1.0, 1.1, 1.2], load=[0.0, 10.0, 0.1, 0.1, 0.0, 0.1])
+    run = vf.motion.solve_transient(rubber, BALL, history, times=[0.0, 0.1, 0.2, 0.25, 1.0, 1.1, 1.2], accuracy=3e-2)
+    assert run.contact_radius is not None
+    found = _loss_sizes(SimpleNamespace(kind="ball"), run)  # type: ignore[arg-type]
+    assert found[2:4] == pytest.approx(run.contact_radius[1], rel=1e-3)
+    assert found[-1] == pytest.approx(run.contact_radius[-1], rel=2e-2)
+
+
 @pytest.mark.apart  # four runs
 def test_errors_include_what_the_last_rise_changes() -> None:
     """Bodies that hardly conduct, so that the loss of a pressed ball warms it by 0.3 K."""
@@ -85,7 +98,7 @@ def test_a_heated_contact_has_no_state_to_go_on_from_and_one_progress_of_all_its
     assert run.heating is not None
     assert run.heating.loss_heat == pytest.approx(run.dissipated)
     # The rise by the loss is no better known than the loss.
-    part = run.heating.error / run.heating.loss_rise
+    part = run.heating.error / run.heating.temperature_rise
     assert np.all((run.errors.energy / run.dissipated <= part) & (part < 0.5))
     assert run.to_dataset()["temperature_rise_error"].values == pytest.approx(run.heating.error)
     assert told[0] < 0.55  # the first run takes half of the history

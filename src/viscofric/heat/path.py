@@ -53,6 +53,7 @@ class Passage(NamedTuple):
     position: Array
     size: Array
     shape: str  # "disc" or "strip"
+    loss_size: Array | None = None  # (n,) of what releases the loss, m, where that is more than the face
 
 
 class PathRise(NamedTuple):
@@ -75,9 +76,9 @@ def path_rise(passage: Passage, coulomb: Array, loss: Array, heating: Heating) -
     # both faces are equally warm at all times.
     count = len(passage.time)
     still = passage._replace(position=np.zeros_like(passage.position))
-    rubber, across, within = _responses(passage, heating.rubber)
+    rubber, across, by_loss_across, within = _responses(passage, heating.rubber)
     other = _responses(still, heating.counterface)[0]
-    from_loss = across @ loss
+    from_loss = by_loss_across @ loss
     taken, rise = np.zeros(count), np.zeros(count)
     for row in range(1, count):
         both = rubber[row, row] + other[row, row]
@@ -90,15 +91,18 @@ def path_rise(passage: Passage, coulomb: Array, loss: Array, heating: Heating) -
 
 
 def _responses(passage: Passage, body: ThermalProperties) -> Array:
-    """Return rises at each time per heat of each interval before, (3, n, n)."""
-    # Of the face by heat on it; of the face by the loss, or where that is released by heat on the face; there by it.
+    """Return rises at each time per heat of each interval before, (4, n, n)."""
+    # By heat on the face, of the face and where the loss is released; by the loss, of the same two.
     count = len(passage.time)
-    found = np.zeros((3, count, count))
-    for row in range(1, count):
-        for last in range(1, row + 1):
-            radius = 0.5 * float(passage.size[last - 1] + passage.size[last])
-            if passage.time[last] > passage.time[last - 1] and radius > 0.0:
-                found[:, row, last] = _response(passage, body, row, last, radius)
+    found = np.zeros((4, count, count))
+    sizes = passage.size, passage.size if passage.loss_size is None else passage.loss_size
+    for last in (np.flatnonzero(np.diff(passage.time) > 0.0) + 1).tolist():
+        face, wide = (0.5 * float(size[last - 1] + size[last]) for size in sizes)
+        for row in range(last, count):
+            if face > 0.0:
+                found[:, row, last] = _response(passage, body, row, last, face)[[0, 1, 1, 2]]
+            if wide > face:
+                found[2:, row, last] = _response(passage, body, row, last, wide)[1:]
     return found
 
 

@@ -188,16 +188,23 @@ def _rise(
     coulomb, loss = heats
     rows = np.arange(len(run.time), dtype=np.intp) if rows is None else rows
     shape = "strip" if problem.kind == "line" else "disc"
-    passage = Passage(run.time[rows], run.position[rows], _touched_sizes(problem, run)[rows], shape)
+    size, wide = contact_sizes(problem, run), _loss_sizes(problem, run)
+    passage = Passage(run.time[rows], run.position[rows], size[rows], shape, wide[rows])
     return path_rise(passage, np.diff(coulomb[rows], prepend=0.0), np.diff(loss[rows], prepend=0.0), heating)
 
 
-def _touched_sizes(problem: Problem, run: TransientSolution) -> Array:
-    """Return the radii or half-widths of the largest faces around the places that have been in contact, (n,), m."""
-    # What a contact that shrinks or has gone releases while its dent recovers, it does not release on less and less.
-    away = np.linalg.norm(run.position[:, None] - run.position, axis=2)
-    inside = np.tril(contact_sizes(problem, run) - away)
-    return np.asarray(np.maximum(inside.max(axis=1), 0.0))
+def _loss_sizes(problem: Problem, run: TransientSolution) -> Array:
+    """Return the radii or half-widths of the faces below which energy was stored that is lost now, (n,), m."""
+    # What a dent releases that recovers below a shrinking contact, or after it, is not released on less and less.
+    found = contact_sizes(problem, run)
+    stored = np.maximum(run.stored, 0.0)
+    entered = np.maximum(np.diff(run.work), 0.0)
+    way = np.hypot(*np.diff(run.position, axis=0).T)
+    for row, (old, new, moved) in enumerate(zip(stored[:-1], entered, way, strict=True), start=1):
+        wider = max(found[row - 1] - moved - found[row], 0.0)
+        if old > 0.0:
+            found[row] += wider * old / (old + new)
+    return found
 
 
 def _heats(run: TransientSolution, heating: Heating) -> tuple[Array, Array]:
@@ -228,7 +235,9 @@ def _error(
     rows = np.unique(np.append(np.arange(0, len(run.time), 2), len(run.time) - 1))
     halves = np.abs(_answered(_rise(problem, run, heating, heats, rows), heating)[0] - rise[rows])
     halved = np.interp(np.arange(len(run.time)), rows, halves)
-    return np.asarray(halved + _STEEPEST * np.maximum.accumulate(change) * np.abs(rise) + unsure * np.abs(by_loss))
+    # The loss raises the temperature by no more than both: of `by_loss` the counterface takes a part.
+    lossy = np.minimum(np.abs(by_loss), np.abs(rise))
+    return np.asarray(halved + _STEEPEST * np.maximum.accumulate(change) * np.abs(rise) + unsure * lossy)
 
 
 def _rows(grid: Sequence[float], times: Sequence[float]) -> list[int]:
