@@ -244,10 +244,8 @@ class _March(Generic[State]):
             reached = end if step == left else time + step
             tried = self._try(pair, [time, 0.5 * (time + reached), reached])
             ratio = self._ratio(pair, tried)
-            # Over steps shorter than that, what a touched point changes may not decrease with the step.
-            if self._instant(reached).clock - self._instant(time).clock > self.mover.quickest:
-                ratio = max(ratio, self.mover.sudden(tried.fine.state) / (self._with(tried).friction * self.accuracy))
             too_quick = ratio * self.share > 1.0  # the step alone adds more than the accuracy
+            ratio = max(ratio, self.mover.sudden(tried.fine.state) / (self._with(tried).friction * self.accuracy))
             if ratio > 1.0 and step > (least if too_quick else max(least, _LEAST * (end - start))):
                 self.rejected += 1
                 step *= _growth(ratio)
