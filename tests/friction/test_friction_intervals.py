@@ -111,6 +111,13 @@ def test_sound_tests_are_seldom_doubted_however_many_conditions_they_have(size: 
     assert reported <= 2
 
 
+def test_runs_that_differ_alike_at_all_speeds_seldom_seem_to_wear() -> None:
+    """A run is one point of the course of Coulomb friction then, however many speeds it has."""
+    speeds = np.geomspace(0.02, 0.2, 6)
+    made = [timed_sweeps(speeds, runs=5, variation=0.03, noise=0.001, seed=seed) for seed in range(20)]
+    assert sum("coulomb-drifts" in codes(separate(runs).notes) for runs in made) <= 1
+
+
 def test_the_error_of_the_consistency_is_unknown_from_one_run_of_each_configuration() -> None:
     """Runs that differ by 2 % leave a residual that readings within steps, of much less scatter, do not explain."""
     curves = separate(timed_sweeps(np.array([0.02, 0.1]), runs=1, variation=0.02, noise=0.001))

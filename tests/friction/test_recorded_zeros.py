@@ -385,6 +385,22 @@ def test_a_drift_between_configurations_is_found_from_the_whole_test_where_repet
     assert np.mean(curves.viscoelastic) == pytest.approx(0.03, abs=2.5e-4)
 
 
+@pytest.mark.parametrize("of", ["temperature", "load", "speed"])
+def test_zeros_that_differ_between_conditions_measured_at_once_are_no_drift(of: str) -> None:
+    """As where load or temperature acts on the force cell: nothing changes within a condition."""
+    parts = [
+        rows_of(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=3, noise=0.01, load=load, seed=int(load)))
+        for load in ((10.0, 25.0) if of == "load" else (25.0,))
+    ]
+    rows = np.concatenate(parts)
+    column = {"temperature": 4, "load": 3, "speed": 0}[of]
+    rows[:, 2] += 0.1 * np.searchsorted([0.05, 0.15, 15.0, 320.0], np.abs(rows[:, column]))
+    curves = separate(replace(runs_from(rows), time=10.0 * np.arange(len(rows))))
+    assert not codes(curves.notes)
+    # 12 readings of 0.01 N, at 10 N or more: 2.9e-4 of the load, four of them.
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=1.2e-3)
+
+
 def test_coulomb_friction_that_grows_with_wear_does_not_reach_viscoelastic_friction() -> None:
     """Configurations in the order of the paper, whose viscoelastic part has half of what grows from one to the next."""
     rows = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03, replicates=6, noise=0.01))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -13,11 +14,12 @@ from viscofric.friction.intervals import threshold
 from viscofric.friction.measurement.doubts import CHANCE
 from viscofric.friction.measurement.fit import DRIFT, FORCE, WEAR, ZERO_CHANGES, Entry, Fit
 from viscofric.friction.measurement.zeros import ROUNDING, Zeros, wanders
+from viscofric.nominal import SAME_LOAD, numbered
 from viscofric.notes import Note
 from viscofric.units import plain, shown_number
 
 _FEWEST = 3  # degrees of freedom of a rate
-#: The zeros of a condition are used alone unless the error of their rate is so many times that of the whole test.
+#: The zeros of a condition are used alone unless the error of their rate is so many times that of all conditions.
 _FAR_BETTER = 3.0
 # The recorded zeros are followed where this reduces the sum of squares by more than chance.
 _WORTH = 0.8
@@ -63,8 +65,9 @@ class Drift:
     @classmethod
     def _of_zeros(cls, fits: list[Fit]) -> Drift:
         # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
-        # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not, or
-        # where they were repeated at once, so that it is known far better from the whole test.
+        # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
+        # Where they were repeated at once, it is known far better from lines for each temperature and load. Zeros may differ
+        # between these without any drift, as by the temperature of the cell or by its load.
         fitted = [fit for fit in fits if fit.fits_offset]
         follows = _follows(fitted)
         plain = cls(follows=follows).weights
@@ -72,13 +75,19 @@ class Drift:
         repeated = [fit for fit in timed if len(fit.each) > 1]
         if not timed:
             return cls(follows=follows, wandering=_in_order_of_rows(fitted, plain), timed=False)
-        # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
-        points = {id(fit): (fit.offset(plain), fit.time - fit.each[:, 0, DRIFT]) for fit in timed}
-        found = _Line.of([points[id(fit)] for fit in timed], apart=False)
-        own = _Line.of([points[id(fit)] for fit in repeated], apart=True) if repeated else found
-        if own.error < _FAR_BETTER * found.error:
-            found = own
+
+        def line(some: list[Fit], of: Integers) -> _Line:
+            # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
+            return _Line.of([(fit.offset(plain), fit.time - fit.each[:, 0, DRIFT]) for fit in some], of)
+
         rounding = ROUNDING * max(fit.group.load for fit in timed)
+        if not repeated:
+            found = line(timed, np.zeros(len(timed), dtype=np.intp))
+        else:
+            found = line(repeated, np.arange(len(repeated)))
+            together = line(timed, _alike(timed))
+            if together.tells_far_better(found) and not together.wanders(rounding):
+                found = together
         if found.wanders(rounding):
             return cls(follows=follows, wandering=float(np.std(found.value, ddof=1)))
         return cls(found.rate(rounding), follows=follows)
@@ -152,10 +161,10 @@ class _Line:
     freedom: float
 
     @classmethod
-    def of(cls, points: list[tuple[Array, Array]], *, apart: bool) -> _Line:
-        """Fit values and times of several conditions, by a line for each if `apart`, else by one for all."""
+    def of(cls, points: list[tuple[Array, Array]], line: Integers) -> _Line:
+        """Fit values and times of several conditions; `line` (k,) is the number of the line of each."""
         value, time = (np.concatenate(column) for column in zip(*points, strict=True))
-        line = np.repeat(np.arange(len(points)) * apart, [len(values) for values, _ in points])
+        line = np.repeat(line, [len(values) for values, _ in points])
         early, centred = _centred(time, line), _centred(value, line)
         sensitivity, freedom = float(np.sum(early**2)), int(line.size - line.max() - 2)
         if freedom < _FEWEST or sensitivity <= 0.0:
@@ -169,6 +178,11 @@ class _Line:
         unexplained = float(np.sqrt(np.mean(self.residual**2)))
         return unexplained > rounding and wanders(self.residual[np.argsort(self.time, kind="stable")])
 
+    def tells_far_better(self, other: _Line) -> bool:
+        """Whether the error of the slope is far smaller than that of another one, which it does not contradict."""
+        agree = abs(self.slope - other.slope) <= threshold(other.freedom, CHANCE) * other.error
+        return agree and _FAR_BETTER * self.error <= other.error
+
     def rate(self, rounding: float) -> Rate:
         """Return the slope, zero where it is within what chance makes."""
         if abs(self.slope) * float(np.ptp(self.time)) <= rounding:
@@ -178,14 +192,25 @@ class _Line:
         return Rate(self.slope, self.error, self.freedom)
 
 
+def _alike(fits: list[Fit]) -> Integers:
+    """Return numbers of the temperature and load of conditions (k,)."""
+    temperature, load = np.array([(fit.group.temperature, fit.group.load) for fit in fits]).T
+    pairs = np.column_stack([temperature, numbered(load, SAME_LOAD * load)])
+    return np.asarray(np.unique(pairs, axis=0, return_inverse=True)[1]).reshape(-1)
+
+
 def _of_coulomb(fits: list[Fit], weights: Array) -> Rate:
-    """Return the rate of Coulomb friction over its mean, by one slope for all conditions that were repeated."""
-    points = []
+    """Return the rate of Coulomb friction over its mean, by one slope for the runs of all temperatures."""
+    # A run is as many points as it has speeds only if these vary independently: each run is one point.
+    alike: dict[tuple[float, int], list[Array]] = defaultdict(list)
     for fit in fits:
-        each = fit.each[:, 2] @ weights
-        if len(each) > 1 and fit.slides and fit.coulomb is None and np.isfinite(fit.time) and np.all(each > 0.0):
-            points.append((each / each.mean(), fit.time - fit.each[:, 2, WEAR] / each.mean()))
-    return _Line.of(points, apart=True).rate(ROUNDING) if points else _NONE
+        each, mean = fit.each[:, 2] @ weights, fit.mean(weights)[2]
+        if fit.paired and fit.slides and fit.coulomb is None and np.isfinite(fit.time) and np.all(each > 0.0):
+            alike[fit.group.temperature, len(each)].append(
+                np.stack([each, fit.time * mean - fit.each[:, 2, WEAR]]) / mean
+            )
+    points = [(value, time) for value, time in (np.mean(several, axis=0) for several in alike.values())]
+    return _Line.of(points, np.arange(len(points))).rate(ROUNDING) if points else _NONE
 
 
 def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:

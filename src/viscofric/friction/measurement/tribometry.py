@@ -120,10 +120,11 @@ def separate(
     Slip not significantly different from zero is taken as pure rolling, though it may transmit much of Coulomb
     friction.  Where readings with slip at the same temperature, load and speed contradict this, they are left out.
 
-    A linear drift of the zero is estimated from the zeros of repeated conditions, by lines of one common slope (of the
-    whole test where repetitions follow each other at once), and removed before configurations measured one after the
-    other are compared; zeros recorded more than once are used reading by reading if the forces follow them.  A linear
-    change of Coulomb friction, as by wear, is found from repeated conditions, and taken out of viscoelastic friction.
+    A linear drift of the zero is estimated from the zeros of repeated conditions, by lines of one common slope (of all
+    conditions of a temperature and load where repetitions follow each other at once), and removed before configurations
+    measured one after the other are compared; zeros recorded more than once are used reading by reading if the forces
+    follow them.  A linear change of Coulomb friction, as by wear, is estimated from the runs of each temperature, and
+    taken out of viscoelastic friction.
 
     Readings of one step and time are one point of the test and count at their mean speed.  Where the disc's speeds
     put no reversed slips together, those of equal mean speed of disc and ball are.  Viscoelastic friction is then the
