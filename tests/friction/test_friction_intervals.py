@@ -120,9 +120,13 @@ def test_runs_that_differ_alike_at_all_speeds_seldom_seem_to_wear() -> None:
 
 def test_the_error_of_the_consistency_is_unknown_from_one_run_of_each_configuration() -> None:
     """Runs that differ by 2 % leave a residual that readings within steps, of much less scatter, do not explain."""
-    curves = separate(timed_sweeps(np.array([0.02, 0.1]), runs=1, variation=0.02, noise=0.001))
+    runs = timed_sweeps(np.array([0.02, 0.1]), runs=1, variation=0.02, noise=0.001)
+    curves = separate(runs)
     assert np.all(np.isinf(curves.consistency_error))  # type: ignore[arg-type]
     assert "inconsistent" not in codes(curves.notes)
+    # But a residual as large as friction needs none, as where the slip of one direction has the wrong sign.
+    backwards = np.where(runs.disc_speed < 0.0, 2.0 * runs.disc_speed - runs.ball_speed, runs.ball_speed)
+    assert "inconsistent" in codes(separate(replace(runs, ball_speed=backwards)).notes)
 
 
 def test_a_reversed_sliding_direction_is_found_by_the_consistency() -> None:

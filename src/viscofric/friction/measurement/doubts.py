@@ -21,6 +21,8 @@ from viscofric.units import shown_number
 CHANCE = 0.0027
 # Least significant contribution of unnoticed slip to viscoelastic friction, over Coulomb friction.
 _MATTERS = 0.1
+# Mean residual of configurations over friction that needs no standard error: runs that vary by 30 % leave 15 %.
+_GROSS = 0.5
 _OUTLIER = 5.0  # robust standard deviations
 _FEWEST_FOR_OUTLIERS = 4  # readings of a configuration
 _NAMED = 3  # outliers that a note names one by one
@@ -100,14 +102,24 @@ def _why_coulomb(entry: Entry) -> tuple[tuple[str, ...], str]:
 
 
 def _inconsistent(entries: list[Entry]) -> Iterator[Note]:
-    found = _significant(entries, 3, np.array([abs(entry.value[3]) for entry in entries]))
-    if found:
-        yield Note(
-            "inconsistent",
-            f"{_where((entries[one] for one in found), entries)} the four sign configurations are inconsistent: "
-            f"their residual is {_shown(entries[found[0]], 3)} of the load, where scatter alone would give zero.",
-            values={"conditions": len(found), "of": len(entries)},
-        )
+    value = np.array([entry.value for entry in entries])
+    # One run of each configuration tells no error of the residual.
+    once = np.flatnonzero([entry.fit.checks and np.isinf(entry.error[3]) for entry in entries])
+    some = [entries[place] for place in once]
+    rounding = ROUNDING * sum(abs(entry.value[0]) / entry.group.load for entry in some)
+    friction = sum(float(np.hypot(*entry.value[1:3])) for entry in some)
+    gross = abs(np.sum(value[once, 3])) > _GROSS * friction + rounding
+    for found, how in (
+        (_significant(entries, 3, np.abs(value[:, 3])), "where scatter alone would give zero"),
+        (once.tolist() if gross else [], "which is too large for the scatter of runs"),
+    ):
+        if found:
+            yield Note(
+                "inconsistent",
+                f"{_where((entries[one] for one in found), entries)} the four sign configurations are inconsistent: "
+                f"their residual is {_shown(entries[found[0]], 3)} of the load, {how}.",
+                values={"conditions": len(found), "of": len(entries)},
+            )
 
 
 def _another_zero(entries: list[Entry], zeros: Zeros) -> Iterator[Note]:
@@ -174,7 +186,8 @@ def _significant(entries: list[Entry], number: int, deviation: Array, more_error
 
 
 def _shown(entry: Entry, number: int) -> str:
-    return f"{shown_number(float(entry.value[number]), '.2g')} ± {entry.error[number]:.2g}"
+    error = f" ± {entry.error[number]:.2g}" if np.isfinite(entry.error[number]) else ""
+    return f"{shown_number(float(entry.value[number]), '.2g')}{error}"
 
 
 def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]:

@@ -66,19 +66,19 @@ class Drift:
     def _of_zeros(cls, fits: list[Fit]) -> Drift:
         # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
         # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
-        # Where they were repeated at once, it is known far better from lines for each temperature and load. Zeros may differ
-        # between these without any drift, as by the temperature of the cell or by its load.
+        # Where they were repeated at once, it is known far better from lines for each temperature and load, between which
+        # zeros may differ without any drift.
         fitted = [fit for fit in fits if fit.fits_offset]
         follows = _follows(fitted)
-        plain = cls(follows=follows).weights
+        uncorrected = cls(follows=follows).weights
         timed = [fit for fit in fitted if np.isfinite(fit.time)]
         repeated = [fit for fit in timed if len(fit.each) > 1]
         if not timed:
-            return cls(follows=follows, wandering=_in_order_of_rows(fitted, plain), timed=False)
+            return cls(follows=follows, wandering=_in_order_of_rows(fitted, uncorrected), timed=False)
 
         def line(some: list[Fit], of: Integers) -> _Line:
             # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
-            return _Line.of([(fit.offset(plain), fit.time - fit.each[:, 0, DRIFT]) for fit in some], of)
+            return _Line.of([(fit.offset(uncorrected), fit.time - fit.each[:, 0, DRIFT]) for fit in some], of)
 
         rounding = ROUNDING * max(fit.group.load for fit in timed)
         if not repeated:
