@@ -66,8 +66,8 @@ class Drift:
     def _of_zeros(cls, fits: list[Fit]) -> Drift:
         # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
         # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
-        # Where they were repeated at once, it is known far better from lines for each temperature and load, between which
-        # zeros may differ without any drift.
+        # Where they were repeated at once, it is known far better from lines for each temperature and load, between
+        # which zeros may differ without any drift.
         fitted = [fit for fit in fits if fit.fits_offset]
         follows = _follows(fitted)
         uncorrected = cls(follows=follows).weights
