@@ -135,12 +135,14 @@ def test_workers_that_ended_are_reported_and_replaced(children: list[subprocess.
     assert all(child.returncode is not None for child in children)
 
 
-def test_worker_that_lacked_memory_is_replaced() -> None:
+def test_worker_that_lacked_memory_is_replaced(children: list[subprocess.Popen[bytes]]) -> None:
     with Workers(2) as workers:
-        before = set(call_all(os.getpid, [{}] * 9, workers=workers))
         with pytest.raises(MemoryError):
             call_all(bytearray, [{"source": sys.maxsize}] * 2, workers=workers)
-        assert before.isdisjoint(call_all(os.getpid, [{}] * 9, workers=workers))
+        used = set(call_all(os.getpid, [{}] * 9, workers=workers))
+        ended = {child.pid for child in children if child.poll() is not None}
+        assert ended
+        assert used.isdisjoint(ended)
 
 
 @pytest.mark.slow

@@ -143,7 +143,7 @@ def test_failures_of_one_reason_are_printed_on_one_line(finished: Path, capsys: 
     print_outcome(results)
     assert capsys.readouterr().err.splitlines() == [
         "Warning: In 3 of 9 cases, most of all at −90 °C, 20 mm/s: wide.",
-        "Failed: 3 cases (−90 °C, 20 mm/s; −90 °C, 40 mm/s; −90 °C, 80 mm/s): 20 reached.",
+        "Failed: 3 cases (−90 °C, 20 mm/s; −90 °C, 40 mm/s; −90 °C, 80 mm/s), the first: 20 reached.",
     ]
 
 
