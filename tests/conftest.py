@@ -39,14 +39,17 @@ def pytest_collection_finish() -> None:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark tests of the page, and other steps' as slow: `-m "not slow and not page"` is the inner loop.
+    """Mark tests of the page, those in a browser as a step of their own, and other steps' as slow.
 
-    Those of the page come first, and so all in one process, as long as there are few: one server and one browser.
+    `-m "not slow and not page"` is the inner loop.  Tests of the page come first, and so all in one process, as long as
+    there are few: one server and one browser.
     """
     items.sort(key=lambda item: item.path.parent.name != "web")
     for item in items:
         if item.path.parent.name == "web":
             item.add_marker("page")
+        if "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker("apart")
         if item.get_closest_marker("apart") or item.get_closest_marker("exhaustive"):
             item.add_marker("slow")
 
