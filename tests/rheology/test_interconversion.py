@@ -87,7 +87,7 @@ def test_weak_modes_next_to_strong_ones_keep_their_digits():
 
 
 @pytest.mark.slow
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=30)
 @example(pairs=[(0.0, 0.0), (0.0, 2.8203125), (0.0, -3.135647705389331e-17)], log_E0=0.0)  # one after scaling
 @given(
     st.lists(st.tuples(st.floats(-6.0, 6.0), st.floats(-9.0, 9.0)), min_size=1, max_size=25),
