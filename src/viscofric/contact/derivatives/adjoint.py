@@ -173,6 +173,7 @@ def _field_and_level(stage: Stage, by_pressure: Array, held: Array, *, fixed_loa
 def _solved(
     operator: ConvolutionOperator, pressure: Array, by_pressure: Array, held: Array, *, fixed_load: bool
 ) -> tuple[Array, float]:
+    """Return the same with the transposed operator given, on all cells or on those of one side."""
     backend, loaded = operator.backend, pressure > 0.0
     contact = backend.cells(backend.asarray(loaded))
     field = held.copy()
