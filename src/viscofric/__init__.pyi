@@ -41,8 +41,8 @@ from viscofric.friction.prediction import predict_friction as predict_friction
 from viscofric.friction.shifting.shift import shift_friction as shift_friction
 from viscofric.heat.heating import Heating as Heating
 from viscofric.literature.citations import citations as citations
-from viscofric.readers.dma.amplitudes import read_amplitude_sweep as read_amplitude_sweep
 from viscofric.readers.dma.master_curves import read_master_curve as read_master_curve
+from viscofric.readers.dma.ramps import read_amplitude_sweep as read_amplitude_sweep
 from viscofric.readers.dma.ramps import read_ramps as read_ramps
 from viscofric.readers.dma.read import read_dma as read_dma
 from viscofric.readers.mtm.read import read_mtm as read_mtm

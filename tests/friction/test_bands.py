@@ -15,8 +15,7 @@ from viscofric.friction.bands import DrawnMaterials
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.notes import codes
 from viscofric.rheology.spectra.quality import SpectrumFit
-from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.rheology.uncertainty.residuals import SystematicMisfit
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples, SystematicMisfit
 
 BALL = vf.Ball(radius="9.525 mm")
 LOAD = 25.0

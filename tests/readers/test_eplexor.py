@@ -9,7 +9,7 @@ from readers.refusal import noted, refused
 from readers.samples.eplexor import SAMPLES, SHIFTS, master_tables, raw_tables, save
 from readers.samples.rubber import FREQUENCIES, TEMPERATURES, points
 from viscofric.readers.dma.instruments import eplexor
-from viscofric.readers.dma.instruments.eplexor_master import isotherm_of_each_row, programmed_frequencies
+from viscofric.readers.dma.instruments.eplexor import isotherm_of_each_row, programmed_frequencies
 from viscofric.readers.source import Source
 
 

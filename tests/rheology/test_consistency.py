@@ -11,8 +11,8 @@ import viscofric as vf
 from rheology.planted import planted_sweeps, synthetic_polymer
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.notes import READERS, codes
+from viscofric.rheology.superposition.consistency import NeighbourDistance, drift, neighbour_distances
 from viscofric.rheology.superposition.result import check_superposition
-from viscofric.rheology.superposition.van_gurp_palmen import NeighbourDistance, drift, neighbour_distances
 
 RUBBER = vf.synthetic_fluoroelastomer()
 POLYMER = synthetic_polymer()

@@ -14,10 +14,10 @@ from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.notes import codes, note_of
 from viscofric.rheology.shifts.law_comparison import course_notes
 from viscofric.rheology.shifts.laws import WLF
-from viscofric.rheology.spectra.modulus_misfit import STIFFEST
+from viscofric.rheology.spectra.misfit import STIFFEST
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.overlap import LogSweep, overlap_quality, parted
-from viscofric.rheology.uncertainty.residuals import systematic_misfit
+from viscofric.rheology.uncertainty.material_samples import systematic_misfit
 from viscofric.rheology.uncertainty.sampling import sample_materials
 
 #: File, how it was deformed, and a reference in its midst.

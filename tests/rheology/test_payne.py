@@ -10,7 +10,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.notes import codes
-from viscofric.rheology.payne.at_strain import on_strain
+from viscofric.rheology.payne.kraus import on_strain
 from viscofric.rheology.payne.kraus_fit import linear_range
 
 LAW = vf.rheology.KrausLaw(6e6, 2.5e6, 0.02, 0.6, 6e5, 4e5, 2.0 * np.pi * 10.0, 333.15, "shear")

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.rheology.uncertainty.residuals import Residuals
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples, Residuals
 
 
 @pytest.mark.parametrize("freedom", [6.0, 30.0])

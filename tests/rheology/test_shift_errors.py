@@ -13,10 +13,9 @@ from rheology.planted import planted_sweeps, synthetic_polymer, synthetic_soft_r
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.notes import codes
 from viscofric.rheology.superposition.common_shifts import fitted
-from viscofric.rheology.superposition.gauge import BEND, Gauge, continued, continued_covariance
 from viscofric.rheology.superposition.isotherm_offsets import BEFORE, SIZES, IsothermOffsets, OffsetSizes, estimated
 from viscofric.rheology.superposition.overlap import LogSweep, join, join_at
-from viscofric.rheology.superposition.shift_problem import ShiftProblem
+from viscofric.rheology.superposition.shift_problem import BEND, Gauge, ShiftProblem, continued, continued_covariance
 from viscofric.rheology.superposition.step_profiles import StepProfiles, sampled
 
 STEP = 0.5  # decades of α between neighbours of the power law

@@ -16,8 +16,8 @@ from viscofric import RelaxationSpectrum, RetardationSpectrum, fit_retardation_s
 from viscofric.data import MasterCurve
 from viscofric.errors import LiquidError
 from viscofric.notes import codes
-from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
-from viscofric.rheology.uncertainty.resampled import Refit
+from viscofric.rheology.spectra.misfit import ModulusMisfit
+from viscofric.rheology.uncertainty.sampling import Refit
 
 METHODS = ("non-negative", "regularised", "sparse")
 

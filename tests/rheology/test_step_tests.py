@@ -12,11 +12,11 @@ import viscofric as vf
 from refusals import refused
 from rheology.planted import planted_steps, synthetic_polymer
 from viscofric.notes import codes
-from viscofric.rheology.spectra.step_misfit import CreepMisfit, RelaxationMisfit
+from viscofric.rheology.spectra.misfit import CreepMisfit, RelaxationMisfit
 from viscofric.rheology.superposition.common_shifts import fitted
-from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.overlap import LogSweep, join
-from viscofric.rheology.superposition.step_result import _noise, weights_of_averages
+from viscofric.rheology.superposition.result import _noise, weights_of_averages
+from viscofric.rheology.superposition.shift_problem import Gauge
 from viscofric.step_tests import parts_of_decades
 
 TIMES = np.logspace(-1.0, 2.0, 31)
@@ -293,7 +293,7 @@ def test_flow_is_noted():
     )
     assert "flow" not in [getattr(note, "code", "") for note in vf.superpose(tests, reference).notes]
     steep = (*liquid[:-1], vf.readers.StepTest(liquid[-1].temperature, liquid[-1].time, 1e-6 * liquid[-1].time ** 0.98))
-    from viscofric.rheology.superposition.step_result import flowing
+    from viscofric.rheology.superposition.result import flowing
 
     assert [note.code for note in flowing(steep)] == ["flow"]
 

@@ -16,7 +16,7 @@ from viscofric.data import MasterCurve
 from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 from viscofric.rheology.superposition.overlap import OverlapQuality
 from viscofric.rheology.superposition.result import Superposition
-from viscofric.rheology.uncertainty.residuals import Residuals
+from viscofric.rheology.uncertainty.material_samples import Residuals
 from viscofric.rheology.uncertainty.sampling import normal_deviates, sample_materials
 
 REFERENCE = 303.15

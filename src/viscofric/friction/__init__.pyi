@@ -20,8 +20,8 @@ from viscofric.friction.interface_stress import shear_stress as shear_stress
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve as FrictionMasterCurve
 from viscofric.friction.shifting.shift_agreement import ShiftAgreement as ShiftAgreement
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors as compare_shift_factors
+from viscofric.rheology.interface.law import ConstantShearStress as ConstantShearStress
+from viscofric.rheology.interface.law import EyringShearStress as EyringShearStress
+from viscofric.rheology.interface.law import GaussianShearStress as GaussianShearStress
 from viscofric.rheology.interface.law import InterfaceLaw as InterfaceLaw
-from viscofric.rheology.interface.laws import ConstantShearStress as ConstantShearStress
-from viscofric.rheology.interface.laws import EyringShearStress as EyringShearStress
-from viscofric.rheology.interface.laws import GaussianShearStress as GaussianShearStress
-from viscofric.rheology.interface.laws import PowerShearStress as PowerShearStress
+from viscofric.rheology.interface.law import PowerShearStress as PowerShearStress

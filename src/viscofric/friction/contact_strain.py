@@ -15,8 +15,7 @@ from viscofric.contact.steady import solve_steady
 from viscofric.datasets import Dataset
 from viscofric.errors import ConvergenceError
 from viscofric.rheology.material import Material
-from viscofric.rheology.payne.at_strain import contact_strain, material_at_strain, on_strain
-from viscofric.rheology.payne.kraus import KrausLaw
+from viscofric.rheology.payne.kraus import KrausLaw, contact_strain, material_at_strain, on_strain
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity
 

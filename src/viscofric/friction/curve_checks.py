@@ -13,7 +13,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.intervals import threshold
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
-from viscofric.rheology.uncertainty.residuals import prior_freedom
+from viscofric.rheology.uncertainty.material_samples import prior_freedom
 from viscofric.units import Quantity, number, plain, shown_celsius, shown_speed
 
 #: Fewer second differences do not give a scatter.

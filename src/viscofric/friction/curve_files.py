@@ -18,11 +18,10 @@ from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
 from viscofric.readers.dma.names import FROM_TITLES, joined_tables, temperatures_of_titles
-from viscofric.readers.given_files import bytes_of
 from viscofric.readers.headings import OF_HEADINGS, Column, quantity_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.one_table import table_of
-from viscofric.readers.source import Source, is_revolutions
+from viscofric.readers.source import Source, bytes_of, is_revolutions
 from viscofric.readers.table import Table
 from viscofric.readers.tables import find_tables, name_columns
 from viscofric.readers.workbook import is_workbook

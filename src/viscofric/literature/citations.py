@@ -34,12 +34,11 @@ from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.quality import FROM_FRICTION, FROM_INDENTATION
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.rheology.superposition.joint import JointSuperposition
-from viscofric.rheology.superposition.result import Superposition
-from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.rheology.superposition.result import StepSuperposition, Superposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.roughness.measured_spectrum import LineSpectrum
 from viscofric.roughness.patches import ContactStatistics
-from viscofric.roughness.persson_result import PerssonTheory
+from viscofric.roughness.persson import PerssonTheory
 from viscofric.roughness.rough_friction import RoughFriction
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.showing import Rows, Shown

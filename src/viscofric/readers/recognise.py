@@ -8,11 +8,9 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.readers.dma.amplitudes import read_amplitude_sweep
-from viscofric.readers.dma.ramps import read_ramps
+from viscofric.readers.dma.ramps import read_amplitude_sweep, read_ramps
 from viscofric.readers.dma.read import trace_dma
-from viscofric.readers.given_files import bytes_of
-from viscofric.readers.source import Source
+from viscofric.readers.source import Source, bytes_of
 from viscofric.readers.steps.columns import STEPS
 from viscofric.readers.steps.read import step_kind
 from viscofric.units import Quantity

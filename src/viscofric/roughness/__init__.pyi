@@ -3,12 +3,12 @@ from viscofric.roughness.measured_spectrum import LineSpectrum as LineSpectrum
 from viscofric.roughness.measured_spectrum import line_spectrum as line_spectrum
 from viscofric.roughness.measured_spectrum import power_spectrum as power_spectrum
 from viscofric.roughness.patches import ContactStatistics as ContactStatistics
+from viscofric.roughness.patches import FrictionByWavelength as FrictionByWavelength
 from viscofric.roughness.patches import contact_statistics as contact_statistics
+from viscofric.roughness.patches import friction_by_wavelength as friction_by_wavelength
 from viscofric.roughness.patches import pressure_distribution as pressure_distribution
-from viscofric.roughness.persson_result import HeatedPerssonTheory as HeatedPerssonTheory
-from viscofric.roughness.persson_result import PerssonTheory as PerssonTheory
+from viscofric.roughness.persson import HeatedPerssonTheory as HeatedPerssonTheory
+from viscofric.roughness.persson import PerssonTheory as PerssonTheory
 from viscofric.roughness.rough_friction import HeatedRoughFriction as HeatedRoughFriction
 from viscofric.roughness.rough_friction import RoughFriction as RoughFriction
-from viscofric.roughness.scales import FrictionByWavelength as FrictionByWavelength
-from viscofric.roughness.scales import friction_by_wavelength as friction_by_wavelength
 from viscofric.roughness.spectrum import PowerSpectrum as PowerSpectrum

@@ -17,7 +17,7 @@ from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note, Remedy
-from viscofric.roughness import preparation, waves
+from viscofric.roughness import preparation
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantity, in_si, number, two_lengths
 
@@ -168,7 +168,7 @@ class Topography(Plotted):
         InputError
             If heights are missing.
         """
-        return math.sqrt(sum(float(np.square(one).mean()) for one in waves.gradient(self.complete(), self)))
+        return math.sqrt(sum(float(np.square(one).mean()) for one in preparation.gradient(self.complete(), self)))
 
     def complete(self) -> Array:
         """Return the heights, m.
@@ -320,7 +320,7 @@ class Topography(Plotted):
         """
         wanted = two_lengths(spacing)
         check_cost((length / step for length, step in zip(self.size, wanted, strict=True)), "spacing: the surface")
-        change = waves.resampled if self.periodic else preparation.resampled
+        change = preparation.resampled_series if self.periodic else preparation.resampled
         heights, found = change(self.complete(), self.spacing, wanted)
         points = " × ".join(str(n) for n in (heights.shape if heights.shape[1] > 1 else heights.shape[:1]))
         said = f"resampled to {points} points, {found[0]:.4g} m apart along x"
@@ -340,7 +340,7 @@ class Topography(Plotted):
             If the surface is not periodic (`window` or `mirror` it first), heights are missing, or no wave is left.
         """
         self._insist_on_period(", so its Fourier series would ring at the edges; first")
-        heights, step = waves.passed(self.complete(), self.spacing, shortest, longest)
+        heights, step = preparation.passed(self.complete(), self.spacing, shortest, longest)
         return self._with(heights, step)
 
     def inverted(self) -> Topography:

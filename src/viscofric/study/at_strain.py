@@ -7,8 +7,8 @@ from pathlib import Path
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.amplitudes import read_amplitude_sweep
-from viscofric.rheology.payne.at_strain import material_at_strain, on_strain
+from viscofric.readers.dma.ramps import read_amplitude_sweep
+from viscofric.rheology.payne.kraus import material_at_strain, on_strain
 from viscofric.rheology.payne.kraus_fit import PayneFit, fit_kraus
 from viscofric.study.rubber import Rubber
 from viscofric.study.run_file.material import MaterialTable

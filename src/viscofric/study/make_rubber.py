@@ -19,8 +19,7 @@ from viscofric.readers.steps.read import read_step_tests
 from viscofric.rheology.cards import open_card
 from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
 from viscofric.rheology.material import Material
-from viscofric.rheology.ramps.assumed import assumed_of
-from viscofric.rheology.ramps.superpose import RampLaw, superpose_ramps
+from viscofric.rheology.ramps.superpose import RampLaw, assumed_of, superpose_ramps
 from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -30,8 +29,7 @@ from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.joint import JointSuperposition
-from viscofric.rheology.superposition.result import Superposition
-from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.rheology.superposition.result import StepSuperposition, Superposition
 from viscofric.rheology.superposition.superpose import superpose
 from viscofric.step_tests import StepMasterCurve, StepTests
 from viscofric.study.at_strain import at_strain

@@ -14,8 +14,7 @@ from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.superposition.joint import JointSuperposition
-from viscofric.rheology.superposition.result import Superposition
-from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.rheology.superposition.result import StepSuperposition, Superposition
 from viscofric.step_tests import StepTests
 
 

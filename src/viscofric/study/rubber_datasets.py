@@ -13,8 +13,7 @@ from viscofric.rheology.shifts.vertical_shift import with_vertical_shift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.superposition.joint import of_all_kinds
-from viscofric.rheology.superposition.result import Superposition
-from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperposition
+from viscofric.rheology.superposition.result import PER_DECADE, StepSuperposition, Superposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.step_tests import StepTests
 from viscofric.study.rubber import Rubber

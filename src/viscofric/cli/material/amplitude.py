@@ -100,7 +100,7 @@ def _fitted(fit: PayneFit) -> tuple[dict[str, Any], list[str]]:
 def _scaled(fit: PayneFit, chosen: dict[str, Any], notes: list[str]) -> tuple[dict[str, Any], list[str], Any]:
     """Scale a material to a strain, given or that of a contact."""
     from viscofric.cli.rubber_options import find_rubber
-    from viscofric.rheology.payne.at_strain import material_at_strain, on_strain
+    from viscofric.rheology.payne.kraus import material_at_strain, on_strain
 
     material = find_rubber(chosen["material"])
     measured = None if chosen["measured_at"] is None else 0.01 * chosen["measured_at"]

@@ -55,7 +55,7 @@ def command(files: tuple[Path, ...], as_json: bool, out: Path | None, **chosen: 
     With --reference, the ramps are superposed, and the folder has rubber.json, tables, figures and report.html.
     """
     from viscofric.cli.material.readings import described, read_kind
-    from viscofric.rheology.ramps.glass_transition import glass_transition
+    from viscofric.rheology.ramps.result import glass_transition
 
     if chosen["reference"] is None and (out is not None or chosen["assumed_shift"] is not None):
         raise click.UsageError("--out and --assumed-shift need --reference.")

@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 
 def read_kind(kind: TestKind, files: Sequence[Path], reading: dict[str, Any]) -> Any:
     """Return the test of a kind in files, with the options of `reading_options`."""
-    from viscofric.readers.dma.amplitudes import read_amplitude_sweep
-    from viscofric.readers.dma.ramps import read_ramps
+    from viscofric.readers.dma.ramps import read_amplitude_sweep, read_ramps
     from viscofric.readers.dma.read import read_dma
     from viscofric.readers.steps.read import read_step_tests
 

@@ -32,8 +32,8 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_betwee
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.superposition.common_curve import Basis
 from viscofric.rheology.superposition.common_shifts import fitted
-from viscofric.rheology.superposition.gauge import Gauge
 from viscofric.rheology.superposition.overlap import Join
+from viscofric.rheology.superposition.shift_problem import Gauge
 from viscofric.units import kelvin_hint, shown_celsius
 
 #: Steps that the fit moves further from where a pair coincides are not that pair's, decades.

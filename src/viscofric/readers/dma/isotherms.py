@@ -4,18 +4,232 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
-from viscofric.arrays import Indices
+from viscofric.arrays import Array, Indices
 from viscofric.data import DEFORMATIONS, Deformation, Isotherm, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, check_choice, short_notes
 from viscofric.notes import Note, note_of
-from viscofric.readers.dma.checks import usable
-from viscofric.readers.dma.grouping import ISOTHERM_GAP, isotherm_groups
-from viscofric.readers.dma.readings import Points, Readings, Sorted, at, joined, listed
-from viscofric.readers.dma.sweep_checks import notes_on, of_one_amplitude
+from viscofric.readers.dma.checks import notes_on, of_one_amplitude, usable
+from viscofric.readers.dma.readings import AS_RAMPS, Points, Readings, Sorted, at, joined, listed
+from viscofric.units import shown_celsius
+
+#: Measured temperatures of one isotherm scatter by some tenths of a kelvin, programmes step by several.
+ISOTHERM_GAP = 1.0  # K
+#: Temperatures of sweeps that differ by no more are one; programmes step by 1 K at the least.
+SAME_TEMPERATURE = 0.7  # K
+#: A step of the programme whose temperature ranges no further than this is one isotherm, settling included.
+ONE_STEP = 2.0  # K
+#: A wider group without gaps is not one temperature but a ramp.
+WIDEST_ISOTHERM = 5.0  # K
+#: Largest change from point to point at a held temperature; a heated sample changes by more.  Which value separates
+#: the two depends on how often points were recorded.
+HELD = (0.3, 0.15, 0.08, 0.04, 0.02)  # K
+#: Least number of successive frequencies at a held temperature.
+SHORTEST_HOLD = 3
+#: Held temperatures differ by this factor more than they vary; those of a noisy ramp do not.
+APART = 3.0
+#: Density of points at a held temperature over that elsewhere, within so many kelvin on either side.
+CROWDED, NEAR = 2.0, 0.25  # 1, K
+#: Each isotherm of a programme has at least this share of the frequencies of all.
+SWEPT = 0.8
+#: Least number of temperatures, with one frequency each, of a temperature sweep.
+TEMPERATURE_SWEEP = 5
+
+
+def isotherm_groups(points: Points, keep: Indices, source: str) -> tuple[list[Indices], list[Note]]:
+    """Return the points of each isotherm, in the order of reading, and notes on points outside all of them."""
+    # Points of one file and step are separated at gaps in temperature. Without a gap over more than `WIDEST_ISOTHERM`,
+    # the sample was heated between its isotherms during recording: points at a held temperature are kept. Groups of
+    # equal temperature, of one file or several, are one isotherm; groups of hardly any frequency, next to isotherms
+    # with several, are left out.
+    groups: list[Indices] = []
+    moving: list[int] = []
+    for block in _blocks(points, keep):
+        for group in [part for wide in _by_gaps(points, block) for part in _by_repeats(points, wide)]:
+            if np.ptp(points.temperature[group]) <= WIDEST_ISOTHERM:
+                groups.append(group)
+                continue
+            held = _holds(points, group, source)
+            groups += held
+            moving += sorted(set(group.tolist()) - {index for one in held for index in one.tolist()})
+    notes = []
+    if moving:
+        what = "1 point left out: its" if len(moving) == 1 else f"{len(moving)} points left out: their"
+        said = f"{what} temperature was changing between two isotherms ({points.named(sorted(moving))})."
+        notes.append(Note("temperature-moving", said))
+    merged = _merged(points, groups)
+    kept = _insist_on_several(points, merged, source)
+    _insist_on_one_temperature(points, kept, source)
+    notes += _on_small_groups(points, merged, kept)
+    return kept, notes
+
+
+def _blocks(points: Points, keep: Indices) -> list[Indices]:
+    """Separate the points by file and, if known, by step."""
+    keys = np.stack([points.file[keep], np.where(points.has_step[keep], points.step[keep], 0)], axis=1)
+    _, which = np.unique(keys, axis=0, return_inverse=True)
+    which = np.ravel(which)
+    order = np.argsort(which, kind="stable")
+    return np.split(keep[order], np.flatnonzero(np.diff(which[order])) + 1)
+
+
+def _by_gaps(points: Points, block: Indices) -> list[Indices]:
+    """Separate points at gaps between neighbours in temperature."""
+    kelvin = points.temperature[block]
+    if points.has_step[block[0]] and np.ptp(kelvin) <= ONE_STEP:
+        return [block]
+    order = np.argsort(kelvin, kind="stable")
+    cuts = np.flatnonzero(np.diff(kelvin[order]) > ISOTHERM_GAP) + 1
+    return [np.sort(block[part]) for part in np.split(order, cuts)]
+
+
+def _by_repeats(points: Points, group: Indices) -> list[Indices]:
+    """Separate points at the widest gaps in temperature if each part has all frequencies: programmes step by 1 K."""
+    # Repeated sweeps at one temperature have no such gaps and stay together.
+    order = group[np.argsort(points.temperature[group], kind="stable")]
+    kelvin = points.temperature[order]
+    gaps = np.diff(kelvin)
+    cuts = np.flatnonzero(gaps > SAME_TEMPERATURE) + 1
+    if not cuts.size:
+        return [group]
+    parts = [np.sort(part) for part in np.split(order, cuts)]
+    wander = max(float(np.ptp(points.temperature[part])) for part in parts)
+    if gaps[cuts - 1].min() > APART * wander and _are_sweeps(points, parts):
+        return parts
+    return [group]
+
+
+def _insist_on_one_temperature(points: Points, groups: list[Indices], source: str) -> None:
+    """Refuse isotherms with most frequencies measured at temperatures too different to be averaged."""
+    for group in groups:
+        order = group[np.argsort(points.angular_frequency[group], kind="stable")]
+        cuts = np.flatnonzero(np.diff(np.round(np.log(points.angular_frequency[order]), 2))) + 1
+        spans = np.array([np.ptp(points.temperature[same]) for same in np.split(order, cuts)])
+        if 2 * np.count_nonzero(spans > ISOTHERM_GAP) > spans.size:
+            low, high = (shown_celsius(float(f(points.temperature[group]))) for f in (np.min, np.max))
+            problem = (
+                f"each frequency was measured several times between {low} and {high} °C, so that the temperatures "
+            )
+            raise DataFileError(
+                source,
+                problem + "cannot be grouped into isotherms; add a column of steps.",
+                code="no-isotherms",
+            )
+
+
+def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
+    """Return the runs of a heated sample's points at a held temperature."""
+    for step in HELD:
+        held = _stretches(points, group, step)
+        if len(held) < 2 or not _lie_apart(points, held):
+            continue
+        if _are_sweeps(points, held) and _are_crowded(points, group, held):
+            return held
+    kelvin = points.temperature[group]
+    low, high = float(kelvin.min()), float(kelvin.max())
+    raise DataFileError(
+        source,
+        f"the temperatures run continuously from {shown_celsius(low)} to {shown_celsius(high)} °C, without a gap of "
+        f"{ISOTHERM_GAP:g} K; isothermal sweeps are needed, not a temperature ramp",
+        code="temperature-ramp",
+        remedy=AS_RAMPS,
+    )
+
+
+def _stretches(points: Points, group: Indices, step: float) -> list[Indices]:
+    """Return runs of points with smaller steps between neighbours, those at one temperature joined."""
+    runs = np.split(group, np.flatnonzero(np.abs(np.diff(points.temperature[group])) > step) + 1)
+    held: list[Indices] = []
+    for run in runs:
+        if len(_printed_frequencies(points, run)) < SHORTEST_HOLD:
+            continue
+        if held and abs(_mean(points, run) - _mean(points, held[-1])) <= ISOTHERM_GAP:
+            held[-1] = np.concatenate([held[-1], run])
+        else:
+            held.append(run)
+    return held
+
+
+def _lie_apart(points: Points, held: list[Indices]) -> bool:
+    """Return whether temperatures differ much more than each varies while it is held."""
+    wander = [float(np.ptp(points.temperature[run])) for run in held]
+    between = [abs(_mean(points, run) - _mean(points, after)) for run, after in pairwise(held)]
+    return max(wander) <= ONE_STEP and all(
+        distance > APART * max(pair) for distance, pair in zip(between, pairwise(wander), strict=True)
+    )
+
+
+def _are_crowded(points: Points, group: Indices, held: list[Indices]) -> bool:
+    """Return whether points accumulate at the held temperatures; along a ramp their density is uniform."""
+    kelvin = points.temperature[group]
+    near = [int(np.sum(np.abs(kelvin - _mean(points, run)) <= NEAR)) for run in held]
+    rest = max(len(group) - sum(len(run) for run in held), 0)
+    per_window = rest * 2.0 * NEAR / float(np.ptp(kelvin))
+    return min(near) >= CROWDED * per_window
+
+
+def _are_sweeps(points: Points, held: list[Indices]) -> bool:
+    """Return whether nearly the same frequencies, three or more, were swept at each temperature."""
+    swept = [_printed_frequencies(points, run) for run in held]
+    programme = len(np.unique(np.concatenate(swept)))
+    return all(len(one) >= max(SHORTEST_HOLD, SWEPT * programme) for one in swept)
+
+
+def _mean(points: Points, rows: Indices) -> float:
+    return float(np.mean(points.temperature[rows]))
+
+
+def _merged(points: Points, groups: list[Indices]) -> list[Indices]:
+    """Join groups of equal mean temperature, ascending."""
+    means = [_mean(points, group) for group in groups]
+    alike: list[list[Indices]] = []
+    first = -np.inf
+    for number in np.argsort(means, kind="stable"):
+        if means[number] - first <= SAME_TEMPERATURE:
+            alike[-1].append(groups[number])
+        else:
+            first = means[number]
+            alike.append([groups[number]])
+    return [np.sort(np.concatenate(some)) for some in alike]
+
+
+def _printed_frequencies(points: Points, group: Indices) -> Array:
+    """Return the frequencies of a group once each (logarithms, rounded to what is printed)."""
+    return np.unique(np.round(np.log(points.angular_frequency[group]), 2))
+
+
+def _insist_on_several(points: Points, groups: list[Indices], source: str) -> list[Indices]:
+    """Leave out groups of one or two frequencies next to isotherms with several; refuse a temperature sweep."""
+    counts = [len(_printed_frequencies(points, group)) for group in groups]
+    if len(groups) >= TEMPERATURE_SWEEP and max(counts) == 1:
+        problem = f"each of the {len(groups)} temperatures has one frequency; frequency sweeps are needed, not a "
+        raise DataFileError(source, problem + "temperature sweep", code="temperature-sweep", remedy=AS_RAMPS)
+    # one frequency next to three, two next to six
+    needed = min(3, 1 + max(counts) // 3)
+    return [group for group, count in zip(groups, counts, strict=True) if count >= needed]
+
+
+def _on_small_groups(points: Points, groups: list[Indices], kept: list[Indices]) -> list[Note]:
+    ids = {id(group) for group in kept}
+    small = [group for group in groups if id(group) not in ids]
+    if not small:
+        return []
+    rows = sorted(int(index) for group in small for index in group)
+    low, high = (shown_celsius(float(f(points.temperature[rows]))) for f in (np.min, np.max))
+    where = f"{low} °C" if low == high else f"between {low} and {high} °C"
+    what = "1 point" if len(rows) == 1 else f"{len(rows)} points"
+    alone = "it belongs" if len(rows) == 1 else "they belong"
+    return [
+        Note(
+            "points-left-out",
+            f"{what} left out: {alone} to no isotherm with several frequencies ({points.named(rows)}; {where}).",
+        )
+    ]
+
 
 #: Frequencies closer than this (relative) are the same, printed or measured twice.
 SAME_FREQUENCY = 1e-4

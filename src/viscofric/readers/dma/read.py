@@ -23,9 +23,8 @@ from viscofric.readers.dma.isotherms import TracedSweeps, traced_sweeps
 from viscofric.readers.dma.names import DMA, NOT_SAID
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables import delimited, reptate, workbook
-from viscofric.readers.given_files import sources_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
-from viscofric.readers.source import Source, Test, insist_on_content, unit_conversion
+from viscofric.readers.source import Source, Test, insist_on_content, sources_of, unit_conversion
 from viscofric.readers.tables import holds_table, no_header
 from viscofric.units import Quantity
 
@@ -155,14 +154,8 @@ def read_dma(
     >>> len(sweeps.isotherms), sweeps.isotherms[0].storage_modulus.shape
     (24, (17,))
     """
-    traced = trace_dma(
-        *paths,
-        deformation=deformation,
-        temperature=temperature,
-        modulus_unit=modulus_unit,
-        columns=columns,
-        sheet=sheet,
-    )
+    readings = read_files(paths, "read_dma", "frequency", deformation, temperature, modulus_unit, columns, sheet)
+    traced = traced_sweeps(readings, deformation)
     if not traced.deformation_known:
         raise DataFileError(traced.sweeps.source, NOT_SAID)
     return traced.sweeps

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -45,6 +46,8 @@ AS_AMPLITUDES = Remedy(
     "; drop it under “Data” alone, beside the source of the material.",
     "material.dma",
 )
+#: Columns that all readings have.
+_MEASURED = ("temperature", "angular_frequency", "storage_modulus", "loss_modulus")
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,17 +82,9 @@ class Readings:
 
     def taken(self, rows: Indices) -> Readings:
         """Return some of the points, in the order of their rows."""
-        amplitude, step = self.strain_amplitude, self.step
-        return replace(
-            self,
-            places=tuple(self.places[row] for row in rows),
-            temperature=self.temperature[rows],
-            angular_frequency=self.angular_frequency[rows],
-            storage_modulus=self.storage_modulus[rows],
-            loss_modulus=self.loss_modulus[rows],
-            strain_amplitude=None if amplitude is None else amplitude[rows],
-            step=None if step is None else step[rows],
-        )
+        columns = {name: getattr(self, name) for name in (*_MEASURED, "strain_amplitude", "step")}
+        kept: dict[str, Any] = {name: None if one is None else one[rows] for name, one in columns.items()}
+        return replace(self, places=tuple(self.places[row] for row in rows), **kept)
 
 
 def of_one_file(parts: Sequence[Readings], what: str) -> Readings:
@@ -98,13 +93,11 @@ def of_one_file(parts: Sequence[Readings], what: str) -> Readings:
     if any(part.deformation not in (None, stating.deformation) for part in parts):
         raise DataFileError(stating.source, f"{what} differ in E and G; separate them.", code="deformation-contradicts")
     points = joined(parts)
+    measured: dict[str, Any] = {name: getattr(points, name) for name in _MEASURED}
     return replace(
         stating,
+        **measured,
         places=tuple(place for part in parts for place in part.places),
-        temperature=points.temperature,
-        angular_frequency=points.angular_frequency,
-        storage_modulus=points.storage_modulus,
-        loss_modulus=points.loss_modulus,
         strain_amplitude=points.strain_amplitude if np.any(np.isfinite(points.strain_amplitude)) else None,
         step=None,
         lacks_unit=any(part.lacks_unit for part in parts),
@@ -164,19 +157,13 @@ def joined(readings: Sequence[Readings]) -> Points:
         for one in readings
         for place in (one.places or tuple(f"point {n + 1}" for n in range(len(one))))
     ]
-    nothing = [np.full(count, np.nan) for count in counts]
+    measured = {name: np.concatenate([getattr(one, name) for one in readings]) for name in _MEASURED}
+    amplitudes = [one.strain_amplitude for one in readings]
+    unknown = [np.full(count, np.nan) if one is None else one for one, count in zip(amplitudes, counts, strict=True)]
     return Points(
         places=tuple(places),
-        temperature=np.concatenate([one.temperature for one in readings]),
-        angular_frequency=np.concatenate([one.angular_frequency for one in readings]),
-        storage_modulus=np.concatenate([one.storage_modulus for one in readings]),
-        loss_modulus=np.concatenate([one.loss_modulus for one in readings]),
-        strain_amplitude=np.concatenate(
-            [
-                none if one.strain_amplitude is None else one.strain_amplitude
-                for one, none in zip(readings, nothing, strict=True)
-            ]
-        ),
+        **measured,
+        strain_amplitude=np.concatenate(unknown),
         file=np.repeat(np.arange(len(readings)), counts),
         step=np.concatenate([np.zeros(len(one), dtype=np.int64) if one.step is None else one.step for one in readings]),
         has_step=np.repeat([one.step is not None for one in readings], counts),

@@ -24,8 +24,7 @@ from viscofric.readers.dma.instruments import trios_text
 from viscofric.readers.dma.instruments.ta_steps import StepText
 from viscofric.readers.dma.names import NOT_SAID, said_by_columns, tools_in
 from viscofric.readers.dma.tables import reptate
-from viscofric.readers.given_files import sources_of
-from viscofric.readers.source import Source, insist_on_content
+from viscofric.readers.source import Source, insist_on_content, sources_of
 from viscofric.readers.steps.columns import STEPS, kind_in_name, kind_of, response_of, temperature_of, time_of
 from viscofric.readers.table import Table, make_table
 from viscofric.readers.tables import find_tables

@@ -25,7 +25,7 @@ from viscofric.roughness.rough_friction import RoughFriction
 
 if TYPE_CHECKING:
     from viscofric.friction.interface_stress import ShearStress
-    from viscofric.roughness.persson_result import PerssonTheory
+    from viscofric.roughness.persson import PerssonTheory
 
 _MEGA, _MILLIMETRES = 1e-6, 1e3
 _DASHES: tuple[Any, ...] = ("-", "--", ":", "-.")

@@ -16,8 +16,7 @@ from viscofric.ramps import TemperatureRamps
 from viscofric.report.figures.style import BLUE, GREY, VERMILION, new_figure, sequential_looks
 from viscofric.report.results import values
 from viscofric.rheology.payne.kraus_fit import PayneFit
-from viscofric.rheology.ramps.glass_transition import glass_transition
-from viscofric.rheology.ramps.result import RampSuperposition
+from viscofric.rheology.ramps.result import RampSuperposition, glass_transition
 from viscofric.units import CELSIUS_ZERO
 
 _PASCAL_PER_MEGAPASCAL = 1e6

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.roughness.persson_result import PerssonTheory
+    from viscofric.roughness.patches import FrictionByWavelength
+    from viscofric.roughness.persson import PerssonTheory
     from viscofric.roughness.rough_friction import RoughFriction
-    from viscofric.roughness.scales import FrictionByWavelength
     from viscofric.roughness.spectrum import PowerSpectrum
     from viscofric.roughness.topography import Topography
 

@@ -27,7 +27,7 @@ from viscofric.rheology.cards.card import (
     tensile,
     unread_shift,
 )
-from viscofric.rheology.cards.comments import contents_of, number_of
+from viscofric.rheology.cards.native import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT

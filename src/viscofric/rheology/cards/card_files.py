@@ -17,7 +17,7 @@ from viscofric.files import file_path, read_text
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
 from viscofric.rheology.cards.card import SOFTEST, Card, Reading, Solid, UnitSystem, Writing, card_law, give_units
-from viscofric.rheology.cards.comments import material_of, modulus_unit_of, stored_content
+from viscofric.rheology.cards.native import material_of, modulus_unit_of, stored_content
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.shifts.law_comparison import LARGEST_SCATTER
 from viscofric.rheology.shifts.laws import ParametricLaw

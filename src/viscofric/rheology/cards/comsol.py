@@ -17,7 +17,7 @@ from typing import Any
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.cards.card import Reading, Solid, Writing
-from viscofric.rheology.cards.comments import Contents, contents_of, number_of
+from viscofric.rheology.cards.native import Contents, contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.parametric_law import ParametricLaw

@@ -19,7 +19,7 @@ from typing import Any
 from viscofric.errors import InputError
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.cards.card import Reading, Solid, Writing, number_in, number_text, tensile
-from viscofric.rheology.cards.comments import contents_of, number_of
+from viscofric.rheology.cards.native import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10

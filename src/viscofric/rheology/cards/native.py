@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
-from dataclasses import is_dataclass
+from dataclasses import is_dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscofric.errors import InputError, wrong_argument
 from viscofric.files import parse_json
+from viscofric.notes import Note, Remedy
+from viscofric.rheology.cards.card import Solid, Writing, card_law
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -18,7 +20,8 @@ from viscofric.rheology.shifts.shift_law import as_record, kept_arguments
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.quality import SpectrumFit
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
+from viscofric.units import CELSIUS_ZERO, celsius
 
 #: Version of the format, increased when older programs can no longer read its files.
 VERSION = 1
@@ -206,3 +209,202 @@ def read_json(text: str) -> Material:
 
 def _no_constant(name: str) -> float:
     raise InputError(f"holds {name}; numbers of a material must be finite.", code="damaged")
+
+
+#: Start of each line that `read_card` reads back; the rest of the line is a piece of one JSON text.
+_MARK = "viscofric>"
+_PIECE = 66  # characters: LS-DYNA reads 80 of a line
+_UNITS = {"Pa": "Pa, s, m, kg", "MPa": "MPa, s, mm, tonne (density in t/mm^3, forces in N)"}
+#: Two numbers of a card are the same if only their last digits differ.
+_SAME = 1e-9
+
+
+class Contents(NamedTuple):
+    """What the cards of all programs hold."""
+
+    relaxation: RelaxationSpectrum  # in tension
+    poisson_ratio: float
+    law: WLF | Arrhenius | None  # of the shift
+    sentences: list[str]  # for people
+    stored: dict[str, Any]  # what the keywords cannot hold
+
+    @property
+    def modes(self) -> list[tuple[float, float]]:
+        """Modulus, Pa, and relaxation time, s, of each mode."""
+        return list(zip(self.relaxation.E.tolist(), self.relaxation.tau.tolist(), strict=True))
+
+    def comments(self, mark: str, *more: str) -> list[str]:
+        """Return the head of the card, with more sentences; see `comment_lines`."""
+        return comment_lines(mark, [*self.sentences, *more], self.stored)
+
+
+def contents_of(
+    material: Material, writing: Writing, program: str, incompressible: str | None = None, *, with_shift: bool = True
+) -> Contents:
+    """Return what a card is to hold; `incompressible` is why the program takes no ν = 0.5, None if it does."""
+    spectrum: Any = material.spectrum
+    if not isinstance(spectrum, RetardationSpectrum):
+        raise InputError(
+            f"{program} cards contain a Prony series, but this material is a table of moduli; fit a spectrum "
+            'first, or write format="json".',
+            code="no-modes",
+        )
+    relaxation = spectrum.to_relaxation()
+    if not len(relaxation):
+        raise InputError(
+            f"{program} cards contain a Prony series, but this material is elastic: it has no mode.", code="no-modes"
+        )
+    ratio = material.poisson_ratio if writing.poisson_ratio is None else writing.poisson_ratio
+    if ratio == 0.5 and incompressible:
+        advice = Remedy("poisson_ratio=0.4995", "--poisson-ratio 0.4995", page="“Poisson's ratio”: 0.4995")
+        advice += " for instance (E stays as it is, 2(1+ν)G changes with it)."
+        said = f"{program} {incompressible}, and this material has 0.5; give the card a nearly incompressible one, "
+        raise InputError(Note("incompressible", said, remedy=advice))
+    law = card_law(material.shift) if with_shift else None
+    card = {
+        "poisson_ratio": ratio,
+        "E0": relaxation.E0,
+        "E_inf": relaxation.E_inf,
+        "shift": law is not None,
+        "absolute_zero": 0.0 if writing.temperature_unit == "K" else -CELSIUS_ZERO,
+        "unit_system": writing.modulus_unit,
+    }
+    stored = {"version": VERSION, **about(material), "card": card}
+    return Contents(relaxation, ratio, law, _remarks(material, writing, ratio, law is not None), stored)
+
+
+def _remarks(material: Material, writing: Writing, poisson_ratio: float, shift_written: bool) -> list[str]:
+    """Return the sentences for people at the head of a card."""
+    temperatures = "K" if writing.temperature_unit == "K" else "degrees Celsius"
+    sentences = [
+        "Linear viscoelastic material, a Prony series; written by viscofric.",
+        f"Units: {_UNITS[writing.modulus_unit]}; temperatures in {temperatures}.",
+    ]
+    if material.name:
+        sentences.insert(0, material.name)
+    if material.citation:
+        sentences.append(f"Source: {material.citation}")
+    sentences.append(
+        "The Poisson ratio is constant, so that bulk and shear modulus relax in the same way (k_i = g_i)."
+        if poisson_ratio < 0.5
+        else "The material is incompressible: use hybrid (mixed) elements."
+    )
+    if poisson_ratio != material.poisson_ratio:
+        own = f"The material's Poisson ratio is {material.poisson_ratio!r}"
+        sentences.append(f"{own}; this card has {poisson_ratio!r}, as requested.")
+    if material.shift is not None and not shift_written:
+        sentences.append(
+            f"The card is valid at {celsius(float(material.shift.reference)):.6g} degrees Celsius only: this keyword "
+            f"cannot express its shift, {type(material.shift).__name__}."
+        )
+    if material.vertical_shift is not None:
+        sentences.append("The vertical shift of the modulus with temperature, b(T), is not in the card.")
+    return sentences
+
+
+def number_of(content: dict[str, Any] | None, name: str) -> float | None:
+    """Return a number that `contents_of` put into the comments, if there is one."""
+    value = None if content is None else content["card"].get(name)
+    if value is None or (isinstance(value, (int, float)) and np.isfinite(value)):
+        return value
+    raise InputError(f"the lines marked {_MARK!r} are damaged: {name} is no number.", code="damaged")
+
+
+def modulus_unit_of(content: dict[str, Any] | None) -> str | None:
+    """Return the unit of moduli that `contents_of` put into the comments, if there is one."""
+    unit = None if content is None else content["card"].get("unit_system")
+    if unit is None or unit in _UNITS:
+        return unit
+    raise InputError(
+        f"the lines marked {_MARK!r} are damaged: unit_system is not {' or '.join(_UNITS)}.", code="damaged"
+    )
+
+
+def comment_lines(mark: str, sentences: list[str], content: dict[str, Any]) -> list[str]:
+    """Return comment lines that begin with a program's comment mark, in ASCII."""
+    lines = []
+    for sentence in sentences:
+        words = " ".join(sentence.split()).replace("–", "-").encode("ascii", "replace").decode()
+        while words:
+            cut = (
+                len(words)
+                if len(words) <= _PIECE
+                else words.rfind(" ", 1, _PIECE)
+                if " " in words[1:_PIECE]
+                else _PIECE
+            )
+            lines.append(f"{mark} {words[:cut]}")
+            words = words[cut:].strip()
+    text = json.dumps(content, separators=(",", ":"), allow_nan=False)
+    # Bars keep spaces at the ends of pieces from editors that strip them.
+    return lines + [
+        f"{mark} {_MARK} |{text[start : start + _PIECE - 14]}|" for start in range(0, len(text), _PIECE - 14)
+    ]
+
+
+def stored_content(text: str) -> dict[str, Any] | None:
+    """Return what `comment_lines` stored in a file, or None without such lines."""
+    pieces = []
+    for line in text.splitlines():
+        _, mark, rest = line.partition(_MARK)
+        if mark:
+            piece = rest.strip()
+            if len(piece) < 2 or piece[0] != "|" or piece[-1] != "|":
+                raise InputError(
+                    f"a line marked {_MARK!r} is damaged; restore it, or delete all lines so marked.", code="damaged"
+                )
+            pieces.append(piece[1:-1])
+    if not pieces:
+        return None
+    try:
+        content = parse_json("".join(pieces))
+    except ValueError:
+        content = None
+    if not isinstance(content, dict) or not isinstance(content.get("card"), dict):
+        raise InputError(
+            f"the lines marked {_MARK!r} are damaged; restore them, or delete all lines so marked.", code="damaged"
+        )
+    if content.get("version") != VERSION:
+        raise InputError(
+            f"the lines marked {_MARK!r} are of version {content.get('version')!r}, not {VERSION}.",
+            code="newer-version",
+        )
+    return content
+
+
+def material_of(solid: Solid, content: dict[str, Any] | None) -> tuple[Material, list[Note]]:
+    """Combine the properties of a card's keywords and of its comments; the keywords take precedence."""
+    if content is None:
+        material = assembled(solid.spectrum, {"name": solid.name, "poisson_ratio": solid.poisson_ratio})
+        return replace(material, shift=solid.shift), []
+    notes, card = [], content["card"]
+    stated = {name: value for name, value in content.items() if name != "card"}
+    if not _close(card.get("poisson_ratio"), solid.poisson_ratio):
+        notes.append(
+            Note(
+                "changed-in-card",
+                f"The Poisson ratio was changed to {solid.poisson_ratio:.6g} in the card, which counts.",
+                values={"poisson_ratio": solid.poisson_ratio},
+            )
+        )
+        stated["poisson_ratio"] = solid.poisson_ratio
+    if card.get("shift") and not _same_law(card_law(shift_of(stated.get("shift"))), solid.shift):
+        notes.append(
+            Note("changed-in-card", "The shift was changed in the card, which counts.", values={"shift": True})
+        )
+        stated.pop("shift", None)
+        return replace(assembled(solid.spectrum, stated), shift=solid.shift), notes
+    return assembled(solid.spectrum, stated), notes
+
+
+def _close(stored_value: Any, value: float) -> bool:
+    return isinstance(stored_value, (int, float)) and abs(stored_value - value) <= _SAME * max(abs(value), 1e-3)
+
+
+def _same_law(stored_law: Any, law: Any) -> bool:
+    if type(stored_law) is not type(law):
+        return False
+    if law is None:
+        return True
+    ours, theirs = ([*one.parameters, one.reference] for one in (stored_law, law))
+    return bool(np.allclose(ours, theirs, rtol=_SAME, atol=0.0))

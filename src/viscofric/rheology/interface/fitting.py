@@ -12,11 +12,11 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note, note_of
-from viscofric.rheology.interface.law import InterfaceLaw
-from viscofric.rheology.interface.laws import (
+from viscofric.rheology.interface.law import (
     ConstantShearStress,
     EyringShearStress,
     GaussianShearStress,
+    InterfaceLaw,
     PowerShearStress,
 )
 from viscofric.rheology.shifts.law_comparison import EXCLUDED, LawComparison, LawRow, chosen_row, weighted

@@ -21,7 +21,7 @@ import numpy as np
 
 from viscofric.arrays import Array, Indices, Mask
 from viscofric.errors import SuperpositionError
-from viscofric.rheology.shifts.law_families import Family, family_of
+from viscofric.rheology.shifts.law_fitting import Family, family_of
 from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.rheology.superposition.common_curve import (

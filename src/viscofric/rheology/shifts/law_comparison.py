@@ -14,8 +14,7 @@ from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts import law_fitting
-from viscofric.rheology.shifts.law_families import LARGEST_DEGREE, TITLES
-from viscofric.rheology.shifts.law_fitting import FactorTable
+from viscofric.rheology.shifts.law_fitting import LARGEST_DEGREE, TITLES, FactorTable
 from viscofric.rheology.shifts.laws import WLF, InversePolynomial, ParametricLaw
 from viscofric.showing import Plotted, Rows
 from viscofric.units import shown_celsius

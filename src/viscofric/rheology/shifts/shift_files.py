@@ -18,7 +18,7 @@ from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
 from viscofric.notes import Note
-from viscofric.readers.dma.instruments.eplexor_master import SHIFT_LIST, ShiftList, shift_list
+from viscofric.readers.dma.instruments.eplexor import SHIFT_LIST, ShiftList, shift_list
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.one_table import insist_on_columns, only_table

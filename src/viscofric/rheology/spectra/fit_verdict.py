@@ -13,12 +13,11 @@ from viscofric.arrays import Array
 from viscofric.data import MasterCurve
 from viscofric.errors import LiquidError
 from viscofric.notes import Note, note_of
-from viscofric.rheology.spectra.modulus_misfit import STIFFEST, Misfit, Modes
+from viscofric.rheology.spectra.misfit import STIFFEST, Misfit, Modes, frequencies_of
+from viscofric.rheology.spectra.mode_fits import nonnegative_modes
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.spectra.sparse import nonnegative_modes
-from viscofric.rheology.spectra.step_misfit import frequencies_of
 from viscofric.step_tests import StepMasterCurve
 from viscofric.units import shown_number
 

@@ -18,10 +18,10 @@ from viscofric.datasets import Dataset
 from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.rheology.spectra.fit_verdict import judged, solid_modes
-from viscofric.rheology.spectra.modulus_misfit import ModulusMisfit
+from viscofric.rheology.spectra.misfit import ModulusMisfit
+from viscofric.rheology.spectra.mode_fits import joint_error, lattice, nonnegative_modes
 from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.spectra.sparse import joint_error, lattice, nonnegative_modes
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum
 from viscofric.showing import Items, Rows, rows_of
 from viscofric.threads import one_blas_thread

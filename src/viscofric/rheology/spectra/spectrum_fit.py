@@ -12,15 +12,22 @@ from viscofric.arguments import insist_on, whole_number
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
-from viscofric.rheology.spectra import regularised, sparse
+from viscofric.rheology.spectra import mode_fits
 from viscofric.rheology.spectra.fit_verdict import Curve, judged, solid_modes
-from viscofric.rheology.spectra.modulus_misfit import CurveMisfit, Misfit, Modes
+from viscofric.rheology.spectra.misfit import (
+    CurveMisfit,
+    Misfit,
+    Modes,
+    by_rate,
+    frequencies_of,
+    joint_misfit,
+    misfit_of,
+    rates_of,
+)
+from viscofric.rheology.spectra.mode_fits import lattice, nonnegative_modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.rheology.spectra.sparse import lattice, nonnegative_modes
-from viscofric.rheology.spectra.step_misfit import by_rate, frequencies_of, joint_misfit, misfit_of, rates_of
 from viscofric.rheology.superposition.joint import JointSuperposition, level_note
-from viscofric.rheology.superposition.result import Superposition
-from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.rheology.superposition.result import StepSuperposition, Superposition
 from viscofric.step_tests import StepMasterCurve
 from viscofric.threads import one_blas_thread
 from viscofric.units import number, positive
@@ -63,7 +70,7 @@ def fit_retardation_spectrum(
     modes : int, optional
         For sparse modes: so many, or at most so many if `largest_error` is given too.
     regularisation : float or {"l-curve", "cross-validation"}, optional
-        For a smooth spectrum: its strength λ (`regularised.smooth_modes`), or how to choose it: at the corner
+        For a smooth spectrum: its strength λ (`mode_fits.smooth_modes`), or how to choose it: at the corner
         of the L-curve, or where isotherms left out of the fit are predicted best, which is the default.
     largest_error : float, optional
         For sparse modes: joint rms error √((E'² + E''²)/2) of log10 E' and log10 E'' to meet, decades; if
@@ -172,13 +179,13 @@ class _Asked:
 
     def _sparse(self, misfit: Misfit) -> tuple[Modes, None, tuple[str, ...]]:
         if self.modes is not None and self.largest_error is None:
-            return sparse.few_modes(misfit, self.modes), None, ()
+            return mode_fits.few_modes(misfit, self.modes), None, ()
         dense = nonnegative_modes(misfit, lattice(misfit, self.tau_ratio))
-        attained = sparse.joint_error(misfit, dense)
+        attained = mode_fits.joint_error(misfit, dense)
         limit = ALLOWANCE * attained if self.largest_error is None else self.largest_error
         enough = max(1, min(max(int(np.count_nonzero(dense.C)), 2), len(misfit.rates) // POINTS_PER_MODE))
-        fitted = sparse.fewest_modes(misfit, limit, enough if self.modes is None else self.modes)
-        error = sparse.joint_error(misfit, fitted)
+        fitted = mode_fits.fewest_modes(misfit, limit, enough if self.modes is None else self.modes)
+        error = mode_fits.joint_error(misfit, fitted)
         if error <= limit:
             return fitted, None, ()
         note = Note(
@@ -199,13 +206,13 @@ class _Asked:
             )
         if not (self.regularisation is None or isinstance(self.regularisation, str)):
             strength = float(self.regularisation)
-            return regularised.smooth_modes(misfit, tau, strength), strength, ()
-        fits = regularised.path(misfit, tau)
+            return mode_fits.smooth_modes(misfit, tau, strength), strength, ()
+        fits = mode_fits.path(misfit, tau)
         if self.regularisation == "l-curve" or not isinstance(misfit, CurveMisfit):  # cross-validation needs one curve
-            place = regularised.corner(misfit, fits)
+            place = mode_fits.corner(misfit, fits)
         else:
-            place = regularised.cross_validated(misfit, tau, by_rate(curve))
-        strength = float(regularised.STRENGTHS[place])
+            place = mode_fits.cross_validated(misfit, tau, by_rate(curve))
+        strength = float(mode_fits.STRENGTHS[place])
         if 0 < place < len(fits) - 1:
             return fits[place], strength, ()
         end = "largest" if place == 0 else "smallest"

@@ -14,11 +14,17 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.rheology.superposition.common_curve import Smoother
-from viscofric.rheology.superposition.gauge import Gauge, continued, continued_covariance, identified
 from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermOffsets, Offsets, estimated
+from viscofric.rheology.superposition.joined_isotherms import BOTH, Quantities
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, Join, LogSweep, join, parted
-from viscofric.rheology.superposition.quantity import BOTH, Quantities
-from viscofric.rheology.superposition.shift_problem import ShiftProblem, inverse_curvature
+from viscofric.rheology.superposition.shift_problem import (
+    Gauge,
+    ShiftProblem,
+    continued,
+    continued_covariance,
+    identified,
+    inverse_curvature,
+)
 from viscofric.rheology.superposition.step_profiles import BROAD, StepProfiles, most_likely, sampled
 
 OFFSET_PASSES = 3  # each smooths the curves again, with the offsets found

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.rheology.superposition.gauge import Gauge, continued
+from viscofric.rheology.superposition.shift_problem import Gauge, continued
 
 #: Where one modulus is shifted, offsets that are probably larger than this in both are no offsets: the other modulus is
 #: wrong.  Sweeps of one sample repeat to 0.02 decades (`consistency.REPRODUCIBILITY`); sizes found scatter by a third.

@@ -14,8 +14,7 @@ from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
-from viscofric.rheology.superposition.result import Superposition
-from viscofric.rheology.superposition.step_result import StepSuperposition
+from viscofric.rheology.superposition.result import StepSuperposition, Superposition
 from viscofric.showing import Plotted, Rows
 from viscofric.step_tests import StepMasterCurve
 from viscofric.units import shown_celsius

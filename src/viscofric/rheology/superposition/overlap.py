@@ -1,7 +1,7 @@
 """Overlap of neighbouring isotherms: where two sweeps join, and how well a set of shifts joins all.
 
 Given shift factors may all be wrong by one factor.  Then no pair of neighbours stands out, and no plot without the
-frequency (`van_gurp_palmen`) shows it; `own_shifts` compares with the best overlap of each pair.
+frequency (`consistency`) shows it; `own_shifts` compares with the best overlap of each pair.
 """
 
 from __future__ import annotations

@@ -18,10 +18,12 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_betwee
 from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.superposition.common_shifts import CommonShifts, common_shifts
-from viscofric.rheology.superposition.gauge import Gauge
+from viscofric.rheology.superposition.consistency import drift, neighbour_distances
 from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
 from viscofric.rheology.superposition.joined_isotherms import (
+    BOTH,
     JoinedIsotherms,
+    Quantities,
     Tested,
     as_given,
     join_isotherms,
@@ -36,8 +38,7 @@ from viscofric.rheology.superposition.overlap import (
     overlap_quality,
     own_shifts,
 )
-from viscofric.rheology.superposition.quantity import BOTH, Quantities
-from viscofric.rheology.superposition.van_gurp_palmen import drift, neighbour_distances
+from viscofric.rheology.superposition.shift_problem import Gauge
 from viscofric.step_tests import StepTest
 from viscofric.units import kelvin_hint, positive, shown_celsius, to_si
 

@@ -14,13 +14,17 @@ from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
-from viscofric.rheology.superposition.joined_isotherms import JoinedIsotherms
+from viscofric.rheology.superposition.joined_isotherms import STEP, JoinedIsotherms, Quantities, ShiftBy
 from viscofric.rheology.superposition.joint import JointSuperposition, insist_on_kinds, joined_kinds
 from viscofric.rheology.superposition.overlap import LogSweep
-from viscofric.rheology.superposition.quantity import STEP, Quantities, ShiftBy
-from viscofric.rheology.superposition.result import Superposition
+from viscofric.rheology.superposition.result import (
+    PER_DECADE,
+    StepSuperposition,
+    Superposition,
+    flowing,
+    weights_of_averages,
+)
 from viscofric.rheology.superposition.shifted_isotherms import shifted_isotherms
-from viscofric.rheology.superposition.step_result import PER_DECADE, StepSuperposition, flowing, weights_of_averages
 from viscofric.step_tests import StepKind, StepMasterCurve, StepTest, StepTests
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, checked_poisson_ratio, positive

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.errors import InputError
-from viscofric.rheology.ramps.assumed import assumed_of
+from viscofric.rheology.ramps.superpose import assumed_of
 from viscofric.study.run_file.tables import (
     Count,
     FileName,

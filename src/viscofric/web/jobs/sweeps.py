@@ -13,10 +13,10 @@ from viscofric.datasets import plain, record
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import listed, note_of
 from viscofric.ramps import TemperatureRamps
+from viscofric.readers.dma.checks import outliers
 from viscofric.readers.dma.isotherms import REPEATS_DIFFER, TracedSweeps
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.readings import Readings
-from viscofric.readers.dma.sweep_checks import outliers
 from viscofric.step_tests import StepTests
 from viscofric.study.make_rubber import read_ramps_of, read_steps_of
 from viscofric.study.run_file.material import MaterialTable

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from viscofric.arrays import Array, lagrange
 from viscofric.friction.identification.indentation.contact import EXACT, Answer, Shared, Trial
 from viscofric.friction.identification.indentation.rows import Reduced, Rows, RowsContact, changes
-from viscofric.rheology.spectra.step_misfit import contour
+from viscofric.rheology.spectra.misfit import contour
 
 #: Points per decade of time at which J or E is evaluated; interpolation by cubics is then good to 1e-5 of it.
 GRID = 20

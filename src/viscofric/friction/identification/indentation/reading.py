@@ -15,8 +15,8 @@ from viscofric.friction.identification.indentation.record import RESPONSE, Contr
 from viscofric.friction.identification.indentation.tables import OscillationRecord, ReboundRecord
 from viscofric.motion.history import CONTROLS
 from viscofric.nominal import SAME_TEMPERATURE, numbered
-from viscofric.readers.dma.amplitudes import WIDEST_TEMPERATURE
 from viscofric.readers.dma.names import TEMPERATURE
+from viscofric.readers.dma.ramps import WIDEST_TEMPERATURE
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.one_table import HISTORY, history_columns, insist_on_columns, table_of
 from viscofric.readers.table import Table

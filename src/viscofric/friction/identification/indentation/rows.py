@@ -12,7 +12,7 @@ from viscofric.contact.indenters.indenter import Indenter
 from viscofric.friction.identification.indentation.contact import Contact, Points, Trial
 from viscofric.friction.identification.indentation.record import IndentationRecord
 from viscofric.motion.springs import PLACES, SHARES, elastic_radius, profile
-from viscofric.rheology.spectra.step_misfit import REACH
+from viscofric.rheology.spectra.misfit import REACH
 
 #: Rows are averaged over so many equal parts of each decade of time since the last kink of the prescribed quantity.
 PARTS = 20
