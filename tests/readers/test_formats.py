@@ -24,7 +24,7 @@ def test_one_format_alone_recognises_a_file_or_stands_before_the_others(tmp_path
     claimed = [one for one in FORMATS if one.recognises(source)]
     assert format_of(source) is claimed[0]
     # an export may be a workbook or a delimited table too, but never the export of two instruments
-    general = {"viscofric.readers.dma.tables.workbook", "viscofric.readers.dma.tables.delimited"}
+    general = {"viscofric.readers.dma.tables.workbook", "viscofric.readers.dma.tables.dma_table"}
     assert len([one for one in claimed if one.__name__ not in general]) <= 1
 
 

@@ -114,7 +114,7 @@ def test_units_may_be_given(tmp_path):
     path = written(tmp_path / "a.csv", ("Time", "Creep Compliance"), [TIME, 1e-7 * TIME**0.2])
     given = {"temperature": "25 degC", "deformation": "shear"}
     creep = vf.read_step_tests(path, response_unit="1/Pa", **given)
-    assert codes(creep) == ["time-without-unit"]
+    assert codes(creep) == ["time-without-unit", "temperature-given"]
     np.testing.assert_allclose(creep.tests[0].response[0], 1e-7)
     named = vf.read_step_tests(path, columns={"time": "#1 (h)", "creep_compliance": "#2 (1/Pa)"}, **given)
     np.testing.assert_allclose(named.tests[0].time, 3600.0 * TIME, rtol=1e-6)

@@ -14,8 +14,15 @@ from viscofric.files import LARGEST_FILE, file_path, insist_on_short_text, read_
 from viscofric.notes import Note, Remedy
 from viscofric.readers.source import Source
 from viscofric.readers.topography.package import read_with_package
-from viscofric.readers.topography.scan import Scan, ScanOptions
-from viscofric.readers.topography.tables import NUMPY, checked_heights, is_table, read_array, read_text_table
+from viscofric.readers.topography.tables import (
+    NUMPY,
+    Scan,
+    ScanOptions,
+    checked_heights,
+    is_table,
+    read_array,
+    read_text_table,
+)
 from viscofric.roughness.topography import Topography
 from viscofric.units import Quantity, conversion, to_si, two_lengths
 

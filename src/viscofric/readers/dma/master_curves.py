@@ -12,14 +12,13 @@ from viscofric.arrays import Array, Integers
 from viscofric.data import DEFORMATIONS, Deformation, MasterCurve
 from viscofric.errors import DataFileError, check_choice
 from viscofric.files import read_bytes
-from viscofric.notes import setting
-from viscofric.readers.dma.names import DMA, NOT_SAID, temperature_of_title
+from viscofric.readers.dma.names import DMA, decided, temperature_of_title
 from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
-from viscofric.readers.dma.tables import delimited, dma_table, reptate, workbook
+from viscofric.readers.dma.tables import dma_table, reptate, workbook
+from viscofric.readers.one_table import only_table
 from viscofric.readers.source import Source, checked_sheet, unit_conversion
 from viscofric.readers.table import Table
-from viscofric.readers.tables import find_tables
 from viscofric.units import Quantity, checked_poisson_ratio, conversion, positive, shown_celsius
 
 #: Reference temperatures are printed with few digits.
@@ -97,8 +96,7 @@ def read_master_curve(
     table, stated = _table(source)
     _insist_on_reference(source, stated, kelvin)
     frequency, storage, loss, temperature = _of_table(table, source, kelvin)
-    said, _ = dma_table.deformation([table])
-    kind = _kind(source, said, deformation)
+    kind = decided(source.path, dma_table.deformation([table]), deformation)
     factor = 1.0 if kind != "shear" else 2.0 * (1.0 + ratio)
     order = np.argsort(frequency, kind="stable")
     return MasterCurve(frequency[order], factor * storage[order], factor * loss[order], temperature[order], kelvin)
@@ -113,15 +111,10 @@ def _table(source: Source) -> tuple[Table, float]:
             raise DataFileError(source.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
         return table, reptate.temperature_of(parameters)
     found = format_of(source)
-    if found.NAME not in (delimited.NAME, workbook.NAME):
+    if found.NAME not in (dma_table.NAME, workbook.NAME):
         problem = f"is a file of an instrument ({found.NAME}), not a table of a master curve"
         raise DataFileError(source.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
-    tables = find_tables(source, DMA)
-    if len(tables) > 1:
-        problem = f"the sheets {', '.join(map(repr, tables))} each contain a table with moduli; choose one with "
-        remedy = setting("material.sheet", "Sheet", repr(next(iter(tables)))) + "."
-        raise DataFileError(source.path, problem, code="several-tables", remedy=remedy)
-    return next(iter(tables.values())), _stated_reference(source)
+    return only_table(source, DMA), _stated_reference(source)
 
 
 def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
@@ -186,17 +179,3 @@ def _insist_on_positive(path: str, lines: Integers, named: dict[str, Array]) -> 
         if bad.size:
             problem = f"the {name} is missing or not above zero; correct or leave out the row."
             raise DataFileError(path, problem, int(lines[bad[0]]), code="not-positive")
-
-
-def _kind(source: Source, said: Deformation | None, given: Deformation | None) -> Deformation:
-    """Return the kind of the moduli; nothing is assumed."""
-    if said is not None and given is not None and (said == "shear") != (given == "shear"):
-        raise DataFileError(
-            source.path,
-            f"the file states {said}, but deformation={given!r} was requested.",
-            code="deformation-contradicts",
-        )
-    kind = said or given
-    if kind is None:
-        raise DataFileError(source.path, NOT_SAID)
-    return kind

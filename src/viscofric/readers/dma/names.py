@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.data import Deformation
-from viscofric.errors import not_needed
+from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, setting
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.headings import FREQUENCY_IN_NAME, TEMPERATURE_IN_NAME, Vocabulary, heading, with_primes
@@ -210,6 +210,17 @@ FROM_TITLES = Note(
 )
 
 
+def decided(path: str, said: Said, given: Deformation | None) -> Deformation:
+    """Return the kind of deformation that a file or the user states: tension and shear differ by a factor of three."""
+    kind, by = said
+    if kind is not None and given is not None and (kind == "shear") != (given == "shear"):
+        problem = f"{by} states {kind}, but deformation={given!r} was requested."
+        raise DataFileError(path, problem, code="deformation-contradicts")
+    if (known := given or kind) is None:
+        raise DataFileError(path, NOT_SAID)
+    return known
+
+
 def states_another(table: Table, given: float | None) -> bool:
     """Return whether a heading, or a line above a table, states another temperature (K) than a given one."""
     # Words above a single table, such as those of a conditioning, are not read as its temperature.
@@ -242,6 +253,27 @@ def temperatures_of_titles(table: Table, source: Source | None = None) -> Array 
     if table.block is None or None in found:
         return None
     return np.array(found)[table.block - 1]
+
+
+def known_temperatures(table: Table, place: int | None, source: Source, notes: list[str]) -> Array | None:
+    """Return the temperature of each row, K: of a column, of the user, of titles; None where none of these has it."""
+    if place is not None:
+        if source.temperature is not None:
+            problem = f"column {table.columns[place].heading!r} contains the temperatures"
+            raise not_needed(table.path, "temperature", "temperature-not-needed", problem, " for this file")
+        factor, offset = table.conversion(table.columns[place], "K")
+        kelvin = factor * table.numbers_or_missing(place) + offset
+        cold = np.flatnonzero(kelvin <= 0.0)
+        if cold.size:
+            raise table.wrong_cell(int(cold[0]), place, "above absolute zero")
+        return kelvin
+    titled = temperatures_of_titles(table, source)
+    if source.temperature is not None:
+        notes.append(Note("temperature-given", "No column holds a temperature; it was given by the user."))
+        return np.full(len(table.rows), source.temperature)
+    if titled is not None:
+        notes.append(FROM_TITLES)
+    return titled
 
 
 def joined_tables(table: Table) -> list[Note]:

@@ -22,7 +22,7 @@ from viscofric.readers.dma.instruments import (
 from viscofric.readers.dma.isotherms import TracedSweeps, traced_sweeps
 from viscofric.readers.dma.names import DMA, NOT_SAID
 from viscofric.readers.dma.readings import Readings
-from viscofric.readers.dma.tables import delimited, reptate, workbook
+from viscofric.readers.dma.tables import dma_table, reptate, workbook
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.source import Source, Test, insist_on_content, sources_of, unit_conversion
 from viscofric.readers.tables import holds_table, no_header
@@ -53,7 +53,7 @@ FORMATS: tuple[Format, ...] = (
     eplexor,
     reptate,
     workbook,
-    delimited,
+    dma_table,
 )
 
 
@@ -61,7 +61,7 @@ def format_of(source: Source) -> Format:
     """Return the format of a file, or raise `DataFileError` if the file is empty or no format recognises it."""
     insist_on_content(source)
     if source.columns or source.sheet:  # the user knows the columns of a table better than any format
-        return workbook if workbook.recognises(source) else delimited
+        return workbook if workbook.recognises(source) else dma_table
     for one in FORMATS:
         if one.recognises(source):
             return one

@@ -8,19 +8,16 @@ from dataclasses import replace
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.errors import not_needed
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma.names import (
-    FROM_TITLES,
     SET_TEMPERATURE,
     STEP,
     STRAIN_AMPLITUDE,
     TEMPERATURE,
-    joined_tables,
+    known_temperatures,
     temperature_in_name,
-    temperatures_of_titles,
 )
-from viscofric.readers.headings import OF_HEADINGS, Vocabulary
+from viscofric.readers.headings import Vocabulary
 from viscofric.readers.source import STRAIN_FACTORS, Source, unit_conversion
 from viscofric.readers.table import Table
 from viscofric.step_tests import StepKind
@@ -173,28 +170,16 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
     return above / np.where(below == 0.0, np.nan, below), table.columns[stress].heading, False
 
 
-def temperature_of(table: Table, source: Source, name: str, count: int, notes: list[str]) -> Array:
-    """Return K: from the column, else from the user, else from the name of file or sheet, with a note."""
+def temperature_of(table: Table, source: Source, name: str, notes: list[str]) -> Array:
+    """Return K, at last from the name of file or sheet, with a note."""
     place = table.place("temperature")
-    place = table.place("set temperature") if place is None else place
-    if place is not None:
-        if source.temperature is not None:
-            problem = f"column {table.columns[place].heading!r} contains the temperatures"
-            raise not_needed(table.path, "temperature", "temperature-not-needed", problem)
-        if table.columns[place].heading == OF_HEADINGS["temperature"]:
-            notes += joined_tables(table)
-        factor, offset = table.conversion(table.columns[place], "K")
-        return factor * table.numbers_or_missing(place) + offset
-    titled = temperatures_of_titles(table, source)
-    if source.temperature is not None:
-        return np.full(count, source.temperature)
-    if titled is not None:
-        notes += [FROM_TITLES, *joined_tables(table)]
-        return titled
+    known = known_temperatures(table, table.place("set temperature") if place is None else place, source, notes)
+    if known is not None:
+        return known
     found = temperature_in_name(name) or temperature_in_name(source.stem)
     if found is None:
         problem = f"no column for temperature, this table has {table.headings()}; give it, e.g. "
         by = setting("material.temperature", "Temperature of the sweep", "'25 degC'")
         raise table.refused("no-temperature", problem, replace(by, python="temperature='25 degC'") + ".")
     notes.append(Note("temperature-from-name", "No column holds a temperature; it was taken from the file's name."))
-    return np.full(count, found)
+    return np.full(len(table.rows), found)

@@ -22,7 +22,7 @@ from viscofric.errors import DataFileError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments import trios_text
 from viscofric.readers.dma.instruments.ta_steps import StepText
-from viscofric.readers.dma.names import NOT_SAID, said_by_columns, tools_in
+from viscofric.readers.dma.names import decided, joined_tables, said_by_columns, tools_in
 from viscofric.readers.dma.tables import reptate
 from viscofric.readers.source import Source, insist_on_content, sources_of
 from viscofric.readers.steps.columns import STEPS, kind_in_name, kind_of, response_of, temperature_of, time_of
@@ -139,21 +139,14 @@ def read_step_tests(
 
 
 def _stated(parts: Sequence[_Part], given: Deformation | None) -> Deformation:
-    """Return the kind of deformation that files or user state; tension and shear differ by a factor of three."""
-    for part in parts:
-        if given is not None and part.deformation is not None and (part.deformation == "shear") != (given == "shear"):
-            problem = f"{part.said_by} states {part.deformation}, but deformation={given!r} was requested."
-            raise DataFileError(part.source, problem, code="deformation-contradicts")
-    found = {part.deformation for part in parts if part.deformation is not None}
-    if given is not None:
-        return given
-    if len(found) > 1:
+    """Return the kind of deformation that files or user state."""
+    stating = [part for part in parts if part.deformation is not None] or [parts[0]]
+    kinds = {decided(part.source, (part.deformation, part.said_by), given) for part in stating}
+    if len(kinds) > 1:
         raise DataFileError(
             parts[-1].source, "the files state several kinds of deformation.", code="deformation-contradicts"
         )
-    if not found:
-        raise DataFileError(parts[0].source, NOT_SAID)
-    return found.pop()
+    return kinds.pop()
 
 
 def _parts(source: Source, kind: StepKind | None) -> list[_Part]:
@@ -217,14 +210,14 @@ def _table_of_step(path: str, step: StepText) -> Table | None:
 
 def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: str) -> _Part:
     """Return the columns of one table in SI units."""
-    notes: list[str] = [*table.heading_notes]
+    notes: list[str] = [*table.heading_notes, *joined_tables(table)]
     time = time_of(table, notes)
     known = kind or kind_of(table, name)
     response, heading, lacks_unit = response_of(table, source, known, notes)
     plain = heading.replace("(t)", "").strip()
     symbol = plain.rpartition(" ")[2]  # of "relaxation modulus G(t)"
     deformation, said_by = said_by_columns([plain, symbol], [table.filled], tools_in(table.above))
-    kelvin = temperature_of(table, source, name, len(time), notes)
+    kelvin = temperature_of(table, source, name, notes)
     return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit, said_by)
 
 

@@ -20,7 +20,7 @@ from viscofric.errors import DataFileError, InputError, not_imported
 from viscofric.files import insist_on_size
 from viscofric.processes import LimitedProcess
 from viscofric.readers.source import Source
-from viscofric.readers.topography.scan import SPACING, UNIT, Scan, ScanOptions, name_of, scan_of_points
+from viscofric.readers.topography.tables import SPACING, UNIT, Scan, ScanOptions, name_of, scan_of_points
 from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.units import conversion
 

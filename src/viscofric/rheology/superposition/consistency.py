@@ -333,7 +333,7 @@ def check(
     error = np.array([pair.standard_error for pair in neighbours])
     explained = np.hypot(REPRODUCIBILITY, LEVEL_95 * error)
     ratio = np.abs(distance) / explained
-    figure = max(_rms(ratio), float(np.max(ratio, initial=0.0)) / ONE_PAIR)
+    figure = figure_of_merit(ratio)
     logs = [LogSweep.of(one, float(by)) for one, by in zip(isotherms, log10_b, strict=True)]
     own = own_shifts(logs, shift_factors.log10_values)
     try:
@@ -342,7 +342,7 @@ def check(
     except InputError as reason:
         causality, causal_sentence = None, f"E' was not tested against E'': {reason}"
     drifting = drift(neighbours)
-    verdict = _verdict(neighbours, figure, drifting, unidentified, own)
+    verdict = verdict_of(figure, drifting, unidentified, own) if neighbours else "untested"
     headline, *others = _words(verdict, neighbours, figure, ratio, own, drifting, unidentified, vertical_shift)
     free = isinstance(vertical_shift, VerticalShiftFactors)
     sentences = (
@@ -360,7 +360,7 @@ def check(
     return SuperpositionCheck(
         neighbours,
         figure,
-        _rms(distance),
+        rms(distance),
         _median(error),
         quality.joint,
         causality,
@@ -371,7 +371,8 @@ def check(
     )
 
 
-def _rms(values: Array) -> float:
+def rms(values: Array) -> float:
+    """Return the root of the mean square, 0 of nothing."""
     return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
@@ -388,16 +389,15 @@ def _points(isotherms: tuple[Isotherm, ...], log10_b: Array) -> tuple[Array, Arr
     return storage, loss, temperature
 
 
-def _verdict(
-    neighbours: tuple[NeighbourDistance, ...],
-    figure: float,
-    drifting: Drift | None,
-    unidentified: tuple[tuple[float, float], ...],
-    own: OwnShifts,
+def figure_of_merit(ratio: Array) -> float:
+    """Return the rms of distances over what explains them, or what one of them alone says."""
+    return max(rms(ratio), float(np.max(ratio, initial=0.0)) / ONE_PAIR)
+
+
+def verdict_of(
+    figure: float, drifting: Drift | None, unidentified: tuple[tuple[float, float], ...], own: OwnShifts
 ) -> Verdict:
     """Return the worst verdict of the single checks."""
-    if not neighbours:
-        return "untested"
     if figure > LARGEST_FIGURE:
         return "fails" if figure > ROUGH_FIGURE else "roughly"
     if drifting is not None:
@@ -425,7 +425,7 @@ def _words(
         )
         return sentence, *wrong
     distance = np.array([pair.distance for pair in neighbours])
-    between, noise = _rms(distance), _median(np.array([pair.standard_error for pair in neighbours]))
+    between, noise = rms(distance), _median(np.array([pair.standard_error for pair in neighbours]))
     apart = f"neighbouring isotherms lie {_decades(between)} apart (rms) in tan δ against |E*|"
     merit = f"figure of merit {figure:.2g}, good if ≤ {LARGEST_FIGURE:g}"
     drifts = () if drifting is None else (f"F{_drift(drifting)[1:]}.",)

@@ -21,9 +21,7 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShift, with_vertica
 from viscofric.rheology.superposition import consistency
 from viscofric.rheology.superposition.consistency import (
     LARGEST_FIGURE,
-    ONE_PAIR,
     REPRODUCIBILITY,
-    ROUGH_FIGURE,
     Judged,
     SuperpositionCheck,
     Verdict,
@@ -186,16 +184,12 @@ class StepSuperposition(Superposed[StepMasterCurve, StepTest]):
         misfits = np.array([join(colder, warmer).misfit for colder, warmer in pairwise(logs)])
         distances = np.sqrt(np.maximum(misfits**2 - both**2, 0.0))
         ratio = distances / np.hypot(REPRODUCIBILITY, LEVEL_95 * both / np.sqrt(LEAST_POINTS))
-        figure = max(float(np.sqrt(np.mean(ratio**2))), float(np.max(ratio)) / ONE_PAIR)
+        figure = consistency.figure_of_merit(ratio)
         own = own_shifts(logs, factors.log10_values)
-        verdict: Verdict = "other factors" if own.wrong else "holds"
-        if figure > LARGEST_FIGURE:
-            verdict = "fails" if figure > ROUGH_FIGURE else "roughly"
-        elif self.unidentified:
-            verdict = "not identified"
+        verdict = consistency.verdict_of(figure, None, self.unidentified, own)
         apart = (
             f"neighbouring tests, each pair with its own shift, miss each other by "
-            f"{float(np.sqrt(np.mean(distances**2))):.2g} decades (rms) beyond their noise (figure of merit "
+            f"{consistency.rms(distances):.2g} decades (rms) beyond their noise (figure of merit "
             f"{figure:.2g}, good if ≤ {LARGEST_FIGURE:g})"
         )
         said = {

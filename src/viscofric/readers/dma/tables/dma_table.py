@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscofric.arrays import Array, Integers
-from viscofric.errors import DataFileError, not_needed
+from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import doubts, insist_on_agreement
@@ -19,20 +19,21 @@ from viscofric.readers.dma.names import (
     Said,
     deformation_of,
     joined_tables,
+    known_temperatures,
     quantity,
     said_by_columns,
     temperature_in_name,
-    temperatures_of_titles,
 )
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, Source, to_rad_per_second, unit_conversion
 from viscofric.readers.table import MISSING, Table
-from viscofric.readers.tables import name_columns
+from viscofric.readers.tables import find_tables, holds_table, name_columns
 
+#: Of text tables: commas, semicolons, tabs or blanks between columns.
+NAME = "delimited text"
 #: Labels and values that name a sample holder.
 Tools = Sequence[tuple[str, str]]
-
 
 _OF_OSCILLATION = re.compile(r"complex|oscillat|amplitude|dynamic|\bdyn\b", re.IGNORECASE)
 _DOUBLE = re.compile(r"\bdouble\s+(strain|amplitude)|\bDSA\b|\bp-?p\b|\bpeak[ -]to[ -]peak\b", re.IGNORECASE)
@@ -41,6 +42,16 @@ _LARGEST_FRACTION = 2.0
 #: Segment and number of a point, as HAAKE RheoWin prints them.
 _SEGMENT = re.compile(r"\d{1,6}\|\d{1,6}")
 _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the moduli", "'MPa'")
+
+
+def recognises(source: Source) -> bool:
+    """Return whether a line of the text names columns of a DMA table."""
+    return holds_table(source, names.DMA)
+
+
+def read(source: Source) -> Readings:
+    """Return the points of a text table."""
+    return read_points(find_tables(source, names.DMA)[""], source, NAME, source.stem)
 
 
 def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
@@ -280,25 +291,10 @@ def read_export(
 def _temperature(
     table: Table, places: dict[str, int], source: Source, name: str, angular: Array, notes: list[str]
 ) -> Array:
-    """Return K: from the column, else from the user, else from the file's name, with a note."""
-    if "temperature" in places:
-        if source.temperature is not None:
-            heading = table.columns[places["temperature"]].heading
-            problem = f"column {heading!r} contains the temperatures"
-            raise not_needed(table.path, "temperature", "temperature-not-needed", problem, " for this file")
-        factor, offset = table.conversion(table.columns[places["temperature"]], "K")
-        kelvin = factor * table.numbers_or_missing(places["temperature"]) + offset
-        cold = np.flatnonzero(kelvin <= 0.0)
-        if cold.size:
-            raise table.wrong_cell(int(cold[0]), places["temperature"], "above absolute zero")
-        return kelvin
-    titled = temperatures_of_titles(table, source)
-    if source.temperature is not None:
-        notes.append(Note("temperature-given", "No column holds a temperature; it was given by the user."))
-        return np.full(len(angular), source.temperature)
-    if titled is not None:
-        notes.append(names.FROM_TITLES)
-        return titled
+    """Return K, at last from the file's name, with a note."""
+    known = known_temperatures(table, places.get("temperature"), source, notes)
+    if known is not None:
+        return known
     found, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
     swept = angular[angular > 0.0]
     decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
