@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import json
+import textwrap
 from dataclasses import is_dataclass, replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -16,7 +18,7 @@ from viscofric.rheology.cards.card import Solid, Writing, card_law
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.shifts.shift_law import as_record, kept_arguments
+from viscofric.rheology.shifts.shift_law import as_record
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.quality import SpectrumFit
@@ -28,11 +30,12 @@ VERSION = 1
 
 _SHIFTS: tuple[type, ...] = (WLF, VFT, Arrhenius, WLFArrhenius, InversePolynomial, ShiftFactors)
 _VERTICAL: tuple[type, ...] = (DensityShift, VerticalShiftFactors)
+_SPECTRA: tuple[type, ...] = (RetardationSpectrum, ModulusTable)
 
 
 @lru_cache(maxsize=1)
 def _kinds() -> dict[str, type]:
-    return {one.__name__: one for one in (*_SHIFTS, *_VERTICAL, SpectrumFit)}
+    return {one.__name__: one for one in (*_SHIFTS, *_VERTICAL, *_SPECTRA, SpectrumFit)}
 
 
 def plain(value: Any) -> Any:
@@ -62,7 +65,7 @@ def restored(value: Any, allowed: tuple[type, ...]) -> Any:
         raise wrong_argument("kind", kind, f"must be one of {', '.join(names)}.", "wrong-choice")
     one = _kinds()[kind]
     arguments = {name: content for name, content in value.items() if name != "kind"}
-    unknown = sorted(set(arguments) - set(kept_arguments(one)))
+    unknown = sorted(set(arguments) - set(inspect.signature(one).parameters))
     if unknown:
         raise InputError(
             f"{kind} has no {', '.join(unknown)}; the file may be of a newer version of viscofric.",
@@ -71,7 +74,9 @@ def restored(value: Any, allowed: tuple[type, ...]) -> Any:
     arguments = {name: tuple(content) if _is_row(content) else content for name, content in arguments.items()}
     try:
         return one(**arguments)
-    except TypeError as error:
+    except InputError:
+        raise
+    except (TypeError, ValueError) as error:
         raise InputError(
             f"{kind} cannot be made of {', '.join(sorted(arguments)) or 'nothing'} ({error}).", code="missing-fields"
         ) from None
@@ -111,7 +116,7 @@ def assembled(spectrum: RetardationSpectrum | ModulusTable, about: dict[str, Any
     return Material(
         spectrum,
         shift_of(about.get("shift")),
-        poisson_ratio=float(about.get("poisson_ratio", 0.5)),
+        poisson_ratio=about.get("poisson_ratio", 0.5),
         name=str(about.get("name", "")),
         vertical_shift=restored(about.get("vertical_shift"), _VERTICAL),
         citation=str(about.get("citation", "")),
@@ -158,27 +163,7 @@ def from_plain(content: Any) -> Material:
             code="unknown-field",
         )
     spectrum = content.get("spectrum")
-    spectrum = spectrum if isinstance(spectrum, dict) else {}
-    kind = spectrum.get("kind")
-    if kind not in ("RetardationSpectrum", "ModulusTable"):
-        raise InputError(
-            f"spectrum of kind {kind!r}: must be RetardationSpectrum or ModulusTable.", code="wrong-choice"
-        )
-    values = {name: value for name, value in spectrum.items() if name != "kind"}
-    try:
-        if kind == "ModulusTable":
-            made: RetardationSpectrum | ModulusTable = ModulusTable(
-                **{**values, "notes": tuple(values.get("notes", ()))}
-            )
-        else:
-            made = RetardationSpectrum(**values)
-        return assembled(made, content)
-    except (TypeError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(
-            f"{kind} cannot be made of {', '.join(sorted(values)) or 'nothing'} ({error}).", code="missing-fields"
-        ) from None
+    return assembled(restored(spectrum if isinstance(spectrum, dict) else {}, _SPECTRA), content)
 
 
 NAME_JSON = "viscofric JSON"
@@ -325,16 +310,7 @@ def comment_lines(mark: str, sentences: list[str], content: dict[str, Any]) -> l
     lines = []
     for sentence in sentences:
         words = " ".join(sentence.split()).replace("–", "-").encode("ascii", "replace").decode()
-        while words:
-            cut = (
-                len(words)
-                if len(words) <= _PIECE
-                else words.rfind(" ", 1, _PIECE)
-                if " " in words[1:_PIECE]
-                else _PIECE
-            )
-            lines.append(f"{mark} {words[:cut]}")
-            words = words[cut:].strip()
+        lines += [f"{mark} {line}" for line in textwrap.wrap(words, _PIECE, break_on_hyphens=False)]
     text = json.dumps(content, separators=(",", ":"), allow_nan=False)
     # Bars keep spaces at the ends of pieces from editors that strip them.
     return lines + [

@@ -32,13 +32,9 @@ def checked_covariance(values: Any, size: int, what: str) -> Array:
 
 def as_record(value: Any) -> dict[str, Any]:
     """Return a frozen dataclass as its class's name (``kind``) and the constructor's arguments that it keeps."""
-    return {"kind": type(value).__name__} | {name: getattr(value, name) for name in kept_arguments(type(value))}
-
-
-def kept_arguments(one: type) -> tuple[str, ...]:
-    """Names that the constructor of a dataclass takes and the object keeps."""
-    kept = {field.name for field in fields(one)}
-    return tuple(name for name in inspect.signature(one).parameters if name in kept)
+    kept = {field.name for field in fields(value)}
+    arguments = (name for name in inspect.signature(type(value)).parameters if name in kept)
+    return {"kind": type(value).__name__} | {name: getattr(value, name) for name in arguments}
 
 
 GAS_CONSTANT = 8.31446261815324  # J/(mol K)
