@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscofric.arrays import Array, Integers
+from viscofric.arrays import Array, Integers, Mask
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.headings import CONSTANT, NO_WORDS, OF_HEADINGS, Column, Vocabulary, option_of
@@ -215,10 +215,13 @@ class Table:
         values = self.vocabulary.header_values(self.columns, missing)
         return DataFileError(self.path, Note(code, problem, remedy=remedy, values=values))
 
-    def wrong_cell(self, row: int, place: int, right: str, code: str = "not-positive") -> DataFileError:
-        """Return an error about a cell, which must be `right`."""
+    def insist(self, good: Mask, place: int, right: str, code: str = "not-positive") -> None:
+        """Refuse the first cell of a column, which must be `right`, that is not good."""
+        if np.all(good):
+            return
+        row = int(np.argmin(good))
         problem = f"{self.rows[row][place].strip()} in column {self.columns[place].heading!r} must be {right}."
-        return DataFileError(self.path, problem, int(self.lines[row]), code=code)
+        raise DataFileError(self.path, problem, int(self.lines[row]), code=code)
 
     @property
     def heading_notes(self) -> list[Note]:

@@ -263,9 +263,7 @@ def known_temperatures(table: Table, place: int | None, source: Source, notes: l
             raise not_needed(table.path, "temperature", "temperature-not-needed", problem, " for this file")
         factor, offset = table.conversion(table.columns[place], "K")
         kelvin = factor * table.numbers_or_missing(place) + offset
-        cold = np.flatnonzero(kelvin <= 0.0)
-        if cold.size:
-            raise table.wrong_cell(int(cold[0]), place, "above absolute zero")
+        table.insist(~(kelvin <= 0.0), place, "above absolute zero")
         return kelvin
     titled = temperatures_of_titles(table, source)
     if source.temperature is not None:

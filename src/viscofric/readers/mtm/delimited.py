@@ -172,7 +172,7 @@ def _optional(table: Table, name: str) -> Array | None:
     factor, offset = table.conversion(table.columns[place], OPTIONAL[name])
     values = factor * table.numbers_or_missing(place) + offset
     if name == "track radius":
-        _insist_on_positive(table, place, values, "zero")
+        table.insist(~(values <= 0.0), place, "above zero")
     return values
 
 
@@ -182,14 +182,8 @@ def _values(table: Table, what: str, unit: str, above: str = "") -> Array:
     assert place is not None  # see `missing`
     values = table.values(place, unit)
     if above:
-        _insist_on_positive(table, place, values, above)
+        table.insist(values > 0.0, place, f"above {above}")
     return values
-
-
-def _insist_on_positive(table: Table, place: int, values: Array, limit: str) -> None:
-    bad = np.flatnonzero(values <= 0.0)
-    if bad.size:
-        raise table.wrong_cell(int(bad[0]), place, f"above {limit}")
 
 
 def _whole_numbers(table: Table, what: str) -> Integers | None:
@@ -197,10 +191,8 @@ def _whole_numbers(table: Table, what: str) -> Integers | None:
     if place is None:
         return None
     numbers = table.numbers(place)
-    bad = np.flatnonzero((numbers != np.round(numbers)) | (np.abs(numbers) > LARGEST_COUNT))
-    if bad.size:
-        right = f"a whole number, at most {LARGEST_COUNT:.0f}"
-        raise table.wrong_cell(int(bad[0]), place, right, "not-a-whole-number")
+    whole = (numbers == np.round(numbers)) & (np.abs(numbers) <= LARGEST_COUNT)
+    table.insist(whole, place, f"a whole number, at most {LARGEST_COUNT:.0f}", "not-a-whole-number")
     return numbers.astype(np.int64)
 
 

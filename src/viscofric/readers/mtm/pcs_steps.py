@@ -210,14 +210,19 @@ def _layout(path: str, step: Step, line: int, cells: list[str]) -> Layout | None
         place, shown, unit = found[name]
         wanted = UNITS[name]
         unit = unit or (speed if wanted == "m/s" else "")
-        try:
-            factor, offset = unit_conversion(unit, wanted, shown) if wanted else (1.0, 0.0)
-        except InputError:
-            example = {"K": "degC", "m/s": "mm/s"}.get(wanted, wanted)
-            problem = f"step {step.number}: column {shown!r} must have a unit like {example!r}."
-            raise DataFileError(path, problem, line, code="wrong-unit") from None
-        places[name] = Place(place, shown, factor, offset)
+        said = f"step {step.number}: column {shown!r}"
+        places[name] = Place(place, shown, *(unit_of(path, unit, wanted, said, line) if wanted else (1.0, 0.0)))
     return Layout(len(cells), places)
+
+
+def unit_of(path: str, unit: str, wanted: str, said: str, line: int) -> tuple[float, float]:
+    """Return factor and offset from a unit to one of SI; `said` is what has the unit."""
+    try:
+        return unit_conversion(unit, wanted, said)
+    except InputError:
+        example = {"K": "degC", "m/s": "mm/s", "m": "mm"}.get(wanted, wanted)
+        problem = f"{said} must have a unit like {example!r}."
+        raise DataFileError(path, problem, line, code="wrong-unit") from None
 
 
 def _begin(step: Step, layout: Layout) -> None:

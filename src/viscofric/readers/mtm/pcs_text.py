@@ -11,8 +11,8 @@ from typing import NoReturn
 
 import numpy as np
 
-from viscofric.arrays import Array, Integers
-from viscofric.errors import DataFileError, InputError
+from viscofric.arrays import Array, Integers, Mask
+from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.headings import heading
 from viscofric.readers.mtm.pcs_steps import (
@@ -26,9 +26,10 @@ from viscofric.readers.mtm.pcs_steps import (
     number_of,
     parse,
     start_times,
+    unit_of,
 )
 from viscofric.readers.mtm.readings import Thermometer, TractionReadings
-from viscofric.readers.source import Source, unit_conversion
+from viscofric.readers.source import Source
 from viscofric.traction import TractionStep
 from viscofric.units import shown_celsius
 
@@ -56,11 +57,15 @@ class Rows:
         """Return the place of a row, as the beginning of a sentence."""
         return at(self.export.steps[self.step[place]], int(self.row[place]))
 
-    def insist(self, good: np.ndarray[tuple[int, ...], np.dtype[np.bool_]], problem: str) -> None:
-        """Refuse the file for the first row that is not good."""
+    def first(self, some: Mask) -> str:
+        """Return the place of the first of some rows."""
+        return self.at(int(np.argmax(some))).removesuffix(": ")
+
+    def insist(self, good: Mask, problem: str, row: Integers | None = None) -> None:
+        """Refuse the file for the first row, or the row of the first reading, that is not good."""
         bad = np.flatnonzero(~good)
         if bad.size:
-            self.refuse(int(bad[0]), problem)
+            self.refuse(int(bad[0] if row is None else row[bad[0]]), problem)
 
     def refuse(self, place: int, problem: str) -> NoReturn:
         """Refuse the file for a row."""
@@ -152,30 +157,22 @@ def _kinds_of_rows(row: Integers, signal: Integers) -> Iterator[str]:
     single = int(np.sum(signal == len(SIGNALS)))
     pairs = int(np.sum(readings > 1))
     if pairs:
-        yield (
-            Note(
-                "both-forces",
-                f"{pairs} rows hold TF1 and TF2, each a reading of its own with the ball and disc speeds of its "
-                "number; "
-                "their time is that of the row.",
-            )
+        yield Note(
+            "both-forces",
+            f"{pairs} rows hold TF1 and TF2, each a reading of its own with the ball and disc speeds of its number; "
+            "their time is that of the row.",
         )
     if np.any((signal >= 2) & (signal < len(SIGNALS))):
-        yield (
-            Note(
-                "reversal-assumed",
-                "In TF3 and TF4 disc and ball are assumed to run backwards, and forces to be those of the force cell; "
-                "no sample has shown it.",
-            )
+        yield Note(
+            "reversal-assumed",
+            "In TF3 and TF4 disc and ball are assumed to run backwards, and forces to be those of the force cell; no "
+            "sample has shown it.",
         )
     if single:
-        yield (
-            Note(
-                "zero-assumed",
-                f"{single} rows hold only a Traction Force and are one reading each; the export does not state whether "
-                "the "
-                "zero traction force is still in it, and it is assumed to be.",
-            )
+        yield Note(
+            "zero-assumed",
+            f"{single} rows hold only a Traction Force and are one reading each; the export does not state whether the "
+            "zero traction force is still in it, and it is assumed to be.",
         )
     odd = int(np.sum(readings % 2 == 1)) - single
     if odd:
@@ -186,45 +183,31 @@ def _kinds_of_rows(row: Integers, signal: Integers) -> Iterator[str]:
 
 
 def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
+    def told(off: Mask, code: str, what: str, used: str = "") -> Iterator[Note]:
+        if off.any():
+            values = {"rows": int(off.sum()), "first": rows.first(off)}
+            said = f"In {values['rows']} rows the printed {what}, the first being {values['first']}{used}."
+            yield Note(code, said, values=values)
+
     first, second, third, fourth = rows.stacked(*SIGNALS)
     force, coefficient = rows.columns["traction force"], rows.columns["traction coeff"]
     two = np.isnan(third) & np.isnan(fourth)
     off = two & (np.abs(force - 0.5 * (first - second)) > _FORCE_AGREES)
-    if off.any():
-        yield (
-            Note(
-                "force-contradicts",
-                f"In {int(off.sum())} rows the printed Traction Force is not half of TF1 - TF2, the first being "
-                f"{rows.at(int(np.argmax(off))).removesuffix(': ')}; readings are those of TF1 and TF2.",
-                values={"rows": int(off.sum()), "first": rows.at(int(np.argmax(off))).removesuffix(": ")},
-            )
-        )
+    used = "; readings are those of TF1 and TF2"
+    yield from told(off, "force-contradicts", "Traction Force is not half of TF1 - TF2", used)
     loaded = np.where(load > 0.0, load, np.nan)
     allowed = _COEFFICIENT_AGREES + (_FORCE_AGREES + 1e-3 * np.abs(coefficient)) / loaded
     off = np.abs(np.abs(force) / loaded - coefficient) > allowed
-    if off.any():
-        yield (
-            Note(
-                "coefficient-contradicts",
-                f"In {int(off.sum())} rows the printed Traction Coeff is not the Traction Force over the load, the "
-                "first "
-                f"being {rows.at(int(np.argmax(off))).removesuffix(': ')}.",
-            )
-        )
+    yield from told(off, "coefficient-contradicts", "Traction Coeff is not the Traction Force over the load")
     disc = rows.stacked("disc speed 1", "disc speed 2")
     ball = rows.stacked("ball speed 1", "ball speed 2")
     slip = np.abs(disc - ball)
     slip = np.where(np.isnan(slip[1]), slip[0], np.abs(0.5 * (disc[0] - ball[0] - disc[1] + ball[1])))
     off = two & (np.abs(slip - np.abs(rows.columns["sliding speed"])) > _SPEED_AGREES + _SPEEDS_AGREE * np.abs(disc[0]))
-    if off.any():
-        yield (
-            Note(
-                "sliding-speed-contradicts",
-                f"In {int(off.sum())} rows the printed Sliding Speed is not the difference of disc and ball speed, the "
-                f"first being {rows.at(int(np.argmax(off))).removesuffix(': ')}; readings are those of disc and ball.",
-                values={"rows": int(off.sum()), "first": rows.at(int(np.argmax(off))).removesuffix(": ")},
-            )
-        )
+    used = "; readings are those of disc and ball"
+    yield from told(
+        off, "sliding-speed-contradicts", "Sliding Speed is not the difference of disc and ball speed", used
+    )
 
 
 def _unfinished(export: Export) -> Iterator[str]:
@@ -321,16 +304,15 @@ def _readings(rows: Rows, load: Array) -> tuple[Integers, Integers, tuple[str, .
     there = ~np.isnan(signals)
     single = ~there.any(axis=0) & ~np.isnan(rows.columns["traction force"])
     there = np.concatenate([there, [single]])
-    forced = there.any(axis=0)
+    forced = np.asarray(there.any(axis=0))
     rows.insist(~forced | ~np.isnan(load), "there is a traction force, but neither a ball load nor a pin load.")
     loaded = load > 0.0
     out = []
     for some, what in ((~forced, "hold no traction force"), (forced & ~loaded, "were taken without load")):
         if some.any():
-            first = rows.at(int(np.argmax(some))).removesuffix(": ")
-            rows_out = int(some.sum())
-            said = f"{rows_out} rows {what} and are left out; the first is {first}."
-            out.append(Note("rows-left-out", said, values={"rows": rows_out, "first": first}))
+            values = {"rows": int(some.sum()), "first": rows.first(some)}
+            said = f"{values['rows']} rows {what} and are left out; the first is {values['first']}."
+            out.append(Note("rows-left-out", said, values=values))
     row, signal = np.nonzero((there & loaded).T)
     return row, signal, tuple(out)
 
@@ -384,12 +366,8 @@ def _temperature(rows: Rows, row: Integers, thermometer: Thermometer) -> tuple[A
             remarks.append(Note("thermometers-differ", words, remedy=choice, values=means))
         else:
             remarks.append(Note("thermometer", f"Temperatures are those of the {thermometer} RTD."))
-    lacking = np.flatnonzero(np.isnan(own))
-    if lacking.size:
-        rows.refuse(int(row[lacking[0]]), "there is a traction force, but no temperature.")
-    cold = np.flatnonzero(own <= 0.0)
-    if cold.size:
-        rows.refuse(int(row[cold[0]]), "the temperature must be above absolute zero.")
+    rows.insist(~np.isnan(own), "there is a traction force, but no temperature.", row)
+    rows.insist(own > 0.0, "the temperature must be above absolute zero.", row)
     return own, tuple(remarks)
 
 
@@ -439,11 +417,7 @@ def _times(rows: Rows, row: Integers) -> tuple[Array, datetime | None, tuple[str
         if not np.isnan(time[here]).all():
             latest = float(np.nanmax(time[here]))
     if np.isnan(time).all():
-        return (
-            time,
-            None,
-            (Note("no-time", "There is no step time, so the times of the readings are unknown."),),
-        )
+        return time, None, (Note("no-time", "There is no step time, so the times of the readings are unknown."),)
     first = float(np.nanmin(time))
     note = Note(
         "date-unread",
@@ -464,13 +438,8 @@ def _header_values(export: Export, key: str, unit: str) -> Array:
         value = number_of(export, cell, f"step {step.number}: {key!r}", line)
         if value is None:
             continue
-        try:
-            factor, _ = unit_conversion(heading(printed).unit, unit, printed)
-        except InputError:
-            example = {"m": "mm"}.get(unit, unit)
-            problem = f"step {step.number}: {printed.strip()[:60]!r} must have a unit like ({example})."
-            raise DataFileError(export.path, problem, line, code="wrong-unit") from None
-        values[place] = factor * value
+        said = f"step {step.number}: {printed.strip()[:60]!r}"
+        values[place] = unit_of(export.path, heading(printed).unit, unit, said, line)[0] * value
         if unit == "m" and value <= 0.0:
             raise DataFileError(
                 export.path,

@@ -168,7 +168,7 @@ def _tangent(table: Table, places: dict[str, int]) -> Array:
     angle = factor * table.numbers_or_missing(place)
     beyond = (angle < 0.0) | (angle >= 0.5 * math.pi)
     if 2 * np.count_nonzero(beyond) > len(angle):
-        raise table.wrong_cell(int(np.argmax(beyond)), place, "an angle from 0 to below 90°", "out-of-range")
+        table.insist(~beyond, place, "an angle from 0 to below 90°", "out-of-range")
     return np.tan(np.where(beyond, np.nan, angle))
 
 
@@ -198,8 +198,7 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
         factor, offset = table.conversion(column, "Pa", _HINT)
     with np.errstate(over="ignore"):
         values = factor * table.numbers_or_missing(place) + offset
-    if np.any(np.isinf(values)):
-        raise table.wrong_cell(int(np.argmax(np.isinf(values))), place, "a finite number of pascal", "not-a-number")
+    table.insist(~np.isinf(values), place, "a finite number of pascal", "not-a-number")
     return values
 
 
@@ -245,8 +244,8 @@ def read_points(
         notes.append(Note("empty-rows", f"{rows} neither frequency nor modulus; skipped."))
     frequency = angular_frequency(table, places, notes)
     insist_on_one_frequency(table, places, frequency)
-    if exported and np.any(frequency <= 0.0):
-        raise table.wrong_cell(int(np.argmax(frequency <= 0.0)), places["frequency"], "above zero")
+    if exported:
+        table.insist(~(frequency <= 0.0), places["frequency"], "above zero")
     storage, loss = moduli(table, places, source, notes)
     temperature = _temperature(table, places, source, name, frequency, notes)
     if not exported:
@@ -340,11 +339,11 @@ def _cell(table: Table, row: int, place: int) -> str:
 def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Array) -> None:
     """Refuse a column of which most is missing or not above zero; single points are left out later, with a note."""
     place = places.get(what)
-    bad = np.flatnonzero(~(values > 0.0))
-    if place is None or 2 * len(bad) <= len(values):
+    good = values > 0.0
+    if place is None or 2 * np.count_nonzero(good) >= len(values):
         return
     table.numbers(place)  # raises for the first cell that is empty or not a number
-    raise table.wrong_cell(int(bad[0]), place, "above zero")
+    table.insist(good, place, "above zero")
 
 
 def _note_unread(table: Table, notes: list[str]) -> None:
