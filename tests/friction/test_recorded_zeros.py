@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -417,6 +418,36 @@ def test_coulomb_friction_that_grows_with_wear_does_not_reach_viscoelastic_frict
     assert np.mean(curves.viscoelastic) == pytest.approx(0.03, abs=1.7e-4)
     # What Coulomb friction changes by is in its own errors: 0.8/√12 of 0.05, over the root of six.
     assert np.median(curves.coulomb_error) == pytest.approx(0.005, rel=0.2)  # type: ignore[arg-type]
+
+
+def _worn(change: float, seed: int, **planted: Any) -> TractionRuns:
+    """Repetitions at once, configuration by configuration, while Coulomb friction grows by `change` over the test."""
+    rows = rows_of(traction_runs(viscoelastic=lambda v, T: 0.03, seed=seed, **planted))
+    order = [FOUR.index(signs) for signs in zip(np.sign(rows[:, 0]), np.sign(rows[:, 0] - rows[:, 1]), strict=True)]
+    rows = rows[np.lexsort((rows[:, 5], order, np.abs(rows[:, 0]), rows[:, 4]))]
+    time = 10.0 * np.arange(len(rows))
+    rows[:, 2] += 0.05 * rows[:, 3] * np.sign(rows[:, 0] - rows[:, 1]) * change * time / time.max()
+    return replace(runs_from(rows), time=time)
+
+
+def test_wear_during_repetitions_made_at_once_is_in_the_errors() -> None:
+    """The residual of the configurations has twice of it, which no scatter of replicates shows: 2 of 60 were held."""
+    within = []
+    for seed in range(10):
+        curves = separate(_worn(0.6, seed, replicates=2, noise=0.005))
+        low, high = curves.interval()
+        within += [*((low <= 0.03) & (high >= 0.03))]
+        assert codes(curves.notes) & {"residual-in-errors", "coulomb-drifts"}
+    assert np.mean(within) > 0.86  # 95 %, less three standard deviations of 60
+
+
+def test_wear_is_found_from_replicates_made_at_once() -> None:
+    """Each condition has a line of its own; one line of their means over speeds left a single degree of freedom."""
+    curves = separate(_worn(1.0, 1, replicates=3, noise=0.002, speeds=np.geomspace(0.02, 0.2, 6), temperatures=[303.0]))
+    (note,) = [note for note in curves.notes if note.code == "coulomb-drifts"]
+    # Over its mean, 1.5 times that at first; 72 readings every 10 s.  Six lines through zeros of 0.001 N over 1.25 N
+    # at -10, 0 and 10 s: 2.3e-5 per second; four of them.
+    assert note.values["rate"] == pytest.approx(1.0 / 1.5 / 710.0, abs=4 * 2.3e-5)
 
 
 @given(rate=st.floats(-1e-2, 1e-2), replicates=st.integers(3, 5), seed=st.integers(0, 1000))

@@ -200,8 +200,9 @@ def _alike(fits: list[Fit]) -> Integers:
 
 
 def _of_coulomb(fits: list[Fit], weights: Array) -> Rate:
-    """Return the rate of Coulomb friction over its mean, by one slope for the runs of all temperatures."""
-    # A run is as many points as it has speeds only if these vary independently: each run is one point.
+    """Return the rate of Coulomb friction over its mean, by lines of one slope."""
+    # A run over all speeds is one point, since its speeds may differ alike from those of other runs. Where the
+    # replicates of a condition follow each other at once, there are no such runs, and each condition has its own line.
     alike: dict[tuple[float, int], list[Array]] = defaultdict(list)
     for fit in fits:
         each, mean = fit.each[:, 2] @ weights, fit.mean(weights)[2]
@@ -209,8 +210,12 @@ def _of_coulomb(fits: list[Fit], weights: Array) -> Rate:
             alike[fit.group.temperature, len(each)].append(
                 np.stack([each, fit.time * mean - fit.each[:, 2, WEAR]]) / mean
             )
-    points = [(value, time) for value, time in (np.mean(several, axis=0) for several in alike.values())]
-    return _Line.of(points, np.arange(len(points))).rate(ROUNDING) if points else _NONE
+    points: list[Array] = []
+    for several in alike.values():
+        ends = np.array([one[1][[0, -1]] for one in sorted(several, key=lambda one: one[1].min())])
+        at_once = np.all(ends.min(axis=1)[1:] > ends.max(axis=1)[:-1])
+        points += several if at_once else [np.mean(several, axis=0)]
+    return _Line.of([tuple(one) for one in points], np.arange(len(points))).rate(ROUNDING) if points else _NONE
 
 
 def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:

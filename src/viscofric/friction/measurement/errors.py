@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,31 +77,14 @@ class BetweenRuns:
         found, autocorrelation = of_readings(fits, weights, lacking)
         for at, (some_variance, some_freedom) in found.items():
             variance[at], freedom[at] = some_variance, some_freedom
+        residual = _with_residual(fits, weights, variance, freedom)
         unrepeated = [place for place, number in found if number == _VISCOELASTIC]
         once = [place for place, fit in enumerate(fits) if _measured_once(fit) and place not in unrepeated]
-        notes = []
-        if unrepeated:
-            said = (
-                f"{_where(fits, unrepeated)} no step was repeated: the standard errors follow from the scatter within "
-                f"steps, whose readings have an autocorrelation of {shown_number(autocorrelation, '.2g')}, and do not "
-                "include what varies from run to run; repeat the runs."
-            )
-            notes.append(Note("steps-not-repeated", said))
-        if once:
-            said = (
-                f"{_where(fits, once)} each configuration was measured once: the standard errors follow from the "
-                f"residual of the configurations, with {freedom[once, _VISCOELASTIC].min():.2g} degrees of freedom; "
-                "repeat the runs."
-            )
-            notes.append(Note("errors-from-left-over", said))
-        if common:
-            level = float(np.median(list(common.values())))
-            said = (
-                f"{_where(fits, list(common))} runs differ by the same amount at all speeds, so that the errors of the "
-                f"speeds of one temperature are not independent: they have a common error of {100.0 * level:.2g} % of "
-                f"viscoelastic friction (level_error = {level:.2g} in shift_friction and identify_material)."
-            )
-            notes.append(Note("errors-shared-by-speeds", said))
+        notes = [
+            *_on_residual(fits, residual),
+            *_on_few(fits, unrepeated, autocorrelation, once, freedom),
+            *_on_runs(fits, common),
+        ]
         return cls(np.sqrt(variance), freedom, notes)
 
 
@@ -156,6 +140,76 @@ def _common(between: Array, within: Array, speeds: float) -> float:
     if large <= ROUNDING**2 or fdtrc(between[1], within[1], large / small) > CHANCE:
         return 0.0
     return float((large - small) / speeds)
+
+
+def _with_residual(fits: list[Fit], weights: Array, variance: Array, freedom: Array) -> list[int]:
+    """Add the expected squares of what residuals of the configurations have beyond scatter; return where there are any.
+
+    `variance` and `freedom` (k, 4) are changed.
+    """
+    # What makes configurations inconsistent, such as wear from one to the next, changes the coefficients by as much as
+    # the residual: half of it for even wear in the order of the paper. Replicates measured in one go share it, and do
+    # not show it in their scatter. It is taken to be normal with a variance that is a part of that of the scatter, the
+    # same at all conditions, and zero unless the residuals are larger than by chance. Degrees of freedom are those
+    # after Welch and Satterthwaite, infinite for the residual.
+    from scipy.special import fdtrc
+
+    own = variance[:, _CONSISTENCY]
+    known = np.all((variance[:, 1:] > 0.0) & np.isfinite(variance[:, 1:]), axis=1)
+    some = [place for place, fit in enumerate(fits) if fit.paired and fit.checks and known[place]]
+    values = np.array([fits[place].mean(weights) for place in some]).reshape(-1, 4)
+    values[:, 0] /= np.array([fits[place].group.load for place in some])
+    squares = values[:, _CONSISTENCY] ** 2
+    beyond = some and np.mean(squares) > (ROUNDING * np.abs(values).max()) ** 2
+    ratio = float(np.mean(squares / own[some])) if beyond else 0.0
+    if ratio <= 1.0 or fdtrc(len(some), float(freedom[some, _CONSISTENCY].min()), ratio) >= CHANCE:
+        return []
+    share = 1.0 - 1.0 / ratio
+    more = share**2 * squares + share * own[some]
+    for number in (_VISCOELASTIC, _COULOMB):
+        freedom[some, number] *= (1.0 + more / variance[some, number]) ** 2
+        variance[some, number] += more
+    return some
+
+
+def _on_residual(fits: list[Fit], places: list[int]) -> Iterator[Note]:
+    if places:
+        yield Note(
+            "residual-in-errors",
+            f"{_where(fits, places)} the residuals of the four sign configurations are larger than the scatter of "
+            "replicates explains, as by wear or a drift from one configuration to the next; the standard errors "
+            "include them.",
+        )
+
+
+def _on_few(
+    fits: list[Fit], unrepeated: list[int], autocorrelation: float, once: list[int], freedom: Array
+) -> Iterator[Note]:
+    if unrepeated:
+        yield Note(
+            "steps-not-repeated",
+            f"{_where(fits, unrepeated)} no step was repeated: the standard errors follow from the scatter within "
+            f"steps, whose readings have an autocorrelation of {shown_number(autocorrelation, '.2g')}, and do not "
+            "include what varies from run to run; repeat the runs.",
+        )
+    if once:
+        yield Note(
+            "errors-from-left-over",
+            f"{_where(fits, once)} each configuration was measured once: the standard errors follow from the "
+            f"residual of the configurations, with {freedom[once, _VISCOELASTIC].min():.2g} degrees of freedom; "
+            "repeat the runs.",
+        )
+
+
+def _on_runs(fits: list[Fit], common: dict[int, float]) -> Iterator[Note]:
+    if common:
+        level = float(np.median(list(common.values())))
+        yield Note(
+            "errors-shared-by-speeds",
+            f"{_where(fits, list(common))} runs differ by the same amount at all speeds, so that the errors of the "
+            f"speeds of one temperature are not independent: they have a common error of {100.0 * level:.2g} % of "
+            f"viscoelastic friction (level_error = {level:.2g} in shift_friction and identify_material).",
+        )
 
 
 def _size(fit: Fit, weights: Array) -> float:

@@ -109,7 +109,9 @@ def separate(
     their conditions are left out with a note, or refused where there are no others.
 
     With four configurations a fourth coefficient, of −sgn(u_disc) sgn(u_disc − u_ball) F_N, is fitted as
-    well: the consistency, (F_I − F_II + F_III − F_IV)/4F_N, zero in the model.
+    well: the consistency, (F_I − F_II + F_III − F_IV)/4F_N, zero in the model.  Where it is larger than the scatter of
+    replicates explains, standard errors include its expected square, since what makes the configurations inconsistent,
+    such as wear from one to the next, changes the coefficients by as much.
 
     One direction of the disc with slip reversed gives O + F_v, half the sum of the two forces, and F_c, half their
     difference, so that viscoelastic friction is no better known than O.  Each reading is then taken above the zero
@@ -124,7 +126,8 @@ def separate(
     conditions of a temperature and load where repetitions follow each other at once), and removed before configurations
     measured one after the other are compared; zeros recorded more than once are used reading by reading if the forces
     follow them.  A linear change of Coulomb friction, as by wear, is estimated from the runs of each temperature, and
-    taken out of viscoelastic friction.
+    taken out of viscoelastic friction; where replicates of a condition follow each other at once, from those of each
+    condition.
 
     Readings of one step and time are one point of the test and count at their mean speed.  Where the disc's speeds
     put no reversed slips together, those of equal mean speed of disc and ball are.  Viscoelastic friction is then the
