@@ -40,8 +40,10 @@ from viscofric.rheology.superposition.shift_problem import inverse_curvature
 #: knot, as for isotherms, curves cut the corner of E'' in the glass, and log10 α at the cold end was wrong by 1.6
 #: standard errors at 1 % of noise.
 POINTS_PER_KNOT = 2
-#: Correlations of neighbours that are tried, equally likely before and at equal distances of artanh.
+#: Correlations of neighbours that are tried, at equal distances of artanh …
 CORRELATIONS = np.tanh(np.linspace(0.0, 2.0, 13))
+#: … and their weights before, equally likely, by the trapezoidal rule.
+EQUALLY_LIKELY = np.array([0.5, *np.ones(11), 0.5])
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,13 +59,13 @@ class CorrelatedSmoother:
     alike: Array  # (m,), correlation of the errors of neighbouring points
 
     @classmethod
-    def fitted(cls, frequency: Array, moduli: Array, same: Mask) -> CorrelatedSmoother:
+    def fitted(cls, frequency: Array, moduli: Array, same: Mask, before: Array = EQUALLY_LIKELY) -> CorrelatedSmoother:
         """Place knots for points, ramp by ramp, and choose smoothing and correlation of each quantity."""
         knots, degree = knots_for(frequency, POINTS_PER_KNOT)
         penalty = roughness(knots, degree)
         basis = splines(knots, degree, frequency)[0]
         criteria = np.array([_likelihood(basis, penalty, moduli, same, alike)[2] for alike in CORRELATIONS])
-        alike = np.array([_expected(one) for one in criteria.T])
+        alike = np.array([expected_correlation(one, before) for one in criteria.T])
         chosen = [
             _likelihood(basis, penalty, moduli[:, [number]], same, float(one)) for number, one in enumerate(alike)
         ]
@@ -83,6 +85,7 @@ class CorrelatedSmoother:
         return CorrelatedCurve(
             lifted,
             slopes @ coefficients,
+            coefficients,
             inverse,
             residual,
             values - basis @ coefficients,
@@ -96,6 +99,7 @@ class CorrelatedCurve:
 
     basis: Array  # (n, K), whitened
     slope: Array  # (n,), of the curve at the points
+    coefficients: Array  # (K,)
     inverse: Array  # (K, K)
     residual: Array  # (n,), whitened
     away: Array  # (n,), points minus curve, decades
@@ -123,16 +127,35 @@ def _likelihood(basis: Array, penalty: Array, moduli: Array, same: Mask, alike: 
     return smoothing, scatter, criterion + np.count_nonzero(same) * np.log1p(-(alike**2))
 
 
-def _expected(criterion: Array) -> float:
-    """Return the correlation, given −2 log of the likelihood at `CORRELATIONS`."""
+def expected_correlation(criterion: Array, before: Array) -> float:
+    """Return the correlation, given −2 log of the likelihood at `CORRELATIONS`, and their weights before."""
     # The variance of fitted parameters grows by (1 + ρ)/(1 − ρ), so ρ is chosen by the mean of this factor over the
     # likelihood: for 250 points with ρ = 0.7, the most likely ρ is 0.68, which made standard errors 4 % too small.
-    weight = np.exp(0.5 * (criterion.min() - criterion))
-    weight[[0, -1]] *= 0.5
+    weight = before * np.exp(0.5 * (criterion.min() - criterion))
     growth = float(np.average((1.0 + CORRELATIONS) / (1.0 - CORRELATIONS), weights=weight))
     return (growth - 1.0) / (growth + 1.0)
 
 
+def correlation(design: Array, residual: Array, before: Array) -> float:
+    """Return the correlation of neighbours in m series of n residuals (m, n) of least squares, (m, n, p) its design.
+
+    Each series has its own variance; the likelihood is restricted to what no p parameters fit.
+    """
+    same = np.ones(residual.shape[1] - 1, dtype=bool)
+    criteria = np.zeros(len(CORRELATIONS))
+    for columns, values in zip(design, residual, strict=True):
+        for place, alike in enumerate(CORRELATIONS.tolist()):
+            orthogonal, sizes, _ = np.linalg.svd(whitened(columns, same, alike), full_matrices=False)
+            used = sizes > _RANK * sizes[0]
+            left = whitened(values, same, alike)
+            left = left - orthogonal[:, used] @ (orthogonal[:, used].T @ left)
+            likelihood = (len(left) - used.sum()) * np.log(np.sum(left**2) + np.finfo(float).tiny)
+            criteria[place] += likelihood + 2.0 * np.sum(np.log(sizes[used])) + len(same) * np.log1p(-(alike**2))
+    return expected_correlation(criteria, before)
+
+
+#: Singular values of a design below this part of the largest are rounding of its differences.
+_RANK = 1e-6
 #: Activation energies that are tried first, J/mol …
 ENERGIES = np.geomspace(3e4, 2e6, 50)
 #: … and distances of the pole from the reference, beyond what the coldest point needs, K.
