@@ -97,14 +97,14 @@ def test_the_correlation_of_errors_is_found_beside_the_curve(alike):
         errors[place] = alike * errors[place - 1] + np.sqrt(1.0 - alike**2) * errors[place]
     frequency = np.tile(np.linspace(-6.0, 6.0, count), 2)
     curves = np.stack([np.tanh(0.4 * frequency), np.exp(-(0.3 * frequency**2))], axis=1)
-    smoother = CorrelatedSmoother.fitted(frequency, curves + 0.01 * errors, same)
+    smoother = CorrelatedSmoother.along(frequency, curves + 0.01 * errors, same)
     # A correlation is known from n points to √((1 − ρ²)/n), 0.035; values below zero count as zero.
     assert smoother.alike == pytest.approx([alike, alike], abs=4 * 0.035)
     # Of the independent parts, (1 − ρ)/(1 + ρ) of the points are left: the scatter is known to 6 % at worst.
     assert smoother.scatter == pytest.approx([0.01, 0.01], rel=4 * 0.06)
     for number, truth in enumerate(curves.T):
-        curve = smoother.curve(number, frequency, truth + 0.01 * errors[:, number])
-        away = truth + 0.01 * errors[:, number] - curve.away - truth
+        left = smoother.curve(number, frequency, truth + 0.01 * errors[:, number])[2]
+        away = truth + 0.01 * errors[:, number] - left - truth
         # Some 15 coefficients through 800 points, of which ρ leaves (1 − ρ)/(1 + ρ).
         assert np.sqrt(np.mean(away**2)) < 2.0 * 0.01 * np.sqrt(15 / 800 * (1.0 + alike) / (1.0 - alike))
 

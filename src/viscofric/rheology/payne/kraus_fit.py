@@ -16,7 +16,6 @@ from viscofric.notes import Note
 from viscofric.rheology.payne.kraus import CONSTANTS, KrausLaw, kraus_moduli
 from viscofric.rheology.ramps.common_law import EQUALLY_LIKELY, CorrelatedSmoother, correlation, whitened
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
-from viscofric.rheology.superposition.common_curve import splines
 from viscofric.showing import Plotted, Rows, Shown
 from viscofric.threads import one_blas_thread
 from viscofric.units import number
@@ -290,17 +289,17 @@ def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
     logarithm = np.log10(sweep.strain_amplitude)
     storage = np.log10(sweep.storage_modulus)
     same = np.ones(len(logarithm) - 1, dtype=bool)
-    smoother = CorrelatedSmoother.fitted(logarithm, storage[:, None], same, _SELDOM_CORRELATED)
+    smoother = CorrelatedSmoother.along(logarithm, storage[:, None], same, _SELDOM_CORRELATED)
     fine = np.linspace(logarithm[0], logarithm[-1], 2001)
-    curve = smoother.curve(0, logarithm, storage)
-    rows = splines(smoother.knots, smoother.degree, fine, orders=1)[0]
-    rows -= rows[0].copy()
-    fallen = rows @ curve.coefficients - math.log10(1.0 - part)
+    curves = smoother.curve(0, logarithm, storage)[0]
+    rows = smoother.basis(fine)
+    rows = rows - rows[0]
+    fallen = rows @ curves.coefficients[:, 0] - math.log10(1.0 - part)
     below = np.flatnonzero(fallen < 0.0)
     if not below.size:
         return LinearRange(part, math.inf, math.inf)
     place = int(below[0])
-    spread = smoother.scatter[0] * np.sqrt(np.einsum("ij,jk,ik->i", rows, curve.inverse, rows))
+    spread = smoother.scatter[0] * np.sqrt(np.einsum("ij,jk,ik->i", rows, curves.inverse[0], rows))
     # The lowest strain at which it may have fallen so far, and the highest at which it may not have: where the curve
     # wavers before it falls, its slope where it crosses says little.
     strain = 10.0**fine

@@ -26,10 +26,10 @@ from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.rheology.superposition.common_curve import (
     KNOT_SPACING,
+    Curves,
     Smoother,
     knots_for,
     restricted_likelihood,
-    ridged,
     roughness,
     splines,
 )
@@ -47,19 +47,14 @@ EQUALLY_LIKELY = np.array([0.5, *np.ones(11), 0.5])
 
 
 @dataclass(frozen=True, eq=False)
-class CorrelatedSmoother:
-    """Splines through ramps: K basis functions, m quantities (log E' and log E'')."""
+class CorrelatedSmoother(Smoother):
+    """Splines through ramps, of m quantities (log E' and log E'') with correlated errors."""
 
-    knots: Array
-    degree: int
-    penalty: Array  # (K, K)
     same: Mask  # (n - 1,), whether a point and the next belong to one ramp
-    smoothing: Array  # (m,)
-    scatter: Array  # (m,), standard deviation of a point about its curve, decades
     alike: Array  # (m,), correlation of the errors of neighbouring points
 
     @classmethod
-    def fitted(cls, frequency: Array, moduli: Array, same: Mask, before: Array = EQUALLY_LIKELY) -> CorrelatedSmoother:
+    def along(cls, frequency: Array, moduli: Array, same: Mask, before: Array = EQUALLY_LIKELY) -> CorrelatedSmoother:
         """Place knots for points, ramp by ramp, and choose smoothing and correlation of each quantity."""
         knots, degree = knots_for(frequency, POINTS_PER_KNOT)
         penalty = roughness(knots, degree)
@@ -70,45 +65,17 @@ class CorrelatedSmoother:
             _likelihood(basis, penalty, moduli[:, [number]], same, float(one)) for number, one in enumerate(alike)
         ]
         smoothing, scatter = (np.array([one[place][0] for one in chosen]) for place in (0, 1))
-        return cls(knots, degree, penalty, same, smoothing, scatter, alike)
+        return cls(knots, degree, penalty, smoothing, scatter, same, alike)
 
-    def curve(self, modulus: int, frequency: Array, values: Array) -> CorrelatedCurve:
-        """Draw the curve of one quantity through its values (n,)."""
-        basis, slopes, _ = splines(self.knots, self.degree, frequency)
+    def curve(self, modulus: int, frequency: Array, values: Array) -> tuple[Curves, Array, Array]:
+        """Draw the curve of one quantity through its values (n,), whitened; return its slopes, and values minus it."""
+        found = splines(self.knots, self.degree, frequency)
         alike = float(self.alike[modulus])
-        lifted = whitened(basis, self.same, alike)
-        rough = self.smoothing[modulus] * self.penalty
-        inverse = np.linalg.inv(ridged(lifted.T @ lifted) + rough)
-        target = whitened(values, self.same, alike)
-        coefficients = inverse @ (lifted.T @ target)
-        residual = target - lifted @ coefficients
-        return CorrelatedCurve(
-            lifted,
-            slopes @ coefficients,
-            coefficients,
-            inverse,
-            residual,
-            values - basis @ coefficients,
-            float(residual @ residual + coefficients @ rough @ coefficients),
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class CorrelatedCurve:
-    """The curve of one quantity through n points."""
-
-    basis: Array  # (n, K), whitened
-    slope: Array  # (n,), of the curve at the points
-    coefficients: Array  # (K,)
-    inverse: Array  # (K, K)
-    residual: Array  # (n,), whitened
-    away: Array  # (n,), points minus curve, decades
-    cost: float  # whitened squares and penalised roughness, decades²
-
-    @property
-    def freedom(self) -> float:
-        """Degrees of freedom left in the residuals."""
-        return float(len(self.residual) - np.sum(self.inverse * (self.basis.T @ self.basis)))
+        own = Smoother(self.knots, self.degree, self.penalty, self.smoothing[[modulus]], self.scatter[[modulus]])
+        lifted = np.array([whitened(one, self.same, alike) for one in found])
+        curves = own.drawn(lifted, whitened(values, self.same, alike)[:, None], None)
+        coefficients = curves.coefficients[:, 0]
+        return curves, found[1] @ coefficients, values - found[0] @ coefficients
 
 
 def whitened(values: Array, same: Mask, alike: float) -> Array:
@@ -217,7 +184,7 @@ class CommonLaw:
 
 @dataclass(frozen=True, eq=False)
 class _State:
-    """Cost and its derivatives by the logarithms of the constants."""
+    """Cost and its derivatives by the logarithms of the constants, and by offsets."""
 
     cost: float
     gradient: Array
@@ -263,7 +230,7 @@ class _Problem:
 
     def smoother(self, logs: Array) -> CorrelatedSmoother:
         """Choose knots, smoothing and the correlation of errors again."""
-        return CorrelatedSmoother.fitted(self.reduced(logs), self.points.moduli, self.points.same)
+        return CorrelatedSmoother.along(self.reduced(logs), self.points.moduli, self.points.same)
 
     def misfit(self, logs: Array) -> float:
         """Return the sum of the logarithms of both scatters, infinite where the law does not hold."""
@@ -311,8 +278,8 @@ class _Problem:
         count = len(logs)
         smoother = replace(self.smoother(logs), alike=np.zeros(2))  # else correlation hides the offsets at once
         for _ in range(OFFSET_PASSES):
-            information, score = self._with_offsets(logs, smoother)
-            found = estimated(information, score, np.zeros((count, count)), tied=False)
+            state = self.state(logs, smoother, np.eye(self.ramps)[self.points.ramp])
+            found = estimated(state.normal, state.gradient, np.zeros((count, count)), tied=False)
             expected = found.expected.reshape(2, self.ramps).T[self.points.ramp]
             less = _Problem(replace(self.points, moduli=self.points.moduli - expected), self.family, self.back)
             # Constants that have followed offsets leave residuals that look correlated.
@@ -322,42 +289,28 @@ class _Problem:
             found = replace(found, covariance=np.zeros((2, 2)))
         return found
 
-    def _with_offsets(self, logs: Array, smoother: CorrelatedSmoother) -> tuple[Array, Array]:
-        """Return information and score of the constants' logarithms, and of offsets of both moduli of the ramps."""
-        constants, count, ramps = np.exp(logs), len(logs), self.ramps
-        moved = self.family.gradient(constants)[self.back] * constants
-        moved = moved - moved.mean(axis=0)
-        belongs = np.eye(ramps)[self.points.ramp]
-        information, score = np.zeros((count + 2 * ramps, count + 2 * ramps)), np.zeros(count + 2 * ramps)
-        for modulus, scatter in enumerate(smoother.scatter):
-            curve = smoother.curve(modulus, self.reduced(logs), self.points.moduli[:, modulus])
-            columns = np.concatenate([curve.slope[:, None] * moved, belongs], axis=1)
-            columns = whitened(columns, smoother.same, float(smoother.alike[modulus]))
-            onto = curve.basis.T @ columns
-            places = np.append(np.arange(count), count + modulus * ramps + np.arange(ramps))
-            found = columns.T @ columns - onto.T @ curve.inverse @ onto
-            information[np.ix_(places, places)] += found / scatter**2
-            score[places] += columns.T @ curve.residual / scatter**2
-        return information, score
+    def state(self, logs: Array, smoother: CorrelatedSmoother, levels: Array | None = None) -> _State:
+        """Draw the curves at these constants and differentiate; both derivatives are those of variable projection.
 
-    def state(self, logs: Array, smoother: CorrelatedSmoother) -> _State:
-        """Draw the curves at these constants and differentiate; both derivatives are those of variable projection."""
-        constants = np.exp(logs)
+        With `levels` (n, r), also by offsets of the first modulus and then of the second.
+        """
+        constants, count = np.exp(logs), len(logs)
         moved = self.family.gradient(constants)[self.back] * constants
         moved = moved - moved.mean(axis=0)
-        reduced = self.reduced(logs)
-        count = len(logs)
-        cost, freedom, gradient, normal = 0.0, 0.0, np.zeros(count), np.zeros((count, count))
-        away = np.zeros_like(self.points.moduli)
+        beside = np.zeros((len(moved), 0)) if levels is None else levels
+        reduced, more = self.reduced(logs), beside.shape[1]
+        cost, freedom, away = 0.0, 0.0, np.zeros_like(self.points.moduli)
+        gradient, normal = np.zeros(count + 2 * more), np.zeros((count + 2 * more, count + 2 * more))
         for modulus, scatter in enumerate(smoother.scatter):
-            curve = smoother.curve(modulus, reduced, self.points.moduli[:, modulus])
-            columns = whitened(curve.slope[:, None] * moved, smoother.same, float(smoother.alike[modulus]))
-            onto = curve.basis.T @ columns
-            gradient += columns.T @ curve.residual / scatter**2
-            normal += (columns.T @ columns - onto.T @ curve.inverse @ onto) / scatter**2
-            cost += curve.cost / scatter**2
-            freedom += curve.freedom
-            away[:, modulus] = curve.away
+            curves, slope, away[:, modulus] = smoother.curve(modulus, reduced, self.points.moduli[:, modulus])
+            columns = np.concatenate([slope[:, None] * moved, beside], axis=1)
+            columns = whitened(columns, smoother.same, float(smoother.alike[modulus]))
+            onto = curves.basis.T @ columns
+            places = np.append(np.arange(count), count + modulus * more + np.arange(more))
+            gradient[places] += columns.T @ curves.residual[:, 0] / scatter**2
+            normal[np.ix_(places, places)] += (columns.T @ columns - onto.T @ curves.inverse[0] @ onto) / scatter**2
+            cost += curves.cost(np.ones(1)) / scatter**2
+            freedom += curves.freedom
         return _State(cost, gradient, normal, away, freedom)
 
     def descend(self, logs: Array, smoother: CorrelatedSmoother) -> Array:
@@ -400,5 +353,5 @@ def _covariance(
     if not np.any(offsets.covariance):
         return np.asarray(scattered)
     # The constants found follow offsets as the information of this smoother, which takes them for correlated errors.
-    gain = inverse @ problem._with_offsets(logs, smoother)[0][:count, count:]
+    gain = inverse @ problem.state(logs, smoother, np.eye(problem.ramps)[problem.points.ramp]).normal[:count, count:]
     return np.asarray(scattered + gain @ np.kron(offsets.covariance, np.eye(problem.ramps)) @ gain.T)
