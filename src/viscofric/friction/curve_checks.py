@@ -13,7 +13,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.intervals import threshold
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
-from viscofric.rheology.uncertainty.material_samples import prior_freedom
+from viscofric.rheology.uncertainty.material_samples import freedom_of_scatter, prior_freedom
 from viscofric.units import Quantity, number, plain, shown_celsius, shown_speed
 
 #: Fewer second differences do not give a scatter.
@@ -78,7 +78,7 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
     rough = squares / (6.0 * count)  # 1 + 4 + 1 variances in each
     # Without a trend, the scatter of all is a better estimate than that of neighbours.
     everything = float(np.var(np.log(relative[wanted] ** 2), ddof=1))
-    seen = freedom_of_scatter(everything if everything < COURSE * rough else rough)
+    seen = freedom_of_scatter(everything if everything < COURSE * rough else rough, 1.0, MANY)
     if seen > MANY:
         return freedom, ()
     note = Note(
@@ -90,24 +90,11 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
     return np.where(wanted, seen, freedom), (note,)
 
 
-def freedom_of_scatter(variance: float) -> float:
-    """Return the degrees of freedom f of sample variances with a variance of ln s², which is ψ′(f/2)."""
-    from scipy.optimize import brentq
-    from scipy.special import polygamma
-
-    least, most = 0.5, 0.5 * MANY
-    if variance <= polygamma(1, most):
-        return np.inf
-    if variance >= polygamma(1, least):
-        return 2.0 * least
-    return 2.0 * float(brentq(lambda half: float(polygamma(1, half)) - variance, least, most))
-
-
 def outliers(squares: Array, freedom: float, least: float) -> tuple[Array, Mask]:
     """Return squared distances (n,) over the scatter that all but the largest have, and which are too large for chance.
 
     `squares` are those of distances over their errors, `least` is that of the scatter; one set in a hundred has an
-    outlier by chance.
+    outlier by chance, and none has more than a tenth of its points.
     """
     from scipy.special import stdtrit
 
@@ -115,7 +102,8 @@ def outliers(squares: Array, freedom: float, least: float) -> tuple[Array, Mask]
     scatter = float(inner.mean()) / (INNER_SQUARE if len(inner) < len(squares) else 1.0)
     over = squares / max(scatter, least)
     known = np.inf if scatter <= least else max(freedom, 1.0)
-    return over, over > stdtrit(known, 1.0 - 0.5 * CHANCE / len(squares)) ** 2
+    far = over > stdtrit(known, 1.0 - 0.5 * CHANCE / len(squares)) ** 2
+    return over, far & (np.count_nonzero(far) <= MOST_OUTLYING * len(far))
 
 
 def counted_less(squares: Array) -> Array:

@@ -13,7 +13,6 @@ from viscofric.friction.coulomb import check_coupling
 from viscofric.friction.curve_checks import (
     LEAST_FREEDOM,
     MEAN_SQUARE,
-    MOST_OUTLYING,
     ROUNDS,
     counted_less,
     implausible,
@@ -134,8 +133,7 @@ def _with_tails(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], A
         fits = weighed(best.problem.with_errors(errors * np.sqrt(scale * larger)), best.minimum.place)
         best = most_evident(fits)
     _, outlying = outliers(squares, freedom_of(best, len(errors)), 1.0)
-    few = np.count_nonzero(outlying) <= MOST_OUTLYING * len(errors)
-    return fits, np.where(outlying & few, np.sqrt(squares), 0.0), float(np.sqrt(scale))
+    return fits, np.where(outlying, np.sqrt(squares), 0.0), float(np.sqrt(scale))
 
 
 def _coupling(outcome: Outcome, material: Material) -> tuple[str, ...]:

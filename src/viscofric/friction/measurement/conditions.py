@@ -283,10 +283,10 @@ def conditions(
     slip = np.abs(runs.disc_speed[moving] - runs.ball_speed[moving])
     disc_sign = np.sign(runs.disc_speed[moving])
     found, swept = [], 0
-    for here in _equal_rows(np.stack([isotherm, loading, pace], axis=1)):
+    for here in equal_rows(np.stack([isotherm, loading, pace], axis=1)):
         direction, sliding, cut = _slips(course.slip[moving][here], speed_tolerance, jittering)
         swept += cut
-        for part in _equal_rows(sliding[:, None]):
+        for part in equal_rows(sliding):
             rows = here[part]
             found.append(
                 Condition(
@@ -324,13 +324,13 @@ def _jitter(speed: Array, senses: Integers) -> float:
     # Where a ball rolls, the sense of its slip is jitter too, and the speeds of one sense scatter less than all do, by
     # a factor of √(1 − 2/π) = 0.603 where the disc alone jitters and all is normal.
     apart = speed.copy()
-    for rows in _equal_rows(senses):
+    for rows in equal_rows(senses):
         apart[rows] -= speed[rows].mean()
     return min(float(np.std(speed)), float(np.std(apart)) / math.sqrt(1.0 - 2.0 / math.pi))
 
 
-def _equal_rows(keys: Integers) -> list[Integers]:
-    """Return the indices of equal rows, by ascending rows."""
+def equal_rows(keys: Integers) -> list[Integers]:
+    """Return the indices of equal keys, numbers (n,) or rows (n, k), in ascending order of the keys."""
     _, number = np.unique(keys, axis=0, return_inverse=True)
     number = number.reshape(-1)
     order = np.argsort(number, kind="stable")

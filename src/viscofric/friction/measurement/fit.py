@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from viscofric.arrays import Array, Indices, Integers, lagrange
-from viscofric.friction.measurement.conditions import Condition
+from viscofric.friction.measurement.conditions import Condition, equal_rows
 from viscofric.friction.measurement.zeros import Zeros
 from viscofric.traction import TractionRuns
 
@@ -212,7 +212,7 @@ class Fit:
         passes, runs_of_passes = _passes(group, step)
         count = int(replicate.max()) + 1
         complete = _complete(group, replicate)
-        parts = _parted(replicate) if complete and count > 1 else [np.arange(load.size)]
+        parts = equal_rows(replicate) if complete and count > 1 else [np.arange(load.size)]
         scale = np.array([1.0, *[group.load] * 3])
         fourth = crossed if checks else None
         operator = operators(design, fourth, parts) / scale[:, None]
@@ -350,8 +350,3 @@ def _complete(group: Condition, replicate: Indices) -> bool:
     """Whether every replicate has all the configurations that there are."""
     pairs = np.unique(10 * replicate.astype(np.int64) + group.configurations)
     return pairs.size == (int(replicate.max()) + 1) * len(group.signs)
-
-
-def _parted(replicate: Indices) -> list[Indices]:
-    order = np.argsort(replicate, kind="stable")
-    return np.split(order, np.flatnonzero(np.diff(replicate[order])) + 1)

@@ -15,7 +15,6 @@ from viscofric.errors import InputError
 from viscofric.friction.curve_checks import (
     LEAST_FREEDOM,
     MEAN_SQUARE,
-    MOST_OUTLYING,
     error_freedom,
     outliers,
     outlying_points,
@@ -163,8 +162,7 @@ class SmoothedPoints:
             larger[rows], squares[rows], more = with_tails(*columns, shared, 1.0 if self.stated else 0.0, near)
             freedom += more
         over, outlying = outliers(squares, freedom, 1.0)
-        few = np.count_nonzero(outlying) <= MOST_OUTLYING * len(outlying)
-        return larger, np.where(outlying & few, over, 0.0)
+        return larger, np.where(outlying, over, 0.0)
 
     def _about(self, weight: Array, variance: Array) -> _About:
         """Return how points lie about the curve of points with weights and variances (n,)."""

@@ -93,13 +93,24 @@ def _moderated(squares: Array, counts: Integers) -> Array:
 def prior_freedom(log_variances: Array, freedom: Array | Integers) -> float:
     """Return the degrees of freedom ν0 of the common variance, infinite where variances differ by chance only."""
     # The variance of ln s² (n,) is ψ'(ν/2) by chance, with ν degrees of freedom (n,), and ψ'(ν0/2) besides.
+    from scipy.special import polygamma
+
+    return freedom_of_scatter(float(np.var(log_variances, ddof=1) - np.mean(polygamma(1, 0.5 * freedom))))
+
+
+def freedom_of_scatter(variance: float, least: float = 2e-3, most: float = 1e4) -> float:
+    """Return the degrees of freedom f of sample variances with a variance of ln s², which is ψ′(f/2).
+
+    Below `least` it is that, above `most` infinite.
+    """
     from scipy.optimize import brentq
     from scipy.special import polygamma
 
-    rest = float(np.var(log_variances, ddof=1) - np.mean(polygamma(1, 0.5 * freedom)))
-    if rest <= polygamma(1, 5e3):
+    if variance <= polygamma(1, 0.5 * most):
         return np.inf
-    return 2.0 * float(brentq(lambda half: float(polygamma(1, half)) - rest, 1e-3, 1e4))
+    if variance >= polygamma(1, 0.5 * least):
+        return least
+    return 2.0 * float(brentq(lambda half: float(polygamma(1, half)) - variance, 0.5 * least, 0.5 * most))
 
 
 #: Number of neighbours along an isotherm over which residuals are averaged: noise averages out, a misfit does not.
