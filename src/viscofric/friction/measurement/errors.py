@@ -150,22 +150,29 @@ def _with_residual(fits: list[Fit], weights: Array, variance: Array, freedom: Ar
     # What makes configurations inconsistent, such as wear from one to the next, changes the coefficients by as much as
     # the residual: half of it for even wear in the order of the paper. Replicates measured in one go share it, and do
     # not show it in their scatter. It is taken to be normal with a variance that is a part of that of the scatter, the
-    # same at all conditions, and zero unless the residuals are larger than by chance. Degrees of freedom are those
-    # after Welch and Satterthwaite, infinite for the residual.
-    from scipy.special import fdtrc
+    # same at all conditions, and zero unless the residuals are larger than by chance. Their errors, of few degrees of
+    # freedom each, are independent, unless they are those of all conditions together. Degrees of freedom of the sums
+    # are those after Welch and Satterthwaite, infinite for the residual.
+    from scipy.special import chdtrc, fdtrc, ndtri, stdtr
 
-    own = variance[:, _CONSISTENCY]
     known = np.all((variance[:, 1:] > 0.0) & np.isfinite(variance[:, 1:]), axis=1)
     some = [place for place, fit in enumerate(fits) if fit.paired and fit.checks and known[place]]
     values = np.array([fits[place].mean(weights) for place in some]).reshape(-1, 4)
     values[:, 0] /= np.array([fits[place].group.load for place in some])
-    squares = values[:, _CONSISTENCY] ** 2
-    beyond = some and np.mean(squares) > (ROUNDING * np.abs(values).max()) ** 2
-    ratio = float(np.mean(squares / own[some])) if beyond else 0.0
-    if ratio <= 1.0 or fdtrc(len(some), float(freedom[some, _CONSISTENCY].min()), ratio) >= CHANCE:
+    squares, own = values[:, _CONSISTENCY] ** 2, variance[some, _CONSISTENCY]
+    if not some or np.mean(squares) <= (ROUNDING * np.abs(values).max()) ** 2:
+        return []
+    behind = freedom[some, _CONSISTENCY]
+    ratio = float(np.mean(squares / own))
+    by_chance = float(fdtrc(len(some), behind.min(), ratio))
+    if all(fits[place].replicates > _ENOUGH for place in some):
+        # As normal deviates; the tails of Student's distribution would count those far off for too much.
+        normal = ndtri(np.maximum(stdtr(behind, -np.sqrt(squares / own)), np.finfo(float).tiny))
+        by_chance = float(chdtrc(len(some), np.sum(normal**2)))
+    if ratio <= 1.0 or by_chance >= CHANCE:
         return []
     share = 1.0 - 1.0 / ratio
-    more = share**2 * squares + share * own[some]
+    more = share**2 * squares + share * own
     for number in (_VISCOELASTIC, _COULOMB):
         freedom[some, number] *= (1.0 + more / variance[some, number]) ** 2
         variance[some, number] += more
@@ -179,6 +186,7 @@ def _on_residual(fits: list[Fit], places: list[int]) -> Iterator[Note]:
             f"{_where(fits, places)} the residuals of the four sign configurations are larger than the scatter of "
             "replicates explains, as by wear or a drift from one configuration to the next; the standard errors "
             "include them.",
+            values={"conditions": len(places), "of": len(fits)},
         )
 
 
