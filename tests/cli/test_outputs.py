@@ -21,6 +21,7 @@ from readers.samples import workbook
 from study.sweeps import made_results
 from viscofric.cli import main, run
 from viscofric.cli.files import FOLDER, OUT, Written
+from viscofric.cli.keys import KeyOption
 
 SOLID = ["--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms"]
 CATALOGUE = ["--material", "synthetic fluoroelastomer"]
@@ -83,6 +84,16 @@ def options(command: click.Command) -> set[str]:
     """Return the options that the help names."""
     shown = (one for one in command.params if isinstance(one, click.Option) and not one.hidden)
     return {typed for one in shown for typed in one.opts}
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_options_of_keys_offer_what_the_run_file_knows(name: str) -> None:
+    keyed = [one for one in ALL[name].params if isinstance(one, KeyOption)]
+    text = "".join(CliRunner().invoke(main, [*name.split(), "--help"]).output.split())
+    for one in keyed:
+        choices = "" if one.is_flag else "|".join(one.key.about.get("enum", ()))
+        assert choices.replace(" ", "") in text, one.name
+        assert one.help, one.name
 
 
 def strict(text: str) -> Any:

@@ -13,6 +13,7 @@ import numpy as np
 from viscofric.cli.commands import CONTACT, together
 from viscofric.cli.errors import placed_at, print_notes, typed_as
 from viscofric.cli.files import FILE
+from viscofric.cli.keys import key
 from viscofric.cli.speed_options import list_of
 
 if TYPE_CHECKING:
@@ -66,12 +67,7 @@ surface_options = together(
         help="Measured rough surface instead of an indenter, one period of it; --spacing and --height-unit if the file "
         "does not state them.",
     ),
-    click.option(
-        "--prepare",
-        multiple=True,
-        metavar="STEP",
-        help="With --surface: preparation step, such as 'remove tilt', 'window' or 'shortest 40 um'; repeatable.",
-    ),
+    key("surface.prepare", metavar="STEP", multiple=True, type=str, condition="With --surface, repeatable: "),
     heading="Rough surface",
 )
 
@@ -201,15 +197,8 @@ direction_option = click.option(
     help="Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
 )
 elastic_options = together(
-    click.option(
-        "--indenter-modulus", metavar="E", help="Modulus of an elastic indenter, e.g. '200 GPa' [default: rigid]."
-    ),
-    click.option(
-        "--indenter-poisson-ratio",
-        type=float,
-        metavar="ν",
-        help="Poisson's ratio of an elastic indenter [default: 0.3].",
-    ),
+    key("indenter.modulus", "--indenter-modulus", metavar="E"),
+    key("indenter.poisson_ratio", "--indenter-poisson-ratio", metavar="ν", type=float),
     heading="Elastic indenter",
 )
 contact_options = together(

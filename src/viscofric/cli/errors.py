@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from viscofric.cli.files import plainly
+from viscofric.cli.keys import KeyOption
 from viscofric.datasets import DataTree
 
 if TYPE_CHECKING:
@@ -48,14 +49,14 @@ def placed_at(option: str) -> Iterator[None]:
         raise error.at(option) from None
 
 
-#: Argument of Python or key of a run file -> parameters of commands that give it, where they are named otherwise.
+#: Argument of Python or key of a run file -> parameters of commands that give it, where they are named otherwise and
+#: no `KeyOption` says so.
 _TYPED_AS = {
     "radius": ("ball", "cylinder", "punch"),
     "radius_x": ("ellipsoid",),
     "radius_y": ("ellipsoid",),
     "angle": ("cone",),
     "thickness of the layer": ("layer",),
-    "reference_temperature": ("reference",),
     "E0": ("rubber_modulus",),
     "E_inf": ("glass_modulus",),
     "heights": ("height_map", "profile"),
@@ -66,7 +67,7 @@ _TYPED_AS = {
     "height unit": ("height_unit",),
     "sheet": ("history_sheet", "shift_factor_sheet"),
     "fixed_shift_factors": ("fix",),
-    "outliers": ("leave_out_outliers",),
+    **dict.fromkeys(("track_radius", "passes"), ("heating_track",)),
 }
 
 
@@ -129,13 +130,11 @@ def _replaced(option: str, other: str, said: str) -> str:
 def _renamed() -> dict[str, str]:
     """Return the options of this command that are named otherwise than the keys of run files that they give."""
     ctx = click.get_current_context(silent=True)
-    known = {} if ctx is None else {one.name: _typed(one) for one in ctx.command.params}
-    return {
-        _option(key): known[name]
-        for key, names in _TYPED_AS.items()
-        for name in names
-        if name in known and key not in known
-    }
+    params = [] if ctx is None else ctx.command.params
+    known = {one.name: _typed(one) for one in params}
+    names = {key: name for key, some in _TYPED_AS.items() for name in some if name in known}
+    names |= {one.key.key: one.name or "" for one in params if isinstance(one, KeyOption)}
+    return {_option(key): known[name] for key, name in names.items() if key not in known}
 
 
 def typed_option(name: str, parameter: str | None = None) -> str | None:
@@ -143,7 +142,10 @@ def typed_option(name: str, parameter: str | None = None) -> str | None:
     ctx = click.get_current_context(silent=True)
     if ctx is None:
         return None
-    wanted = (name, f"{name}s", *_TYPED_AS.get(name, ())) if parameter is None else (parameter,)
+    wanted: tuple[str | None, ...] = (parameter,)
+    if parameter is None:
+        keys = [one.name for one in ctx.command.params if isinstance(one, KeyOption) and one.key.key == name]
+        wanted = (name, f"{name}s", *keys, *_TYPED_AS.get(name, ()))
     given = [one for one in ctx.command.params if one.name in wanted and ctx.params.get(one.name) not in (None, ())]
     return next((_typed(one) for one in given if isinstance(one, click.Option) or parameter is not None), None)
 

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.core import ParameterSource
 
 from viscofric.cli.commands import together
 from viscofric.cli.errors import words_of
 from viscofric.cli.files import plainly
+from viscofric.cli.keys import key, table_of
 from viscofric.cli.rubber_options import column_options, find_rubber
 from viscofric.notes import Note, Remedy, dumped, note_of
 
@@ -23,80 +23,41 @@ if TYPE_CHECKING:
     from viscofric.rheology.shifts.vertical_shift import VerticalShift
     from viscofric.study.run_file.measurement import MeasurementTable
 
-#: Keys of [measurement] of a run file, which checks them.
-separation_options = together(
-    column_options("'disc_speed=V1 (mm/s)'"),
-    click.option(
-        "--zero",
-        metavar="FORCE",
-        help="Zero offset of the force cell, e.g. '0.1 N' [default: found from reversed motion, or as recorded].",
-    ),
-    click.option("--zero-error", metavar="FORCE", help="Standard error of --zero."),
-    click.option(
-        "--coulomb",
-        metavar="NUMBER|constant",
-        help="Assumed Coulomb friction if the slip has one direction only: a coefficient, or 'constant' over "
-        "the speed.",
-    ),
-    click.option("--coulomb-error", type=float, metavar="NUMBER", help="Standard error of --coulomb."),
-    click.option(
-        "--except-steps",
-        metavar="NUMBERS",
-        help="Steps of the test to leave out, e.g. '1,3', because load or temperature was not steady.",
-    ),
-    click.option("--leave-out-outliers", is_flag=True, help="Leave out outliers."),
-    click.option(
-        "--speed-tolerance",
-        type=float,
-        default=0.05,
-        show_default=True,
-        help="Relative gap between different nominal speeds and slips.",
-    ),
-    click.option(
-        "--temperature-tolerance",
-        metavar="DT",
-        default="1 delta_degC",
-        show_default=True,
-        help="Gap between different nominal temperatures.",
-    ),
-    heading="Separation of runs",
-)
 
-
-#: Keys of [measurement] that have options of their names.
-_KEYS = (
-    *("columns", "sheet", "zero", "zero_error", "coulomb_error"),
-    *("speed_tolerance", "temperature_tolerance"),
-)
-
-
-def _given(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Return the keys of [measurement] that the options of a command give."""
-    source = click.get_current_context().get_parameter_source
-    chosen = {name: parameters[name] for name in _KEYS if source(name) is not ParameterSource.DEFAULT}
-    if parameters["coulomb"] is not None:
-        chosen["coulomb"] = _number_or_word(parameters["coulomb"])
-    if parameters["leave_out_outliers"]:
-        chosen["outliers"] = "leave out"
-    if parameters["except_steps"] is not None:
-        chosen["except_steps"] = _steps(parameters["except_steps"])
-    return chosen
-
-
-def _number_or_word(text: str) -> float | str:
+def _number_or_word(ctx: click.Context, param: click.Parameter, value: str | None) -> float | str | None:
     try:
-        return float(text)
+        return None if value is None else float(value)
     except ValueError:
-        return text
+        return value
 
 
-def _steps(text: str) -> list[int]:
+def _steps(ctx: click.Context, param: click.Parameter, value: str | None) -> list[int] | None:
     try:
-        return [int(number) for number in text.split(",")]
+        return None if value is None else [int(number) for number in value.split(",")]
     except ValueError:
         raise click.BadParameter(
-            f"{text!r}: must be numbers of steps, such as '2' or '1,3'.", param_hint="--except-steps"
+            f"{value!r}: must be numbers of steps, such as '2' or '1,3'.", param_hint="--except-steps"
         ) from None
+
+
+separation_options = together(
+    column_options("'disc_speed=V1 (mm/s)'", table="measurement."),
+    key("measurement.zero", metavar="FORCE"),
+    key("measurement.zero_error", metavar="FORCE", help="Standard error of --zero."),
+    key("measurement.coulomb", metavar="NUMBER|constant", type=str, callback=_number_or_word),
+    key("measurement.coulomb_error", metavar="NUMBER", help="Standard error of --coulomb."),
+    key(
+        "measurement.except_steps",
+        metavar="NUMBERS",
+        type=str,
+        callback=_steps,
+        help="Steps of the test to leave out, e.g. '1,3', because load or temperature was not steady.",
+    ),
+    key("measurement.outliers", "--leave-out-outliers", flag_value="leave out", help="Leave out outliers."),
+    key("measurement.speed_tolerance"),
+    key("measurement.temperature_tolerance", metavar="DT"),
+    heading="Separation of runs",
+)
 
 
 def separation_record(parameters: dict[str, Any]) -> dict[str, Any]:
@@ -109,11 +70,10 @@ def separation_record(parameters: dict[str, Any]) -> dict[str, Any]:
 def _measurement(parameters: dict[str, Any], **source: Any) -> MeasurementTable:
     """Return the options of a separation as a run file's [measurement] of some files."""
     from viscofric.errors import StudyError
-    from viscofric.study.run_file.measurement import MeasurementTable
-    from viscofric.study.run_file.study import validated
 
     try:
-        return validated(MeasurementTable, source | _given(parameters))
+        table: MeasurementTable = table_of("measurement", parameters, **source)
+        return table
     except StudyError as error:
         if {note_of(one).code for one in error.mistakes or (error.note,)} != {"contradiction"}:
             raise

@@ -9,35 +9,31 @@ import click
 
 from viscofric.cli.commands import Decorator, together
 from viscofric.cli.contact_options import option
-from viscofric.cli.errors import placed_at, typed_as
+from viscofric.cli.keys import key, keys_given, table_of
 
 if TYPE_CHECKING:
     from viscofric.heat.heating import Heating
-    from viscofric.thermal import ThermalProperties
 
 _BODIES = (
-    click.option(
+    key(
+        "heating.counterface",
         "--heating",
         metavar="COUNTERFACE",
         help="Solve at the temperature to which friction heats the contact. Thermal properties of the counterface: "
         "'steel' or 'PTFE' (typical handbook values), '46 W/m/K, 7810 kg/m^3, 475 J/kg/K', or with its diffusivity "
         "'46 W/m/K, 12 mm^2/s'.",
     ),
-    click.option(
-        "--heating-rubber",
-        metavar="BODY",
-        help="The same of the rubber [default: 'filled rubber', typical handbook values: 0.28 W/m/K, 1150 kg/m^3, "
-        "1700 J/kg/K].",
-    ),
-    click.option(
+    key("heating.rubber", "--heating-rubber", metavar="BODY"),
+    key(
+        "heating.coulomb",
         "--heating-coulomb",
-        type=float,
         metavar="μ",
         help="Coulomb friction that heats both faces [default: none, the viscoelastic loss alone].",
     ),
 )
 _STEADY = (
-    click.option(
+    key(
+        "heating.slip",
         "--heating-slip",
         metavar="V",
         help="Sliding velocity between both faces, below zero where the counterface is the faster one [default: the "
@@ -48,18 +44,9 @@ _STEADY = (
         metavar="RADIUS,PASSES",
         help="Earlier passes on a circle: '23 mm,500', or '23 mm,inf' for the final state.",
     ),
-    click.option(
-        "--heating-average",
-        type=click.Choice(("contact", "loss")),
-        help="Mean rise that the rubber responds to: where the loss is released, or of its face [default: loss].",
-    ),
-    click.option(
-        "--heating-branch",
-        type=click.Choice(("cold", "hot")),
-        help="State of a contact that has two: of a rising or of a falling speed [default: cold].",
-    ),
+    key("heating.average", "--heating-average"),
+    key("heating.branch", "--heating-branch"),
 )
-_NAMES = ("rubber", "coulomb", "slip", "track", "average", "branch")
 
 
 def heating_options(*, steady: bool) -> Decorator:
@@ -73,27 +60,15 @@ def heating_options(*, steady: bool) -> Decorator:
 
 def chosen_heating(parameters: dict[str, Any]) -> Heating | None:
     """Return the heating that the options name, None without --heating."""
-    given = {name: parameters.get(f"heating_{name}") for name in _NAMES}
-    known = {name: value for name, value in given.items() if value is not None}
+    given = keys_given("heating", parameters)
+    track = parameters.get("heating_track")
     if parameters["heating"] is None:
-        if known:
-            raise click.UsageError(f"{option(f'heating_{next(iter(known))}')} needs --heating COUNTERFACE.")
+        if names := [*given, *(["track"] if track is not None else [])]:
+            raise click.UsageError(f"{option(f'heating_{names[0]}')} needs --heating COUNTERFACE.")
         return None
-    from viscofric.heat.heating import Heating
-
-    rubber = _body(known.pop("rubber", "filled rubber"), "heating_rubber", "rubber")
-    track = known.pop("track", None)
-    counterface = _body(parameters["heating"], "heating", "counterface")
-    names = {name: f"heating_{name}" for name in _NAMES} | dict.fromkeys(("track_radius", "passes"), "heating_track")
-    with typed_as(names):
-        return Heating(counterface=counterface, rubber=rubber, **known, **({} if track is None else _track(track)))
-
-
-def _body(text: str, parameter: str, name: str) -> ThermalProperties:
-    from viscofric.thermal import body_of
-
-    with placed_at(option(parameter)):
-        return body_of(text, name)
+    table = table_of("heating", parameters, **({} if track is None else _track(track)))
+    heating: Heating = table.heating(table.coulomb[0], None if table.slip is None else table.slip[0])
+    return heating
 
 
 def _track(text: str) -> dict[str, Any]:
@@ -103,7 +78,7 @@ def _track(text: str) -> dict[str, Any]:
     except ValueError:
         words = f"--heating-track {text!r}: give a radius and a number of passes, such as '23 mm,500' or '23 mm,inf'."
         raise click.UsageError(words) from None
-    return {"track_radius": radius, "passes": count}
+    return {"track_radius": radius, "passes": count} if count else {}
 
 
 def heating_record(heating: Heating | None) -> dict[str, Any] | None:

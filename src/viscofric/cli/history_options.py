@@ -9,6 +9,7 @@ import click
 from viscofric.cli.commands import together
 from viscofric.cli.contact_options import chosen_direction, option
 from viscofric.cli.files import Source
+from viscofric.cli.keys import key
 from viscofric.cli.rubber_options import column_options
 from viscofric.cli.speed_options import list_of
 
@@ -29,7 +30,7 @@ history_options = together(
         help="History as a table (CSV or .xlsx): time, load or indentation, position or speed, temperature; units in "
         "the headings.",
     ),
-    column_options("'load=Fz (N)'", "history-", "With --history: "),
+    column_options("'load=Fz (N)'", "history-", "With --history: ", table="history."),
     click.option(
         "--load", metavar="F", help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m')."
     ),
@@ -49,13 +50,7 @@ history_options = together(
     ),
     click.option("--speed", metavar="V", help="Sliding speed, e.g. '100 mm/s'."),
     click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference]."),
-    click.option(
-        "--before",
-        type=click.Choice(["untouched", "at rest", "sliding"]),
-        default="untouched",
-        show_default=True,
-        help="State before the start: untouched, under the first load for ever, or sliding steadily.",
-    ),
+    key("history.before"),
     click.option("--times", metavar="T,T,…", help="Times to report, e.g. '1 ms, 10 ms' [default: all steps]."),
     click.option(
         "--points",
@@ -107,10 +102,13 @@ def _from_file(parameters: dict[str, Any], reference: float | None) -> History:
     for name in _STAGES:
         if parameters[name] is not None:
             raise click.UsageError(f"{option(name)} and --history are both given; the file has the whole history.")
-    names = (*_CONTROLS, "speed", "temperature")
+    names = (*_CONTROLS, "speed", "temperature", "before")
     settings = {name: parameters[name] for name in names if parameters[name] is not None}
-    settings |= {"before": parameters["before"], "direction": chosen_direction(parameters["direction"])}
-    settings |= {"columns": parameters["history_columns"], "sheet": parameters["history_sheet"]}
+    settings |= {
+        "direction": chosen_direction(parameters["direction"]),
+        "columns": parameters["history_columns"],
+        "sheet": parameters["history_sheet"],
+    }
     history = read_history(parameters["history"], **settings)
     if history.temperature is not None or reference is None:
         return history
@@ -147,6 +145,6 @@ def _from_stages(parameters: dict[str, Any], line: bool, reference: float | None
         temperature=reference
         if parameters["temperature"] is None
         else positive(parameters["temperature"], "K", "temperature"),
-        before=parameters["before"],
+        before=parameters["before"] or "untouched",
         direction=chosen_direction(parameters["direction"]),
     )

@@ -18,6 +18,7 @@ from viscofric.cli.contact_options import (
 )
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_dataset
+from viscofric.cli.keys import key
 from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
 from viscofric.cli.rubber_options import chosen_rubber, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
@@ -41,11 +42,9 @@ Examples:
 @rubber_options
 @indenter_options
 @together(
-    click.option("--mass", required=True, metavar="M", help="Mass of the indenter, e.g. '4 g'."),
+    key("impact.mass", metavar="M", required=True, type=str),
     speed_options("Speed at the first touch"),
-    click.option(
-        "--gravity", metavar="G", help="Acceleration towards the material, e.g. '9.81 m/s^2' [default: none]."
-    ),
+    key("impact.gravity", metavar="G", type=str),
     click.option(
         "--rebounds",
         type=click.IntRange(1, 1000),

@@ -11,6 +11,7 @@ from viscofric.cli.commands import Decorator, together
 from viscofric.cli.contact_options import option
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import DASH, Source, plainly
+from viscofric.cli.keys import key, table_of
 
 if TYPE_CHECKING:
     from viscofric.contact.bodies import Layer
@@ -34,23 +35,29 @@ def _headings(ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
     return found
 
 
-def column_options(example: str, of: str = "", condition: str = "") -> Decorator:
-    """Return a decorator that adds the options of a table whose header is not understood, their names begun by `of`."""
-    heading, the = (f"{condition}heading", f"{condition}the") if condition else ("Heading", "The")
+def column_options(example: str, of: str = "", condition: str = "", *, table: str = "material.") -> Decorator:
+    """Return a decorator that adds the options of a table whose header is not understood, their names begun by `of`.
+
+    `table`: how the keys of a run file begin that they give.
+    """
+    heading = f"{condition}heading" if condition else "Heading"
     return together(
-        click.option(
+        key(
+            f"{table}columns",
             f"--{of}column",
             f"{of.replace('-', '_')}columns",
             metavar="NAME=HEADING",
             multiple=True,
+            type=str,
             callback=_headings,
             help=f"{heading} of a column whose header is not understood, e.g. "
             f"{example}; repeatable. A unit may follow in brackets; '#2 (Hz)' is the second column.",
         ),
-        click.option(f"--{of}sheet", metavar="NAME", help=f"{the} only sheet of a workbook to read."),
+        key(f"{table}sheet", f"--{of}sheet", metavar="NAME", condition=condition),
     )
 
 
+_WITH_DMA = "With --dma: "
 rubber_options = together(
     click.option(
         "--material",
@@ -58,30 +65,29 @@ rubber_options = together(
         callback=_piped,
         help="Catalogue name, material file (JSON or a card; `-` for standard input), or run file with a [material].",
     ),
-    click.option(
-        "--dma",
+    key(
+        "material.dma",
         multiple=True,
         type=Source(),
         metavar="FILE",
         help="Alternative: DMA sweeps to fit; repeat for several files of one set.",
     ),
-    click.option(
-        "--reference", metavar="T", help="With --dma: reference temperature, within the sweeps, e.g. '30 degC'."
-    ),
-    click.option(
-        "--deformation",
-        type=click.Choice(["tension", "compression", "bending", "shear"]),
-        help="With --dma: deformation of the test, if no file states it.",
-    ),
-    click.option("--modulus-unit", metavar="UNIT", help="With --dma: unit of the moduli if the file gives none."),
-    column_options("'frequency=f in Hz'", condition="With --dma: "),
+    key("material.reference_temperature", "--reference", metavar="T", condition=_WITH_DMA),
+    key("material.deformation", condition=_WITH_DMA),
+    key("material.modulus_unit", metavar="UNIT", condition=_WITH_DMA),
+    column_options("'frequency=f in Hz'", condition=_WITH_DMA),
     click.option("--synthetic", is_flag=True, help="With --dma: the data are synthetic, not measured."),
     click.option(
         "--E0", "rubber_modulus", metavar="E", help="Alternative: standard linear solid; relaxed modulus, e.g. '1 MPa'."
     ),
     click.option("--E-inf", "glass_modulus", metavar="E", help="Glassy modulus, e.g. '10 MPa'."),
     click.option("--tau", metavar="TIME", help="Retardation time, e.g. '1 ms'."),
-    click.option("--poisson-ratio", type=float, metavar="ν", help="Poisson's ratio with --E0 or --dma [default: 0.5]."),
+    key(
+        "material.poisson_ratio",
+        metavar="ν",
+        type=float,
+        help="Poisson's ratio with --E0 or --dma [default: 0.5].",
+    ),
     click.option("--layer", metavar="H", help="Thickness of a layer on a rigid base [default: half-space]."),
     click.option("--sliding-base", is_flag=True, help="The layer slides on its base instead of being bonded."),
     heading="Material",
@@ -154,16 +160,10 @@ def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
 
 def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
     from viscofric.study.make_rubber import make_rubber
-    from viscofric.study.run_file.material import MaterialTable
-    from viscofric.study.run_file.study import validated
 
     if parameters["reference"] is None:
         raise click.UsageError("--dma needs --reference, the temperature of its master curve, such as '30 degC'.")
-    wanted = {"dma": [str(path) for path in parameters["dma"]], "reference_temperature": parameters["reference"]}
-    wanted |= {name: parameters[name] for name in _OF_FILES if parameters[name]}
-    if parameters["poisson_ratio"] is not None:
-        wanted["poisson_ratio"] = parameters["poisson_ratio"]
-    made = make_rubber(validated(MaterialTable, wanted))
+    made = make_rubber(table_of("material", parameters))
     print_notes(made.notes)
     first, *more = parameters["dma"]
     name = f"the rubber of {plainly(str(first.name))}" + (f" and {len(more)} more" if more else "")
@@ -210,25 +210,13 @@ def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:
     return f"{words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
 
 
-shift_factor_options = column_options("'log10_shift_factor=lg'", "shift-factor-", "Of the shift factors: ")
-
-deformation_option = click.option(
-    "--deformation",
-    type=click.Choice(["tension", "compression", "bending", "shear"]),
-    help="Deformation of the test, if the file does not state it.",
-)
-modulus_unit_option = click.option(
-    "--modulus-unit", metavar="UNIT", help="Unit of the moduli if the file gives none, e.g. MPa."
+shift_factor_options = column_options(
+    "'log10_shift_factor=lg'", "shift-factor-", "Of the shift factors: ", table="material.shift_factor_"
 )
 reading_options = together(
-    deformation_option,
-    click.option(
-        "--temperature",
-        metavar="T",
-        multiple=True,
-        help="Temperature of a file that contains none, e.g. '30 degC'; once, or once for each file.",
-    ),
-    modulus_unit_option,
+    key("material.deformation"),
+    key("material.temperature", metavar="T", multiple=True),
+    key("material.modulus_unit", metavar="UNIT"),
     column_options("'frequency=f in Hz'"),
     heading="Reading of the files",
 )

@@ -11,6 +11,7 @@ import click
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.files import FILE, FOLDER
+from viscofric.cli.keys import key, table_of
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
 from viscofric.cli.output import (
     json_option,
@@ -30,16 +31,13 @@ if TYPE_CHECKING:
 
 _KINDS = ("creep", "relaxation", "master_curve")
 _BESIDE = ("with_creep", "with_relaxation")
-_LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial")
 
 
 @as_command("fit")
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option(
-    "--reference", metavar="T", required=True, help="Reference temperature of the master curve, e.g. '20 degC'."
-)
+@key("material.reference_temperature", "--reference", metavar="T", required=True)
 @reading_options
-@click.option("--name", default="", help="Name of the material, for reports and cards.")
+@key("material.name", help="Name of the material, for reports and cards.")
 @click.option("--creep", is_flag=True, help="FILES are creep tests, J(t) at several temperatures, instead of sweeps.")
 @click.option("--relaxation", is_flag=True, help="FILES are relaxation tests, E(t) or G(t), instead of sweeps.")
 @click.option(
@@ -58,46 +56,22 @@ _LAWS = ("measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polyno
 )
 @click.option("--master-curve", is_flag=True, help="FILES is one finished master curve at the reference temperature.")
 @synthetic_option
-@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
-@click.option(
-    "--vertical-shift",
-    type=click.Choice(["none", "free", "density"]),
-    default="none",
-    show_default=True,
-    help="Vertical shift b(T): none, fitted freely, or from density and temperature.",
-)
-@click.option(
-    "--shift-by",
-    type=click.Choice(["both", "storage", "loss", "loss-tangent"]),
-    default="both",
-    show_default=True,
-    help="Find shift factors from E' and E'', from one of the two, or from tan δ.",
-)
-@click.option(
-    "--shift-weights",
+@key("material.poisson_ratio")
+@key("material.vertical_shift")
+@key("material.shift_by")
+@key(
+    "material.shift_weights",
     metavar="E' E''",
     type=(float, float),
     help="Weights of log E' and log E'' in the superposition, e.g. 1 0.2.",
 )
-@click.option(
-    "--shift",
-    type=click.Choice(_LAWS),
-    default="measured",
-    show_default=True,
-    help="Shift factors of the material: as measured, or a fitted law.",
-)
-@click.option("--shift-factors", type=FILE, help="Use the shift factors of this file instead of fitting them.")
+@key("material.shift")
+@key("material.shift_factors", type=FILE)
 @shift_factor_options
 @click.option("--fix", metavar="T=LOG10", multiple=True, help="Fix one factor, e.g. '-20 degC=4.2'.")
-@click.option(
-    "--spectrum",
-    type=click.Choice(["non-negative", "regularised", "sparse"]),
-    default="non-negative",
-    show_default=True,
-    help="Fit method of the retardation modes.",
-)
-@click.option("--modes", type=int, help="With --spectrum sparse: largest number of modes.")
-@click.option("--tau-ratio", type=float, default=math.e, help="Ratio of neighbouring retardation times [default: e].")
+@key("material.spectrum")
+@key("material.modes")
+@key("material.tau_ratio")
 @click.option(
     "--card", "cards", type=click.Choice(FORMATS), multiple=True, help="Also write a material card for this program."
 )
@@ -181,10 +155,7 @@ def _write_card(material: Material, folder: Path, form: CardFormat, law: CardLaw
 
 def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable:
     """Check the parameters as a run file's [material] is checked."""
-    from viscofric.study.run_file.material import MaterialTable
-    from viscofric.study.run_file.study import validated
-
-    values: dict[str, Any] = {"reference_temperature": parameters["reference"]}
+    values: dict[str, Any] = {}
     if parameters["master_curve"]:
         values["master_curve"] = str(files[0])
     else:
@@ -198,11 +169,8 @@ def _table(files: tuple[Path, ...], parameters: dict[str, Any]) -> MaterialTable
         values["fixed_shift_factors"] = dict(pairs)
         if len(values["fixed_shift_factors"]) < len(pairs):
             raise click.BadParameter("holds one temperature twice.", param_hint="--fix")
-    defaults = {option.name: option.default for option in command.params}
-    for name, value in parameters.items():
-        if name not in ("reference", "fix", *_KINDS, *_BESIDE) and value not in (None, (), {}, defaults.get(name)):
-            values[name] = list(value) if isinstance(value, tuple) else str(value) if isinstance(value, Path) else value
-    return validated(MaterialTable, values)
+    table: MaterialTable = table_of("material", parameters, **values)
+    return table
 
 
 def _fixed(text: str) -> tuple[str, float]:

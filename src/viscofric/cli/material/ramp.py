@@ -10,6 +10,7 @@ import click
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import FOLDER, Source
+from viscofric.cli.keys import key, table_of
 from viscofric.cli.output import (
     json_option,
     out_option,
@@ -18,19 +19,24 @@ from viscofric.cli.output import (
     synthetic_option,
     typed_command,
 )
-from viscofric.cli.rubber_options import column_options, deformation_option, modulus_unit_option
+from viscofric.cli.rubber_options import column_options
 
 
 @as_command("ramp")
 @click.argument("files", nargs=-1, required=True, type=Source())
 @column_options("'frequency=f in Hz'")
-@modulus_unit_option
-@deformation_option
+@key("material.modulus_unit", metavar="UNIT")
+@key("material.deformation")
 @click.option(
     "--direction", type=click.Choice(["heating", "cooling"]), help="Part of a file with both [default: heating]."
 )
 @click.option("--heating-rate", metavar="RATE", help="Heating rate, e.g. '3 K/min', for the note on thermal lag.")
-@click.option("--reference", metavar="T", help="Make a material with this reference temperature, e.g. '20 degC'.")
+@key(
+    "material.reference_temperature",
+    "--reference",
+    metavar="T",
+    help="Make a material with this reference temperature, e.g. '20 degC'.",
+)
 @click.option(
     "--law",
     type=click.Choice(["wlf", "arrhenius", "vft", "wlf+arrhenius"]),
@@ -38,14 +44,9 @@ from viscofric.cli.rubber_options import column_options, deformation_option, mod
     show_default=True,
     help="Shift law to fit; wlf+arrhenius if the ramps begin in the glass.",
 )
-@click.option(
-    "--assumed-shift",
-    metavar="LAW",
-    help="Law to assume instead, needed at one frequency: '250 kJ/mol' (activation energy), "
-    "'WLF 17.44, 51.6 K, -30 degC' (C1, C2, their reference), or universal.",
-)
-@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
-@click.option("--name", default="", help="Name of the material, for reports and cards.")
+@key("material.assumed_shift", metavar="LAW")
+@key("material.poisson_ratio")
+@key("material.name", help="Name of the material, for reports and cards.")
 @synthetic_option
 @json_option("Print ramps and peaks as JSON, in SI units.")
 @out_option("With --reference: folder for the results [default: FILE.material beside the first file].", FOLDER)
@@ -82,29 +83,18 @@ def command(files: tuple[Path, ...], as_json: bool, out: Path | None, **chosen: 
         if chosen["reference"] is None:
             print_notes(ramps.notes)
     if chosen["reference"] is not None:
-        _material(files, reading, out, chosen, as_json)
+        _material(files, out, chosen, as_json)
 
 
-def _material(
-    files: tuple[Path, ...], reading: dict[str, Any], out: Path | None, chosen: dict[str, Any], quiet: bool
-) -> None:
+def _material(files: tuple[Path, ...], out: Path | None, chosen: dict[str, Any], quiet: bool) -> None:
     """Superpose the ramps as a run file would, and say what was written."""
     from viscofric.report import write_figures_and_report
     from viscofric.study.rubber_results import run_material
-    from viscofric.study.run_file.material import MaterialTable
-    from viscofric.study.run_file.study import validated
 
-    values: dict[str, Any] = {
-        "ramps": [str(path) for path in files],
-        "reference_temperature": chosen["reference"],
-        "poisson_ratio": chosen["poisson_ratio"],
-        "name": chosen["name"],
-    }
-    law = {"assumed_shift": chosen["assumed_shift"]} if chosen["assumed_shift"] else {"shift": chosen["law"]}
-    more = {**reading, **law}
+    law = {} if chosen["assumed_shift"] else {"shift": chosen["law"]}
     folder = files[0].with_suffix(".material") if out is None else out
     results, rubber, written = run_material(
-        validated(MaterialTable, values | {name: value for name, value in more.items() if value}),
+        table_of("material", chosen, ramps=[str(path) for path in files], **law),
         folder,
         title=chosen["name"] or f"Material from the temperature ramps in {files[0].name}",
         command=typed_command(),

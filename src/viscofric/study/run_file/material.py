@@ -149,7 +149,7 @@ class MaterialTable(Table):
         "non-negative", description="Method of fitting the retardation spectrum."
     )
     modes: Count | None = Field(
-        None, ge=1, le=200, description="Largest number of retardation modes, with spectrum = 'sparse'."
+        None, ge=1, le=200, description="Largest number of retardation modes of a sparse spectrum."
     )
     tau_ratio: Number = Field(math.e, gt=1.0, le=100.0, description="Ratio of neighbouring retardation times.")
 
