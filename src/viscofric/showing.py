@@ -192,6 +192,13 @@ def shown_as_text(name: str, rows: Rows) -> str:
     return "\n".join([name, *(f"  {label:{width}}  {text}" for label, text in shown)])
 
 
+def aligned(rows: Iterable[Iterable[str]]) -> list[str]:
+    """Return rows as lines of text whose columns stand flush right."""
+    cells = [list(row) for row in rows]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in cells]
+
+
 def shown_as_html(name: str, rows: Rows) -> str:
     """Return an object as a table of HTML, which is well-formed XML."""
     lines = (f"<tr><th>{escape(label)}</th><td>{escape(text)}</td></tr>" for label, text in _texts(rows))

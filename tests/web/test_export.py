@@ -105,6 +105,8 @@ def test_run_file_is_reported_with_its_cases_its_files_and_what_is_wrong(desk: D
     (problem,) = missing["problems"]
     assert problem["field"] == "material.dma"
     assert "two.csv" in problem["message"]
+    (problem,) = desk.run(export_run_file, {**SWEEPS, "history": {"file": "over_time.csv"}})["problems"]
+    assert problem["field"] == "history.file"
     wrong = desk.run(export_run_file, {**SWEEPS, "indenter": {"shape": "bal", "radius": "9.525 mm"}})
     assert [one["field"] for one in wrong["problems"]] == ["indenter"]
     assert 'shape = "bal"' in wrong["text"]

@@ -62,7 +62,7 @@ def command(first: Path, second: Path, tolerance: float | None, out: Path | None
 
 
 def _print(first: Path, second: Path, found: ResultsComparison) -> None:
-    from viscofric.report.texts.tables import aligned
+    from viscofric.showing import aligned
 
     click.echo(f"A  {first}\nB  {second}\n")
     only = f", {found.only_first} only in A, {found.only_second} only in B" if found.axes else ""

@@ -212,9 +212,7 @@ contact_options = together(
         help="Coulomb friction coefficient, whose shear changes the pressure; negative for slip against the motion "
         "[default: none].",
     ),
-    click.option(
-        "--accuracy", type=float, default=1e-3, show_default=True, help="Target relative error of the friction."
-    ),
+    key("solver.accuracy", type=float, default=1e-3),
     click.option(
         "--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda."
     ),

@@ -185,7 +185,7 @@ def _figure_of(curves: FrictionCurves) -> str:
 def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
     """Print a table of friction: a line for each speed, a column for each temperature."""
     from viscofric.report.texts.numbers import percent, significant
-    from viscofric.report.texts.tables import aligned
+    from viscofric.showing import aligned
     from viscofric.units import shown_celsius
 
     click.echo(f"{name}{rubber.mark}, {significant(float(curves.load[0]), 4)} {curves.load_unit}\n")

@@ -43,11 +43,7 @@ history_options = together(
     ),
     click.option("--dwell", metavar="TIME", help="Time at rest before the sliding, e.g. '0.1 s' [default: none]."),
     click.option("--slide", metavar="LENGTH", help="Length of the path, e.g. '20 mm' [default: no sliding]."),
-    click.option(
-        "--strokes",
-        type=click.IntRange(1, 10_000),
-        help="Number of strokes along the path, back and forth [default: 1].",
-    ),
+    key("history.strokes", type=click.IntRange(1, 10_000)),
     click.option("--speed", metavar="V", help="Sliding speed, e.g. '100 mm/s'."),
     click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference]."),
     key("history.before"),

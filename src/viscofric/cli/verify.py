@@ -38,7 +38,7 @@ def compare_test(folder: Path, as_json: bool) -> None:
     from viscofric.datasets import plain, record
     from viscofric.report.results import group, is_synthetic, sentences
     from viscofric.report.texts.friction_tables import measurement_table
-    from viscofric.report.texts.tables import aligned
+    from viscofric.showing import aligned
     from viscofric.study.friction_test import open_friction_test
     from viscofric.study.results.results import open_results
 

@@ -10,14 +10,6 @@ from viscofric.errors import DataFileError
 from viscofric.files import parse_toml
 from viscofric.web.jobs.context import JobError
 
-#: Tables of a run file, and their keys that name files.
-FILE_KEYS = {
-    "material": ("dma", "ramps", "creep", "relaxation", "master_curve", "file", "shift_factors", "amplitude_sweep"),
-    "measurement": ("mtm", "curves"),
-    "surface": ("file",),
-    "history": ("file",),
-}
-
 
 class Named(NamedTuple):
     """Where a study names files."""
@@ -30,13 +22,15 @@ class Named(NamedTuple):
 
 def named_files(document: dict[str, Any]) -> Iterator[Named]:
     """Yield each place of a study that names files; what has another shape than it should is left out."""
-    for name, keys in FILE_KEYS.items():
+    from viscofric.study.run_file.study import TABLES
+
+    for name, kind in TABLES.items():
         several = document.get(name)
         for number, table in enumerate(several if isinstance(several, list) else [several]):
             if not isinstance(table, dict):
                 continue
             place = f"{name}[{number}]" if isinstance(several, list) else name
-            for key in keys:
+            for key in getattr(kind, "FILES", ()):
                 value = table.get(key)
                 names = [one for one in (value if isinstance(value, list) else [value]) if isinstance(one, str)]
                 if names:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscofric.notes import listed
+from viscofric.showing import aligned
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -58,19 +59,18 @@ _CONTENT: dict[TestKind, tuple[str, Callable[[Any], Iterable[Any]], tuple[str, .
 }
 #: Words of several -> the word of one, if not without its s.
 _ONE = {"frequencies": "frequency"}
-#: Quantity -> heading (in tension, in shear), width of a range, factor and offset to what is printed.
+#: Quantity -> heading (in tension, in shear), factor and offset to what is printed.
 _PRINTED = {
-    "temperature": (("T (°C)",), 16, 1.0, -273.15),
-    "points": (("points",), 6, 1, 0),
-    "angular_frequency": (("f (Hz)",), 19, 1.0 / (2.0 * math.pi), 0.0),
-    "storage_modulus": (("E' (MPa)", "G' (MPa)"), 19, 1e-6, 0.0),
-    "loss_tangent": (("tan δ",), 15, 1.0, 0.0),
-    "strain_amplitude": (("strain (%)",), 19, 100.0, 0.0),
-    "time": (("t (s)",), 19, 1.0, 0.0),
-    "creep_compliance": (("D(t) (1/MPa)", "J(t) (1/MPa)"), 21, 1e6, 0.0),
-    "relaxation_modulus": (("E(t) (MPa)", "G(t) (MPa)"), 21, 1e-6, 0.0),
+    "temperature": (("T (°C)",), 1.0, -273.15),
+    "points": (("points",), 1, 0),
+    "angular_frequency": (("f (Hz)",), 1.0 / (2.0 * math.pi), 0.0),
+    "storage_modulus": (("E' (MPa)", "G' (MPa)"), 1e-6, 0.0),
+    "loss_tangent": (("tan δ",), 1.0, 0.0),
+    "strain_amplitude": (("strain (%)",), 100.0, 0.0),
+    "time": (("t (s)",), 1.0, 0.0),
+    "creep_compliance": (("D(t) (1/MPa)", "J(t) (1/MPa)"), 1e6, 0.0),
+    "relaxation_modulus": (("E(t) (MPa)", "G(t) (MPa)"), 1e-6, 0.0),
 }
-_WIDTH = 8  # of a single number
 
 
 def described(kind: TestKind, test: Any, files: Iterable[str]) -> tuple[dict[str, Any], list[str]]:
@@ -94,9 +94,7 @@ def described(kind: TestKind, test: Any, files: Iterable[str]) -> tuple[dict[str
     shear = test.deformation == "shear"
     cells = [[_PRINTED[name][0][-1 if shear else 0] for name in names]]
     cells += [[_cell(name, value) for name, value in row.items()] for row in rows]
-    widths = [_PRINTED[name][1] if isinstance(rows[0][name], (list, int)) else _WIDTH for name in names]
-    lines += ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in cells]
-    return found, lines
+    return found, [*lines, *aligned(cells)]
 
 
 def _value(one: Any, name: str) -> Any:

@@ -89,16 +89,13 @@ def _moduli(material: Material, temperature: str | None, wanted: tuple[str, ...]
 def _lines(moduli: Dataset) -> list[str]:
     import numpy as np
 
+    from viscofric.showing import aligned
     from viscofric.units import shown_celsius
 
     at = moduli.attrs.get("temperature")
-    headings = zip(("ω (rad/s)", "f (Hz)", "E' (MPa)", "E'' (MPa)", "tan δ"), (12, 10, 10, 10, 8), strict=True)
-    lines = ["modulus:" if at is None else f"modulus at {shown_celsius(at)} °C:"]
-    lines.append("  ".join(f"{name:>{width}}" for name, width in headings))
+    rows = [["ω (rad/s)", "f (Hz)", "E' (MPa)", "E'' (MPa)", "tan δ"]]
     columns = (moduli[name].values for name in ("angular_frequency", "storage_modulus", "loss_modulus"))
     for frequency, storage, loss in zip(*columns, strict=True):
-        lines.append(
-            f"{frequency:12.4g}  {frequency / (2 * np.pi):10.4g}  {storage / 1e6:10.4g}  {loss / 1e6:10.4g}"
-            f"  {loss / storage:8.4g}"
-        )
-    return lines
+        numbers = (frequency, frequency / (2 * np.pi), storage / 1e6, loss / 1e6, loss / storage)
+        rows.append([f"{number:.4g}" for number in numbers])
+    return ["modulus:" if at is None else f"modulus at {shown_celsius(at)} °C:", *aligned(rows)]

@@ -14,7 +14,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import SAME_TEMPERATURE, numbered
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import ABSENT, percent, several, short, significant
-from viscofric.report.texts.tables import aligned
+from viscofric.showing import aligned
 from viscofric.traction import TractionRuns
 from viscofric.units import shown_celsius, shown_number
 

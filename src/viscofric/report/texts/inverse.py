@@ -15,11 +15,11 @@ from viscofric.friction.shifting.shift_agreement import ShiftAgreement
 from viscofric.notes import listed
 from viscofric.report.results import values
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
-from viscofric.report.texts.tables import aligned
 from viscofric.rheology.cards import native
 from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.showing import aligned
 from viscofric.units import shown_celsius, shown_number
 
 _SHIFT_UNITS = {

@@ -15,7 +15,7 @@ from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
 from viscofric.motion.solution import TransientSolution
 from viscofric.notes import Note, listed
 from viscofric.report.texts.numbers import degrees, length, prefixed, short, significant, with_error
-from viscofric.report.texts.tables import aligned
+from viscofric.showing import aligned
 
 _ERRORS_IN_TIME = Note(
     "errors-in-time",

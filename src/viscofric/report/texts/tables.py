@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -43,13 +43,6 @@ def times(factor: float, digits: int = 4) -> Callable[[float], str]:
 def whole(value: float) -> str:
     """Write a whole number."""
     return f"{value:.0f}" if np.isfinite(value) else ABSENT
-
-
-def aligned(rows: Iterable[Iterable[str]]) -> list[str]:
-    """Return rows as lines of text whose columns stand flush right."""
-    cells = [list(row) for row in rows]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in cells]
 
 
 def made_table(

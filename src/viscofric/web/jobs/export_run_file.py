@@ -9,6 +9,7 @@ from viscofric.notes import Note
 from viscofric.study.run_file.study import Study
 from viscofric.web.jobs.context import Context, JobOptions, beside_field
 from viscofric.web.jobs.export_files import archive, missing_files, offered
+from viscofric.web.study_files import named_files
 from viscofric.web.study_text import RUN_FILE, DocumentError, study_of, study_text
 
 ARCHIVE = "study.zip"
@@ -76,10 +77,5 @@ def _text_of(study: dict[str, Any]) -> str:
 
 
 def _place_of(study: dict[str, Any], name: str) -> str:
-    """Return the path in the document where a file is named; that of its table, if a pattern stands for it."""
-    for table in ("material", "surface", "measurement"):
-        entries = study.get(table)
-        for key, value in entries.items() if isinstance(entries, dict) else ():
-            if value == name or (isinstance(value, list) and name in value):
-                return f"{table}.{key}"
-    return ""
+    """Return the path in the document where a file is named; none if a pattern stands for it."""
+    return next((one.place for one in named_files(study) if name in one.names), "")

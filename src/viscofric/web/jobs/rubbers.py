@@ -24,7 +24,6 @@ from viscofric.study.run_file.study import validated
 from viscofric.study.run_file.tables import Table, files_of
 from viscofric.study.study_rubber import FrictionBands, StudyRubber
 from viscofric.web.jobs.context import Context
-from viscofric.web.study_files import FILE_KEYS
 
 Made = TypeVar("Made")
 
@@ -49,7 +48,7 @@ def checked_tables(study: Mapping[str, Any], context: Context) -> tuple[Material
         material=(MaterialTable, {} if material is None else material),
         uncertainty=(UncertaintyTable, study.get("uncertainty", {})),
     )
-    for key in FILE_KEYS["material"]:
+    for key in MaterialTable.FILES:
         insist_on_uploads(f"material.{key}", getattr(tables.material, key), context.files)
     return tables.material.relative_to(context.files), tables.uncertainty
 
