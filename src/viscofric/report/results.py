@@ -29,23 +29,18 @@ def group(tree: DataTree, name: str) -> Dataset | None:
 
 def rubbers(tree: DataTree) -> list[tuple[str, DataTree]]:
     """Return the results of each of several rubbers, by name, as a tree like the whole; else empty."""
-    parent = tree.children.get(_RUBBERS)
-    if parent is None:
+    if "materials" not in tree.children:
         return []
-    prediction = group(tree, "prediction")
-    named: Any = (
-        [] if prediction is None or "material" not in prediction.coords else np.ravel(prediction["material"].values)
-    )
+    from viscofric.study.results.file import rubbers_of
+
     found = []
-    for index, place in enumerate(sorted(parent.children, key=lambda name: (len(name), name))):
-        branch = parent.children[place].copy(deep=False)
-        branch.attrs = {name: tree.attrs[name] for name in _SHARED if name in tree.attrs} | branch.attrs
-        name = str(named[index]) if index < len(named) else str(branch.attrs.get("material", ""))
-        found.append((name or f"rubber {place}", branch))
+    for name, branch in rubbers_of(tree).items():
+        branch = branch.copy(deep=False)
+        branch.attrs = {shared: tree.attrs[shared] for shared in _SHARED if shared in tree.attrs} | branch.attrs
+        found.append((name, branch))
     return found
 
 
-_RUBBERS = "materials"
 _SHARED = ("data_origin", "accuracy", "load", "poisson_ratio", "indenter_radius")
 
 

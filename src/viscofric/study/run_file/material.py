@@ -17,7 +17,6 @@ from viscofric.study.run_file.tables import (
     FileNames,
     Headings,
     Number,
-    Problem,
     Table,
     Temperature,
     Words,
@@ -25,7 +24,6 @@ from viscofric.study.run_file.tables import (
     listed,
     one_or_more,
     schema_of,
-    with_options,
 )
 from viscofric.units import conversion
 
@@ -162,11 +160,6 @@ class MaterialTable(Table):
     measured_at: Annotated[Number, Field(gt=0.0, le=10.0)] | None = Field(
         None, description="Tensile strain of the sweeps, a fraction; small if left out."
     )
-
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
-        for words in self._doubts():
-            yield "", with_options(words, type(self).model_fields)
 
     def _doubts(self) -> Iterator[str]:
         given = [name for name in SOURCES if getattr(self, name) is not None]

@@ -17,14 +17,12 @@ from viscofric.study.run_file.tables import (
     Force,
     Headings,
     Number,
-    Problem,
     SignedForce,
     Table,
     TemperatureStep,
     Words,
     listed,
     one_or_more,
-    with_options,
 )
 
 
@@ -64,11 +62,6 @@ class MeasurementTable(Table):
     temperature_tolerance: TemperatureStep = Field(
         1.0, description="Gap that separates nominal temperatures.", json_schema_extra={"default": "1 delta_degC"}
     )
-
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
-        for words in self._doubts():
-            yield "", with_options(words, type(self).model_fields)
 
     def _doubts(self) -> Iterator[str]:
         if not self.mtm and self.curves is None:

@@ -88,6 +88,11 @@ class Table(BaseModel):
 
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
+        for words in self._doubts():
+            yield "", with_options(words, type(self).model_fields)
+
+    def _doubts(self) -> Iterator[str]:
+        """Yield the contradictions between its keys, in words."""
         yield from ()
 
     @model_validator(mode="after")
