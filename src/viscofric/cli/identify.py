@@ -82,7 +82,7 @@ def check_anchor(parameters: dict[str, Any]) -> str | None:
 def make_anchor(parameters: dict[str, Any], what: str, load_unit: str) -> Anchor:
     """Return the requested anchor, which was checked; a load is in N, or of a line contact in N/m."""
     from viscofric.friction.identification.anchors import ContactAnchor, ModulusAnchor
-    from viscofric.units import positive, to_si
+    from viscofric.units import positive
 
     options: dict[str, Any] = {} if parameters["anchor_error"] is None else {"error": parameters["anchor_error"]}
     typed = {name.removeprefix("anchor_"): name for name in parameters if name.startswith("anchor_")}
@@ -92,9 +92,7 @@ def make_anchor(parameters: dict[str, Any], what: str, load_unit: str) -> Anchor
             return ModulusAnchor(_of(parameters, "modulus"), *more, **options)
         options |= {name: _of(parameters, name) for name in _OF_SIZE}
         options["load"] = positive(options["load"], load_unit, "load")
-        if what == "area":
-            return ContactAnchor(contact_area=to_si(_of(parameters, "area"), "m**2", "area"), **options)
-        return ContactAnchor(**{what: _of(parameters, what)}, **options)
+        return ContactAnchor(**{"contact_area" if what == "area" else what: _of(parameters, what)}, **options)
 
 
 def _of(parameters: dict[str, Any], name: str) -> Any:

@@ -15,7 +15,7 @@ from viscofric.friction.identification.result import IdentifiedMaterial
 from viscofric.notes import Note
 from viscofric.rheology.cards import write_card
 from viscofric.rheology.material import Material
-from viscofric.units import angular_frequency, positive, to_si
+from viscofric.units import angular_frequency, positive
 from viscofric.web.figures.friction import identified_view
 from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.friction_data import by_temperature, measured_points, texts
@@ -201,7 +201,5 @@ def _of_modulus(requested: AnchorOptions, rubber: Material | None) -> Anchor:
 
 def _of_contact(requested: AnchorOptions, load_unit: str) -> Anchor:
     size, speed, load = _given(requested, "size", "speed", "load")
-    place: dict[str, Any] = {"speed": speed, "temperature": requested.temperature, "error": requested.error}
-    place["load"] = positive(load, load_unit, "load")
-    unit = "m**2" if requested.of == "contact_area" else "m"
-    return ContactAnchor(**{requested.of: to_si(size, unit, requested.of)}, **place)
+    given: dict[str, Any] = {requested.of: size, "load": positive(load, load_unit, "load")}
+    return ContactAnchor(speed, requested.temperature, **given, error=requested.error)
