@@ -6,29 +6,25 @@ from collections.abc import Iterator
 from dataclasses import fields
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
 from viscofric.rheology.interface.fitting import KINDS
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.study.run_file.tables import (
-    VALUE,
     Number,
     Pressure,
     Problem,
     Speed,
     Table,
     Temperature,
+    above_zero,
     as_text,
-    with_unit,
     worded,
 )
-from viscofric.units import positive
 
-Volume = Annotated[float, BeforeValidator(lambda value: positive(with_unit(value), "m**3", VALUE)), as_text("20 nm**3")]
-Energy = Annotated[
-    float, BeforeValidator(lambda value: positive(with_unit(value), "J/mol", VALUE)), as_text("80 kJ/mol")
-]
+Volume = Annotated[float, above_zero("m**3"), as_text("20 nm**3")]
+Energy = Annotated[float, above_zero("J/mol"), as_text("80 kJ/mol")]
 Part = Annotated[Number, Field(ge=0.0, lt=1.0)]
 #: Constants of each law.
 CONSTANTS = {kind: tuple(one.name for one in fields(law) if not one.kw_only) for kind, law in KINDS.items()}

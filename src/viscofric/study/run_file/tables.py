@@ -174,7 +174,8 @@ def _load(value: object) -> float:
             raise (other if "above zero" in str(other) else error) from None
 
 
-def _positive(unit: str) -> BeforeValidator:
+def above_zero(unit: str) -> BeforeValidator:
+    """Return what reads a quantity above zero in a unit."""
     return BeforeValidator(lambda value: positive(with_unit(value), unit, VALUE))
 
 
@@ -189,19 +190,19 @@ def as_text(*units: str) -> WithJsonSchema:
 
 
 # A user's value, already turned into SI.
-Length = Annotated[float, _positive("m"), as_text("9.525 mm")]
-Force = Annotated[float, _positive("N"), as_text("25 N")]
-Speed = Annotated[float, _positive("m/s"), as_text("100 mm/s")]
-Angle = Annotated[float, _positive("rad"), as_text("5 deg")]
-Modulus = Annotated[float, _positive("Pa"), as_text("200 GPa")]
-Pressure = Annotated[float, _positive("Pa"), as_text("50 kPa")]
-Mass = Annotated[float, _positive("kg"), as_text("4 g")]
-Gravity = Annotated[float, _positive("m/s**2"), as_text("9.81 m/s^2")]
+Length = Annotated[float, above_zero("m"), as_text("9.525 mm")]
+Force = Annotated[float, above_zero("N"), as_text("25 N")]
+Speed = Annotated[float, above_zero("m/s"), as_text("100 mm/s")]
+Angle = Annotated[float, above_zero("rad"), as_text("5 deg")]
+Modulus = Annotated[float, above_zero("Pa"), as_text("200 GPa")]
+Pressure = Annotated[float, above_zero("Pa"), as_text("50 kPa")]
+Mass = Annotated[float, above_zero("kg"), as_text("4 g")]
+Gravity = Annotated[float, above_zero("m/s**2"), as_text("9.81 m/s^2")]
 Direction = Annotated[float, _signed("rad"), as_text("30 deg")]
 # Plain, or pydantic would convert a load per length to a plain float.
 Load = Annotated[float, PlainValidator(_load), as_text("25 N", "2 N/mm")]
 Temperature = Annotated[float, BeforeValidator(kelvin), as_text("30 degC")]
-TemperatureStep = Annotated[float, _positive("delta_degC"), as_text("1 delta_degC")]
+TemperatureStep = Annotated[float, above_zero("delta_degC"), as_text("1 delta_degC")]
 SignedSpeed = Annotated[float, _signed("m/s"), as_text("-50 mm/s")]
 SignedForce = Annotated[float, _signed("N"), as_text("0.12 N")]
 

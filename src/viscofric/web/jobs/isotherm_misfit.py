@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
 from viscofric.datasets import plain
 from viscofric.rheology.superposition.overlap import LogSweep, join_at
 from viscofric.rheology.superposition.result import Superposition
-from viscofric.study.run_file.tables import kelvin
+from viscofric.study.run_file.tables import Temperature
 from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.rubbers import made_rubber
 
@@ -21,7 +21,7 @@ _NAMED = 0.05
 class Options(JobOptions):
     """Which isotherm, and how far it may be dragged."""
 
-    temperature: Annotated[float, BeforeValidator(kelvin)]
+    temperature: Temperature
     reach: float = Field(3.0, gt=0.0, le=10.0)
     step: float = Field(0.02, ge=0.005, le=1.0)
 

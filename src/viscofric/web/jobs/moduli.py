@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
-from pydantic import BeforeValidator
 
 from viscofric.datasets import plain
 from viscofric.study.rubber import Rubber
-from viscofric.study.run_file.tables import kelvin
+from viscofric.study.run_file.tables import Temperature
 from viscofric.web.figures.spectrum import moduli_figures
 from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.rubbers import friction_bands, made_rubber
@@ -22,7 +21,7 @@ _NEAR = 1.0
 class Options(JobOptions):
     """Where the modulus is requested."""
 
-    temperature: Annotated[float, BeforeValidator(kelvin)]
+    temperature: Temperature
     bands: bool = True
 
 
