@@ -61,6 +61,8 @@ def test_json_shows_inputs_and_points() -> None:
     assert point["viscoelastic"] == alone.friction_coefficient
     assert point["temperature"] == pytest.approx(313.15)
     assert found["inputs"]["material"]["E0"] == 1e6
+    assert (found["inputs"]["load"], found["inputs"]["layer"]) == (100.0, None)
+    assert found["inputs"]["indenter"] == {"shape": "cylinder", "radius": 0.01, "elastic": None}
 
 
 def test_points_at_frequencies_that_were_not_measured_are_marked(tmp_path: Path) -> None:

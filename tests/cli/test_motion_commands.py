@@ -261,6 +261,7 @@ def test_one_impact_is_reported_with_its_rebounds(tmp_path: Path) -> None:
     )
     assert [one["restitution"] for one in found["contacts"]] == [one.restitution for one in hit.contacts]
     assert found["results"]["velocity"] == hit.velocity.tolist()
+    assert (found["inputs"]["mass"], found["inputs"]["gravity"]) == (0.033, 9.81)
     done = call(*words, "--picture", tmp_path / "hit.svg", "--out", tmp_path / "hit.nc")
     assert done.stdout.count("\nrestitution") == len(hit.contacts)
     assert float(lines(done)["largest indentation"].split()[0]) > 0.0

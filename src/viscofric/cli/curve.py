@@ -10,6 +10,7 @@ import click
 
 from viscofric.cli.commands import CONDITIONS, as_command, together
 from viscofric.cli.contact_options import (
+    NamedIndenter,
     chosen_indenter,
     contact_options,
     contact_settings,
@@ -18,7 +19,7 @@ from viscofric.cli.contact_options import (
 )
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, refuse_to_overwrite
-from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
+from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
 from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, write_files
 from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.cli.run import NOT_ACCURATE
@@ -94,7 +95,7 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
             heating=chosen_heating(parameters),
             **settings,
         )
-    answer(lambda: _record(curves, rubber, shape.record, parameters), lambda: _print(name, rubber, curves))
+    answer(lambda: _record(curves, rubber, shape, parameters), lambda: _print(name, rubber, curves))
     print_notes(curves.notes)
     write_files(
         ("curves", out, partial(write_friction_curves, curves)),
@@ -151,13 +152,14 @@ def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
 
 
 def _record(
-    curves: FrictionCurves, rubber: NamedRubber, indenter: dict[str, Any], parameters: dict[str, Any]
+    curves: FrictionCurves, rubber: NamedRubber, shape: NamedIndenter, parameters: dict[str, Any]
 ) -> dict[str, Any]:
     from viscofric.report.texts.friction import friction_record
 
-    names = ("layer", "sliding_base", *contact_settings(parameters), "load", "samples", "workers")
-    inputs = {"material": rubber.record(None), "indenter": indenter} | {name: parameters[name] for name in names}
-    return friction_record(curves, inputs | {"heating": heating_record(chosen_heating(parameters))})
+    inputs = contact_inputs(parameters, rubber, shape, None)
+    inputs |= {name: parameters[name] for name in ("coulomb", "accuracy", "backend", "samples", "workers")}
+    direction = contact_settings(parameters)["direction"]
+    return friction_record(curves, inputs | {"direction": list(direction), "load": float(curves.load[0])})
 
 
 def _of_heat(curves: FrictionCurves, rows: slice) -> list[list[str]]:

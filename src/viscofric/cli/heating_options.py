@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import Decorator, together
-from viscofric.cli.contact_options import option
+from viscofric.cli.contact_options import NamedIndenter, elastic_record, option
 from viscofric.cli.keys import key, keys_given, table_of
+from viscofric.cli.rubber_options import NamedRubber, chosen_layer
 
 if TYPE_CHECKING:
     from viscofric.heat.heating import Heating
@@ -62,7 +63,7 @@ def chosen_heating(parameters: dict[str, Any]) -> Heating | None:
     """Return the heating that the options name, None without --heating."""
     given = keys_given("heating", parameters)
     track = parameters.get("heating_track")
-    if parameters["heating"] is None:
+    if parameters.get("heating") is None:
         if names := [*given, *(["track"] if track is not None else [])]:
             raise click.UsageError(f"{option(f'heating_{names[0]}')} needs --heating COUNTERFACE.")
         return None
@@ -81,7 +82,20 @@ def _track(text: str) -> dict[str, Any]:
     return {"track_radius": radius, "passes": count} if count else {}
 
 
-def heating_record(heating: Heating | None) -> dict[str, Any] | None:
+def contact_inputs(
+    parameters: dict[str, Any], rubber: NamedRubber, shape: NamedIndenter, kelvin: float | None
+) -> dict[str, Any]:
+    """Return what is in contact in plain types, SI: the rubber with its modes at a temperature, indenter, and heat."""
+    layer = chosen_layer(parameters)
+    return {
+        "material": rubber.record(kelvin),
+        "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
+        "indenter": shape.record | {"elastic": elastic_record(parameters)},
+        "heating": _record(chosen_heating(parameters)),
+    }
+
+
+def _record(heating: Heating | None) -> dict[str, Any] | None:
     """Return the heating in plain types, SI; an infinite number of passes is the word."""
     if heating is None:
         return None

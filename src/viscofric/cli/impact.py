@@ -11,13 +11,13 @@ from viscofric.cli.commands import CONDITIONS, as_command, together
 from viscofric.cli.contact_options import (
     chosen_indenter,
     elastic_options,
-    elastic_record,
     elastic_settings,
     indenter_options,
     inputs_of,
 )
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_dataset
+from viscofric.cli.heating_options import contact_inputs
 from viscofric.cli.keys import key
 from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
 from viscofric.cli.rubber_options import chosen_rubber, rubber_options
@@ -83,14 +83,13 @@ def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
 
     def record() -> dict[str, Any]:
         from viscofric.report.texts.motion import impact_record
+        from viscofric.units import to_si
 
-        inputs = {
-            "material": rubber.record(None if kelvins is None else kelvins[0]),
-            "indenter": shape.record | {"elastic": elastic_record(parameters)},
-            **{key: parameters[key] for key in ("mass", "gravity", "rebounds", "accuracy")},
-            "speed": speeds,
-            "temperature": kelvins,
-        }
+        gravity = 0.0 if parameters["gravity"] is None else to_si(parameters["gravity"], "m/s**2")
+        inputs = contact_inputs(parameters, rubber, shape, None if kelvins is None else kelvins[0])
+        inputs |= {name: parameters[name] for name in ("rebounds", "accuracy")}
+        inputs |= {"mass": to_si(parameters["mass"], "kg"), "gravity": gravity}
+        inputs |= {"speed": speeds, "temperature": kelvins}
         return impact_record(inputs, result, seconds)
 
     answer(record, lambda: _print(f"{name}{rubber.mark}, {parameters['mass']}\n", result, seconds), indent=None)

@@ -14,13 +14,12 @@ from viscofric.cli.contact_options import (
     chosen_indenter,
     contact_options,
     contact_settings,
-    elastic_record,
     indenter_options,
     inputs_of,
 )
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_fields
-from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
+from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
 from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
 from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
 from viscofric.cli.speed_options import list_of
@@ -134,15 +133,11 @@ def _inputs(
     """Return the request, in SI units; an infinite speed is the word."""
     from viscofric.units import to_si
 
-    layer = chosen_layer(parameters)
     return {
-        "material": rubber.record(solution.temperature),
-        "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
-        "indenter": shape.record | {"elastic": elastic_record(parameters)},
+        **contact_inputs(parameters, rubber, shape, solution.temperature),
         "speed": solution.speed if math.isfinite(solution.speed) else "infinite",
         "direction": list(solution.direction),
         "coulomb": parameters["coulomb"],
-        "heating": heating_record(chosen_heating(parameters)),
         "held": "load" if parameters["load"] is not None else "indentation",
         "load": solution.load if parameters["load"] is not None else None,
         "indentation": solution.indentation if parameters["indentation"] is not None else None,

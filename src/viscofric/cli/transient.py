@@ -15,7 +15,6 @@ from viscofric.cli.contact_options import (
     chosen_body,
     direction_option,
     elastic_options,
-    elastic_record,
     elastic_settings,
     indenter_options,
     inputs_of,
@@ -23,7 +22,7 @@ from viscofric.cli.contact_options import (
 )
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, PICTURES, WRITTEN, Source, check_ending, refuse_to_overwrite, write_dataset
-from viscofric.cli.heating_options import chosen_heating, heating_options, heating_record
+from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
 from viscofric.cli.history_options import chosen_history, chosen_times, history_options
 from viscofric.cli.output import (
     answer,
@@ -193,16 +192,9 @@ def _record(
     """Return the request and the results in plain types, SI."""
     from viscofric.report.texts.motion import transient_record
 
-    layer = chosen_layer(parameters)
     kelvin = None if history.temperature is None else float(history.temperature[0])
-    inputs = {
-        "material": rubber.record(kelvin),
-        "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
-        "indenter": shape.record | {"elastic": elastic_record(parameters)},
-        "heating": heating_record(chosen_heating(parameters)),
-        "coulomb": parameters["coulomb"],
-        "accuracy": parameters["accuracy"],
-    }
+    inputs = contact_inputs(parameters, rubber, shape, kelvin)
+    inputs |= {name: parameters[name] for name in ("coulomb", "accuracy")}
     return transient_record(inputs, history, result, seconds)
 
 
