@@ -439,6 +439,8 @@ def test_temperatures_may_be_given_for_each_file(tmp_path):
     third = write(tmp_path, HEADER.replace("storage", "tensile storage"), "50,1,5,0.5", "50,2,6,0.6", name="c.csv")
     sweeps = read_dma([first, second], third, temperature=["20 degC", 303.15, None])
     assert sweeps.temperatures == pytest.approx([293.15, 303.15, 323.15])
+    for one_for_all in ("20 degC", ["20 degC"]):
+        assert read_dma([first, second], temperature=one_for_all).temperatures == pytest.approx([293.15])
     with refused("wrong-count", None, "2 values", "3 files"):
         read_dma(first, second, third, temperature=["20 degC", "30 degC"])
     with refused("looks-like-celsius", None, "'20 degC'"):

@@ -115,6 +115,11 @@ def _columns(table: MaterialTable) -> dict[str, Any]:
     return {"deformation": table.deformation, "columns": table.columns, "sheet": table.sheet}
 
 
+def how_read(table: MaterialTable) -> dict[str, Any]:
+    """Return what a reader of sweeps takes of the table besides the files."""
+    return {"temperature": table.temperature, "modulus_unit": table.modulus_unit, **_columns(table)}
+
+
 def read_steps_of(table: MaterialTable) -> StepTests:
     """Read the creep or relaxation tests of [material]."""
     return read_step_tests(
@@ -157,9 +162,7 @@ def _origin(table: MaterialTable) -> str:
 
 
 def _read_sweeps(table: MaterialTable) -> IsothermalSweeps:
-    return read_dma(
-        *(table.dma or ()), temperature=table.temperature, modulus_unit=table.modulus_unit, **_columns(table)
-    )
+    return read_dma(*(table.dma or ()), **how_read(table))
 
 
 def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:

@@ -18,7 +18,7 @@ from viscofric.readers.dma.isotherms import REPEATS_DIFFER, TracedSweeps
 from viscofric.readers.dma.read import trace_dma
 from viscofric.readers.dma.readings import Readings
 from viscofric.step_tests import StepTests
-from viscofric.study.make_rubber import read_ramps_of, read_steps_of
+from viscofric.study.make_rubber import how_read, read_ramps_of, read_steps_of
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.web.figures.sweeps import sweeps_view
 from viscofric.web.jobs.context import Context, JobError, JobOptions
@@ -59,16 +59,8 @@ def _read(table: MaterialTable, study: dict[str, Any], context: Context) -> dict
     try:
         if table.dma is None:
             return _read_other(table)
-        given = table.temperature
         beside = {"steps": _step_curves(read_steps_of(table))} if table.steps else {}
-        traced = trace_dma(
-            *table.dma,
-            deformation=table.deformation,
-            temperature=given[0] if given is not None and len(given) == 1 else given and list(given),
-            modulus_unit=table.modulus_unit,
-            columns=table.columns,
-            sheet=table.sheet,
-        )
+        traced = trace_dma(*table.dma, **how_read(table))
     except InputError as error:
         raise JobError(error.note, error.field or "material.dma") from None
     return _of_sweeps(table, traced) | beside
