@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 from viscofric.errors import DataFileError, InputError
 from viscofric.readers.dma.ramps import read_amplitude_sweep, read_ramps
 from viscofric.readers.dma.read import trace_dma
-from viscofric.readers.source import Source, bytes_of
+from viscofric.readers.source import Source, bytes_of, temperatures_of
 from viscofric.readers.steps.columns import STEPS
 from viscofric.readers.steps.read import step_kind
 from viscofric.units import Quantity
@@ -62,9 +62,7 @@ def by_kind(
 ) -> dict[TestKind, list[Path]]:
     """Return files by the kind of test that they hold, in their order; sweeps may need several files to be such."""
     stated = {"modulus_unit": modulus_unit, "columns": columns, "sheet": sheet}
-    each: list[Quantity | None] = [*temperatures]
-    if len(each) != len(paths):
-        each = [temperatures[0] if temperatures else None] * len(paths)
+    each = temperatures_of(temperatures or None, len(paths))
     if len(paths) > 1:
         try:
             trace_dma(*paths, temperature=each, **stated)  # type: ignore[arg-type]

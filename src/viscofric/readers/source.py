@@ -232,15 +232,15 @@ def files_of(paths: Sequence[str | PathLike[str] | Sequence[str | PathLike[str]]
 
 
 def temperatures_of(given: Quantity | Sequence[Quantity | None] | None, count: int) -> list[float | None]:
-    """Return one temperature, K, or None per file."""
-    if not isinstance(given, (list, tuple, np.ndarray)) or getattr(given, "ndim", 1) == 0:
-        return [None if given is None else _kelvin(cast("Quantity", given))] * count
-    if len(given) != count:
+    """Return one temperature, K, or None per file, of one for all or one for each."""
+    several = isinstance(given, (list, tuple, np.ndarray)) and getattr(given, "ndim", 1) > 0
+    values = list(cast("Sequence[Quantity | None]", given)) if several else [cast("Quantity | None", given)]
+    if len(values) not in (1, count):
         raise InputError(
-            f"temperature holds {len(given)} values for {count} files; give one for all, or one for each.",
+            f"temperature holds {len(values)} values for {count} files; give one for all, or one for each.",
             code="wrong-count",
         )
-    return [None if one is None else _kelvin(one) for one in given]
+    return [None if one is None else _kelvin(one) for one in values] * (count // len(values))
 
 
 def _kelvin(value: Quantity) -> float:

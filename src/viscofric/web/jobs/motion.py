@@ -156,10 +156,7 @@ def _impact(material: Material, case: Case, impact: Impact) -> ImpactSolution:
     return solve_impact(
         material,
         case.indenter,
-        mass=impact.mass,
-        speed=impact.speed,
-        gravity=impact.gravity,
-        rebounds=impact.rebounds,
+        **impact.model_dump(),
         temperature=case.temperature,
         indenter_modulus=case.modulus,
         indenter_poisson_ratio=case.poisson_ratio,
