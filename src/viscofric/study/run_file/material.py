@@ -12,6 +12,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 from viscofric.errors import InputError
 from viscofric.rheology.ramps.superpose import assumed_of
 from viscofric.study.run_file.tables import (
+    VALUE,
     Count,
     FileName,
     FileNames,
@@ -55,11 +56,11 @@ def _by_kelvin(value: object) -> object:
 
 def _unit_of_modulus(value: str) -> str:
     try:
-        conversion(value, "Pa", "modulus_unit")
+        conversion(value, "Pa", VALUE)
     except InputError:
         if not value.strip().startswith("1/"):
             raise
-        conversion(value, "1/Pa", "modulus_unit")
+        conversion(value, "1/Pa", VALUE)
     return value
 
 

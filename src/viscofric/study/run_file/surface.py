@@ -13,6 +13,7 @@ from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import MadeSurface, ScannedSurface, SurfaceSource, file_digest, step_of
 from viscofric.study.run_file.tables import (
+    VALUE,
     Count,
     Direction,
     FileName,
@@ -56,7 +57,7 @@ Step = Annotated[Words, AfterValidator(_known)]
 
 
 def _unit_of_length(value: str) -> str:
-    conversion(value, "m", "unit")
+    conversion(value, "m", VALUE)
     return value
 
 
