@@ -72,6 +72,15 @@ def test_a_modulus_of_unknown_kind_beside_a_frequency_is_no_relaxation(tmp_path:
     assert caught.value.code == "missing-columns"
 
 
+def test_sweeps_at_many_temperatures_with_one_given_are_no_ramps(tmp_path: Path) -> None:
+    path = tmp_path / "sweeps.csv"
+    rows = [f"{T},{f},{10.0 + f},1" for T in range(20, 90, 3) for f in (1, 2, 5, 10)]
+    path.write_text("\n".join(["T (degC),f (Hz),E' (MPa),E'' (MPa)", *rows]), encoding="utf-8")
+    assert kind_of_test(path) == "dma"
+    with refused("temperature-not-needed"):
+        kind_of_test(path, temperature="30 degC")
+
+
 def test_what_is_no_test_has_the_error_of_sweeps(tmp_path: Path) -> None:
     path = tmp_path / "alpha.csv"
     path.write_text("T_C,log10_aT\n1,2\n3,0\n", encoding="utf-8")

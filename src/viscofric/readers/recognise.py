@@ -40,7 +40,8 @@ def kind_of_test(
     except InputError as error:
         if (instead := _INSTEAD.get(error.code)) is not None:
             return instead
-        if "frequency" in error.note.values.get("known", {}):  # no creep, but a modulus that is called otherwise
+        needless = error.code == "temperature-not-needed"
+        if needless or "frequency" in error.note.values.get("known", {}):  # no creep, but a modulus called otherwise
             raise
         if (step := _step_kind(path, columns, sheet)) is not None:
             return step
