@@ -22,6 +22,7 @@ from study.sweeps import made_results
 from viscofric.cli import main, run
 from viscofric.cli.files import FOLDER, OUT, Written
 from viscofric.cli.keys import KeyOption
+from viscofric.study.run_file.study import TABLES
 
 SOLID = ["--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms"]
 CATALOGUE = ["--material", "synthetic fluoroelastomer"]
@@ -91,7 +92,9 @@ def test_options_of_keys_offer_what_the_run_file_knows(name: str) -> None:
     keyed = [one for one in ALL[name].params if isinstance(one, KeyOption)]
     text = "".join(CliRunner().invoke(main, [*name.split(), "--help"]).output.split())
     for one in keyed:
-        choices = "" if one.is_flag else "|".join(one.key.about.get("enum", ()))
+        about = TABLES[one.key.table].model_json_schema()["properties"][one.key.key]
+        known = about.get("enum") or about.get("anyOf", [{}])[0].get("enum", ())
+        choices = "" if one.is_flag else "|".join(known)
         assert choices.replace(" ", "") in text, one.name
         assert one.help, one.name
 

@@ -67,7 +67,12 @@ surface_options = together(
         help="Measured rough surface instead of an indenter, one period of it; --spacing and --height-unit if the file "
         "does not state them.",
     ),
-    key("surface.prepare", metavar="STEP", multiple=True, type=str, condition="With --surface, repeatable: "),
+    click.option(
+        "--prepare",
+        multiple=True,
+        metavar="STEP",
+        help="With --surface: preparation step, such as 'remove tilt', 'window' or 'shortest 40 um'; repeatable.",
+    ),
     heading="Rough surface",
 )
 
@@ -197,8 +202,15 @@ direction_option = click.option(
     help="Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
 )
 elastic_options = together(
-    key("indenter.modulus", "--indenter-modulus", metavar="E"),
-    key("indenter.poisson_ratio", "--indenter-poisson-ratio", metavar="ν", type=float),
+    click.option(
+        "--indenter-modulus", metavar="E", help="Modulus of an elastic indenter, e.g. '200 GPa' [default: rigid]."
+    ),
+    click.option(
+        "--indenter-poisson-ratio",
+        type=float,
+        metavar="ν",
+        help="Poisson's ratio of an elastic indenter [default: 0.3].",
+    ),
     heading="Elastic indenter",
 )
 contact_options = together(

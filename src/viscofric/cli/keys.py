@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import click
 
 from viscofric.notes import Note
+
+#: Table of a run file -> its module, if that has another name.
+_HOMES = {"impact": "history", "solver": "settings"}
 
 
 class Key(click.ParamType[Any]):
@@ -26,9 +30,9 @@ class Key(click.ParamType[Any]):
     @cached_property
     def about(self) -> dict[str, Any]:
         """The key in the JSON schema of its table."""
-        from viscofric.study.run_file.study import TABLES
-
-        found: dict[str, Any] = TABLES[self.table].model_json_schema()["properties"][self.key]
+        home = import_module(f"viscofric.study.run_file.{_HOMES.get(self.table, self.table)}")  # all take a second
+        table = getattr(home, f"{self.table.capitalize()}Table")
+        found: dict[str, Any] = table.model_json_schema()["properties"][self.key]
         return {**found, **found.get("anyOf", [{}])[0]}
 
     @property
