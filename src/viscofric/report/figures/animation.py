@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import io
 from os import PathLike
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from typing import Any
 
 import matplotlib
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from viscofric.errors import InputError, not_written
+from viscofric.errors import InputError
 from viscofric.files import write_atomically
 from viscofric.motion.solution import TransientSolution
 from viscofric.report.figures.motion import moves, plot_transient
@@ -48,19 +50,14 @@ def save_animation(
     target = Path(path)
     if target.suffix.lower() != ".gif":
         raise InputError(f"{target}: an animation is a GIF; its name must end in .gif.", code="wrong-ending")
-    with matplotlib.rc_context(dict(STYLE)), TemporaryDirectory(prefix="viscofric-") as folder:
-        made = Path(folder) / "animation.gif"
-        _write(made, run, frames_of(run, count=frames), title, synthetic=synthetic)
-        try:
-            content = made.read_bytes()
-        except OSError as error:
-            raise not_written(target, error) from error
+    with matplotlib.rc_context(dict(STYLE)):
+        content = _drawn(run, frames_of(run, count=frames), title, synthetic=synthetic)
     write_atomically(target, content)
 
 
-def _write(path: Path, run: TransientSolution, shown: Frames, title: str, *, synthetic: bool) -> None:
+def _drawn(run: TransientSolution, shown: Frames, title: str, *, synthetic: bool) -> bytes:
     """Draw the axes once, and the pressure and the time of each frame anew."""
-    from matplotlib.animation import PillowWriter
+    from PIL import Image
 
     data = run.to_dataset()
     figure = new_figure(9.0, 3.8)
@@ -75,14 +72,21 @@ def _write(path: Path, run: TransientSolution, shown: Frames, title: str, *, syn
     if title:
         figure.suptitle(title, fontsize=10.5)
     left.set_title(" ", fontsize=_SMALL)
+    figure.set_dpi(_DOTS_PER_INCH)
+    canvas: Any = FigureCanvasAgg(figure)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")  # all frames keep the places of the parts
     second = 1.0 / unit_for(float(np.abs(run.time).max()), "s").size
-    writer = PillowWriter(fps=max(1, round(len(shown.times) / _SECONDS)))
-    with writer.saving(figure, str(path), _DOTS_PER_INCH):
-        for place, time in enumerate(shown.times):
-            left.clear()
-            plot_pressure_frame(left, shown, place)
-            left.set_title(prefixed(time, None, "s"), fontsize=_SMALL)
-            now.set_xdata([second * time] * 2)
-            writer.grab_frame()
+    pictures = []
+    for place, time in enumerate(shown.times):
+        for artist in [*left.lines, *left.collections]:
+            artist.remove()
+        plot_pressure_frame(left, shown, place)
+        left.set_title(prefixed(time, None, "s"), fontsize=_SMALL)
+        now.set_xdata([second * time] * 2)
+        canvas.draw()
+        pictures.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
+    target = io.BytesIO()
+    rate = max(1, round(len(shown.times) / _SECONDS))
+    pictures[0].save(target, "GIF", save_all=True, append_images=pictures[1:], duration=1000 // rate, loop=0)
+    return target.getvalue()
