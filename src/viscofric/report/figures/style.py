@@ -32,7 +32,7 @@ from viscofric.units import celsius
 # Okabe and Ito's colours, which colour-blind readers can distinguish
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
 INK, GREY = "#222222", "#8a8a8a"
-#: White of marks inside a map, which stays white where a page turns dark.
+#: White of marks inside a map.
 WHITE = "#fefefe"
 
 _COLOURS = (BLUE, GREEN, VERMILION, PURPLE, ORANGE, SKY)
