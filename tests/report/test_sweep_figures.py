@@ -60,6 +60,32 @@ def test_samples_are_a_band_about_the_best_estimate(axes: Axes, make_sweep: Make
     np.testing.assert_allclose([at_first[0], at_first[-1]], best[0] * np.array([1.005, 1.195]), rtol=1e-9)
 
 
+def test_few_samples_have_a_band_of_their_range_which_is_not_called_95_percent(make_sweep: Make) -> None:
+    friction = make_sweep({"sample": list(range(5)), "speed": SPEEDS})
+    figure = sweep_figure(friction)
+    assert figure is not None
+    assert not any("95" in text for text in legend_texts(figure))
+    corners = figure.axes[0].collections[0].get_paths()[0].vertices
+    at_first = np.unique(corners[np.isclose(corners[:, 0], 1.0), 1])
+    best = friction["friction_coefficient"].values[0, 0]
+    np.testing.assert_allclose([at_first[0], at_first[-1]], best * np.array([1.0, 1.04]), rtol=1e-9)  # 1 % a sample
+
+
+@pytest.mark.parametrize("axis", [{"sample": [0, 1, 2]}, {"seed": [1, 2, 3]}])
+def test_numerical_errors_that_can_be_seen_are_bars(make_sweep: Make, axis: dict[str, list[int]]) -> None:
+    friction = make_sweep({**axis, "speed": SPEEDS})
+    share = np.where(SPEEDS > 0.5, 0.3, 0.009)  # the last speed alone: bars of 1 % are as small as a mark
+    friction["friction_error"] = friction["friction_coefficient"] * share
+    figure = sweep_figure(friction)
+    assert figure is not None
+    (bars,) = [one for one in figure.axes[0].containers if hasattr(one, "has_yerr")]
+    ends = np.array([bar[:, 1] for bar in bars[2][0].get_segments() if len(bar)])
+    middle = friction["friction_coefficient"]
+    middle = middle.mean("seed") if "seed" in axis else middle.sel(sample=0)
+    np.testing.assert_allclose(ends, [middle.values[-1] * np.array([0.7, 1.3])])
+    assert "numerical error" in legend_texts(figure)
+
+
 def test_seeds_of_a_surface_are_thin_lines_behind_their_mean_and_its_interval(axes: Axes, make_sweep: Make) -> None:
     friction = make_sweep({"seed": [1, 2, 3, 4], "speed": SPEEDS})
     each = friction["friction_coefficient"].values * np.array([0.9, 1.0, 1.2, 1.3])[:, None]

@@ -12,7 +12,7 @@ from viscofric.report.figures.heating import MOST_PANELS as HEATED
 from viscofric.report.figures.histories import MOST_LINES as HISTORIES
 from viscofric.report.figures.maps import MARKED_TEMPERATURES, known_shifts
 from viscofric.report.figures.stored_contacts import shown_contacts
-from viscofric.report.figures.sweeps import panel_count
+from viscofric.report.figures.sweeps import numerical_error, panel_count
 from viscofric.report.results import (
     group,
     interpolated,
@@ -31,6 +31,7 @@ from viscofric.report.sweeps import (
     seeds_averaged,
     solved_cases,
     sweep_axes,
+    words_of_band,
 )
 from viscofric.report.texts.numbers import degrees, prefixed, speed
 
@@ -142,10 +143,11 @@ def _of_sweep(tree: DataTree) -> str:
             "mean, by Student's t over the seeds"
         )
     elif "sample" in friction["friction_coefficient"].dims:
-        said += "; bands: 95 % of the uncertainty samples of the material"
+        said += f"; bands: {words_of_band(friction.sizes['sample'])} of the uncertainty samples of the material"
     elif "friction_lower" in friction:
         said += "; bands: 95 %, from the uncertainty of the material"
     solved = np.isfinite(friction["friction_coefficient"].values).all()
+    said += "; bars: numerical error" if np.isfinite(numerical_error(friction)).any() else ""
     missing = "" if solved else f" Crosses: not solved{', for one seed or more' if seeds else ''}."
     return f"{said}.{missing}"
 
@@ -177,7 +179,8 @@ def _some(data: Dataset, name: str, each: int) -> str:
     samples = data.sizes.get("sample", 1)
     count = data[name].size // each // samples
     some = f" ({HISTORIES} of {count} cases are drawn)" if count > HISTORIES else ""
-    return f"{some}{'; bands: 95 % of the uncertainty samples of the material' if samples > 1 else ''}."
+    band = f"; bands: {words_of_band(samples)} of the uncertainty samples of the material"
+    return f"{some}{band if samples > 1 else ''}."
 
 
 def _of_map(tree: DataTree) -> str:

@@ -13,7 +13,7 @@ from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.datasets import Dataset, dataset
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-from viscofric.report.results import is_extrapolated, number, values
+from viscofric.report.results import is_extrapolated, number, shown_error, values
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw
@@ -169,6 +169,7 @@ class Predicted(NamedTuple):
     lower: Array  # (n,), limit of the 95 % band; NaN where there is none
     upper: Array  # likewise
     extrapolated: Mask  # (n,): whether a case rests on frequencies that were not measured
+    error: Array  # (n,), numerical error where it can be seen in a figure; NaN elsewhere
 
     def rows(self, mask: Mask) -> Predicted:
         """Return the rows of a mask in ascending speed."""
@@ -186,11 +187,11 @@ def predicted(source: Friction) -> Predicted:
     """Return predicted friction."""
     data = as_dataset(source)
     of_study = "friction_coefficient" in data.variables
-    friction = ("friction_coefficient", "friction_lower", "friction_upper")
+    friction = ("friction_coefficient", "friction_lower", "friction_upper", "friction_error")
     if not of_study:
-        friction = ("viscoelastic", "viscoelastic_lower", "viscoelastic_upper")
-    columns = [values(data, name) for name in ("speed", "temperature", "load", *friction)]
-    return Predicted._make([*columns, is_extrapolated(data)])
+        friction = ("viscoelastic", "viscoelastic_lower", "viscoelastic_upper", "viscoelastic_error")
+    *columns, error = [values(data, name) for name in ("speed", "temperature", "load", *friction)]
+    return Predicted._make([*columns, is_extrapolated(data), shown_error(values(data, friction[0]), error)])
 
 
 class Measured(NamedTuple):
@@ -225,5 +226,5 @@ def measured_line(source: ReducedFriction) -> Predicted | None:
     friction[gap] = np.nan
     doubt = np.where(np.isfinite(error), LEVEL_95 * error, np.nan)
     temperature, load = np.full(speed.shape, source.reference), np.full(speed.shape, source.load)
-    none = np.zeros(speed.shape, dtype=bool)
-    return Predicted(speed, temperature, load, friction, friction - doubt, friction + doubt, none)
+    none, no_error = np.zeros(speed.shape, dtype=bool), np.full(speed.shape, np.nan)
+    return Predicted(speed, temperature, load, friction, friction - doubt, friction + doubt, none, no_error)

@@ -113,6 +113,8 @@ def reference_temperature(tree: DataTree) -> float | None:
     return found if math.isfinite(found) else None
 
 
+# Numerical error, as part of friction, up to which lines and three digits hide it.
+_HIDDEN_ERROR = 0.01
 WIDE, EXTRAPOLATED = "wide contact", "beyond the sweeps"
 
 
@@ -140,6 +142,11 @@ def remarks(tree: DataTree, cases: Dataset) -> list[tuple[str, ...]]:
     """Return what is doubtful about each case, in a word or two; nothing about sound ones."""
     marks = [(WIDE, is_wide(tree, cases)), (EXTRAPOLATED, is_extrapolated(cases))]
     return [tuple(word for word, mask in marks if mask[row]) for row in range(len(marks[0][1]))]
+
+
+def shown_error(friction: Array, error: Array) -> Array:
+    """Return the numerical error of friction where it is more than figures and short tables hide; NaN elsewhere."""
+    return np.where(error > _HIDDEN_ERROR * np.abs(friction), error, np.nan)
 
 
 def interpolated(cases: Dataset) -> Mask:

@@ -13,6 +13,7 @@ from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
 from viscofric.report.results import group
 from viscofric.report.texts.numbers import degrees, length, megapascals, short, speed
+from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
 
 #: Dimension of results that are listed case by case.
 CASE = "case"
@@ -172,6 +173,17 @@ def best_estimate(dataset: Dataset) -> Dataset:
     if SAMPLE not in dataset.dims:
         return dataset
     return dataset.isel({SAMPLE: int(np.argmin(dataset[SAMPLE].values)) if SAMPLE in dataset.coords else 0})
+
+
+def band_of_samples(values: Array) -> Array:
+    """Return the ends (2, …) of the central 95 % of samples along the first axis; of few samples, of all of them."""
+    low, high = (0.0, 1.0) if len(values) <= FEWEST_SAMPLES else (0.025, 0.975)
+    return np.asarray(np.nanquantile(values, [low, high], axis=0))
+
+
+def words_of_band(samples: int) -> str:
+    """Return what `band_of_samples` of so many samples holds."""
+    return "range" if samples <= FEWEST_SAMPLES else "95 %"
 
 
 def solved_cases(tree: DataTree, name: str = "prediction") -> Dataset | None:

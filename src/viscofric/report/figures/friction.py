@@ -35,7 +35,7 @@ _BAND = 0.18  # how much of a band's colour covers what lies below it
 _MILLIMETRES = 1e3
 _WIDTH, _HEIGHT = 7.4, 4.0
 _HEADROOM = 1.08  # over the highest number, where the axis begins at zero
-_THIN = "thin: frequencies not measured"
+_BARS, _THIN = "bars: numerical error", "thin: frequencies not measured"
 
 
 def plot_friction_curves(
@@ -80,6 +80,7 @@ def plot_friction_curves(
     title = [] if points is None else [f"points: {style.origin(synthetic)} ± scatter"]
     if lines is not None:
         title.append(("lines: predicted" if title else "predicted") + (", 95 % bands" if lines.has_band else ""))
+        title += [_BARS] if np.isfinite(lines.error).any() else []
         title += [_THIN] if lines.extrapolated.any() else []
     _finish(axes, handles[::-1], "\n".join(title), r"viscoelastic friction coefficient $\mu$")
 
@@ -225,6 +226,7 @@ def _plot_predicted(axes: Axes, lines: Predicted, **look: Any) -> None:
     """Draw a predicted line, thin where it rests on frequencies that were not measured."""
     speed = _MILLIMETRES * lines.speed
     look["zorder"] = 3.0  # above the points
+    style.error_bars(axes, speed, lines.friction, lines.error, look["color"])
     if not lines.extrapolated.any():
         axes.plot(speed, lines.friction, **look)
         return

@@ -12,7 +12,7 @@ from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
 from viscofric.report.figures.style import GREY, legend_above, looks, new_figure, speed_ticks, unit_for
 from viscofric.report.results import group
-from viscofric.report.sweeps import SAMPLE, axis_of, best_estimate
+from viscofric.report.sweeps import SAMPLE, axis_of, band_of_samples, best_estimate
 from viscofric.units import celsius
 
 #: More lines cannot be told apart.
@@ -30,11 +30,11 @@ class _Line(NamedTuple):
     samples: Dataset | None
 
     def band(self, name: str) -> tuple[Array, Array] | None:
-        """Return the ends of the central 95 % of the samples; None without samples."""
+        """Return the ends of the central 95 % of the samples, of few their range; None without samples."""
         if self.samples is None:
             return None
         values = self.samples[name].transpose(SAMPLE, ...).values
-        low, high = np.quantile(values[np.isfinite(values).all(axis=1)], [0.025, 0.975], axis=0)
+        low, high = band_of_samples(values[np.isfinite(values).all(axis=1)])
         return low, high
 
 

@@ -167,6 +167,12 @@ def logarithmic(axes: Axes, which: Literal["x", "y", "xy"] = "xy") -> None:
         decade_ticks(getattr(axes, f"{axis}axis"))
 
 
+def error_bars(axes: Axes, x: Array, y: Array, error: Array, colour: Any) -> None:
+    """Draw bars of numerical errors where there are any, on a line that is drawn by others."""
+    if np.isfinite(error).any():
+        axes.errorbar(x, y, yerr=error, fmt="none", ecolor=colour, elinewidth=1.0)
+
+
 def legend_beside(axes: Axes, handles: Sequence[Any] | None = None, title: str = "", **style: Any) -> None:
     """Put a legend to the right of the axes."""
     style |= {} if handles is None else {"handles": list(handles)}

@@ -17,6 +17,7 @@ from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.report.figures import style
+from viscofric.report.results import shown_error
 from viscofric.report.sweeps import (
     MOST_LINES,
     MOST_PANELS,
@@ -24,10 +25,12 @@ from viscofric.report.sweeps import (
     SEED,
     Layout,
     SweepAxis,
+    band_of_samples,
     best_estimate,
     layout_of,
     seeds_averaged,
     thinned,
+    words_of_band,
 )
 
 FRICTION = r"viscoelastic friction coefficient $\mu$"
@@ -42,7 +45,8 @@ def plot_sweep(axes: Axes, friction: Dataset, layout: Layout, shown: Sequence[in
 
     Where there are members of the rubber's posterior (`sample`), the line is the best estimate, and the band holds 95 %
     of them.  Where there are surfaces that differ by chance (`seed`), each is a thin line behind their mean, and the
-    band is the mean's 95 % interval; points at which one of them was not solved have no mean.
+    band is the mean's 95 % interval; points at which one of them was not solved have no mean.  Bars are numerical
+    errors that can be seen.
 
     `friction`: `friction_coefficient`, and perhaps `friction_lower` and `friction_upper`, over the axes of the
     layout (and `sample` and `seed`) only; `shown`: which points of the layout's lines are drawn.
@@ -59,6 +63,7 @@ def plot_sweep(axes: Axes, friction: Dataset, layout: Layout, shown: Sequence[in
             marks |= {"marker": look.marker, "markersize": 4}
         if np.isfinite(lower).any():
             axes.fill_between(x, lower, upper, color=look.colour, alpha=_BAND, linewidth=0.0, zorder=1)
+        style.error_bars(axes, x, mu, numerical_error(part, along.name), look.colour)
         axes.plot(x, mu, **marks)
         if (each := _of_seeds(part, along.name)) is not None:
             axes.plot(x, each, **(marks | {"markersize": 2}), **_THIN)
@@ -92,12 +97,21 @@ def _middle_and_band(part: Dataset, along: str) -> tuple[Array, Array, Array]:
         members = part[_COEFFICIENT].transpose(SAMPLE, along).values
         known = np.isfinite(members).any(axis=0)
         ends = np.full((2, members.shape[1]), np.nan)
-        ends[:, known] = np.nanquantile(members[:, known], [0.025, 0.975], axis=0)
+        ends[:, known] = band_of_samples(members[:, known])
         return mu, ends[0], ends[1]
     none = np.full(mu.shape, np.nan)
     names = ("friction_lower", "friction_upper")
     lower, upper = (np.asarray(part[name].values, dtype=float) if name in part else none for name in names)
     return mu, lower, upper
+
+
+def numerical_error(part: Dataset, along: str = "") -> Array:
+    """Return the numerical error of friction (along an axis) where it can be seen, the mean over surfaces."""
+    if "friction_error" not in part:
+        return np.full(part.sizes.get(along, 1), np.nan)
+    best = best_estimate(part)[[_COEFFICIENT, "friction_error"]]
+    best = best.mean(SEED) if SEED in best.dims and along != SEED else best
+    return shown_error(best[_COEFFICIENT].values, best["friction_error"].values)
 
 
 def _of_seeds(part: Dataset, along: str) -> Array | None:
@@ -174,9 +188,13 @@ def _legend_beside(axes: Axes, friction: Dataset, layout: Layout, shown: Sequenc
         handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="95 % interval\nof the mean"))
         handles.append(Line2D([], [], color=style.GREY, label=f"{seeds} seeds", **_THIN))
     elif SAMPLE in friction[_COEFFICIENT].dims:
-        handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="95 % of samples"))
+        handles.append(
+            Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label=f"{words_of_band(friction.sizes[SAMPLE])} of samples")
+        )
     elif "friction_lower" in friction and np.isfinite(friction["friction_lower"].values).any():
         handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="95 % band"))
+    if np.isfinite(numerical_error(friction)).any():
+        handles.append(Line2D([], [], color=style.GREY, marker="|", linestyle="none", label="numerical error"))
     if not np.isfinite(friction[_COEFFICIENT].values).all():
         handles.append(Line2D([], [], color=style.VERMILION, marker="x", linestyle="none", label="not solved"))
     if handles:

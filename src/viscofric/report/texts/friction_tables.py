@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
@@ -21,6 +22,7 @@ from viscofric.report.results import (
     number,
     remarks,
     rubbers,
+    shown_error,
     values,
 )
 from viscofric.report.sweeps import SEED, VARIED, cases_of, over_seeds, solved_cases, thinned, value_label
@@ -93,10 +95,14 @@ def friction_at_a_glance(tree: DataTree) -> Table | None:
         found = _highest_friction(tree, prediction, others, kind)
     else:
         found = _friction_grid(tree, prediction, kind)
-    return replace(found, note=f"{_OF_SEEDS} {found.note}".strip()) if seeds else found
+    friction, error = (values(prediction, name) for name in ("friction_coefficient", "friction_error"))
+    said = [_OF_SEEDS] if seeds else []
+    said += [_WITH_ERROR] if np.isfinite(shown_error(friction, error)).any() else []
+    return replace(found, note=" ".join([*said, found.note]).strip())
 
 
 _OF_SEEDS = "Mean over the seeds of the surface, with half its 95 % confidence interval (Student's t)."
+_WITH_ERROR = "The number after ± contains the estimated numerical error, where that exceeds 1 %."
 
 
 def _friction_grid(tree: DataTree, prediction: Dataset, kind: Sequence[tuple[str, ...]]) -> Table:
@@ -131,10 +137,12 @@ def _friction_grid(tree: DataTree, prediction: Dataset, kind: Sequence[tuple[str
 
 
 def _mean(cases: Dataset, row: int, friction: float) -> str:
-    """Return friction, of several seeds with half the confidence interval of the mean."""
-    if "seeds" not in cases:
-        return significant(friction, 3)
-    return with_error(friction, 0.5 * float(cases["friction_upper"].values[row] - cases["friction_lower"].values[row]))
+    """Return friction with its numerical error where that can be seen, and half the interval of a mean over seeds."""
+    error = float(np.nan_to_num(shown_error(np.array(friction), values(cases, "friction_error")[row])))
+    if "seeds" in cases:
+        half = 0.5 * (values(cases, "friction_upper")[row] - values(cases, "friction_lower")[row])
+        return with_error(friction, math.hypot(half, error))
+    return with_error(friction, error) if error else significant(friction, 3)
 
 
 def _highest_friction(

@@ -25,6 +25,7 @@ from viscofric.report.results import (
     number,
     reference_temperature,
     rubbers,
+    shown_error,
     values,
 )
 from viscofric.report.sweeps import SweepAxis, cases_of, solved_cases, sweep_axes, value_label
@@ -294,6 +295,10 @@ def _caveat(tree: DataTree, prediction: Dataset) -> str:
     of, said = prediction.sizes["case"], ""
     if wide:
         said += f"; doubtful in {wide} of {of} cases, whose contact extends beyond {SMALL_STRAIN:g} ball radii"
+    friction = values(prediction, "friction_coefficient")
+    error = shown_error(friction, values(prediction, "friction_error"))
+    if np.isfinite(error).any():
+        said += f"; numerical error up to {percent(float(np.nanmax(error / np.abs(friction))))}"
     if beyond:
         said += f"; extrapolated beyond the measured frequencies in {beyond} of {of} cases"
     return said
