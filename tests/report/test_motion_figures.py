@@ -158,6 +158,16 @@ def test_one_figure_has_it_all(kind: str, count: int) -> None:
     assert labels[-1] == ("friction force $T$ (N)" if kind == "grid" else "energy (nJ)")
 
 
+def test_a_slide_after_a_long_dwell_is_drawn_against_its_path() -> None:
+    path = np.array([0.0, 0.0, 0.0, 1e-3, 3e-3])
+    one_way = solution(
+        "grid", time=np.array([0.0, 1.0, 60.0, 60.01, 60.03]), position=np.stack([0 * path, path], axis=1)
+    )
+    last = report.transient_figure(one_way).axes[-1]
+    np.testing.assert_allclose(last.lines[0].get_xdata(), 1e3 * path)  # mm
+    np.testing.assert_allclose(last.lines[0].get_ydata(), FRICTION)
+
+
 @pytest.mark.parametrize("kind", ["line", "grid"])
 def test_animations_have_a_frame_for_each_time(kind: str, tmp_path: Path) -> None:
     path = tmp_path / "contact.gif"

@@ -129,7 +129,10 @@ def _check_pairs(parameters: dict[str, Any]) -> None:
     if parameters["cycle"] and parameters["heating"] is not None:
         raise click.UsageError("--cycle and --heating are both given; a periodic state is isothermal.")
     if parameters["coulomb"] and not parameters["cycle"]:
-        raise click.UsageError("--coulomb needs --cycle; of a history it is --heating-coulomb.")
+        raise click.UsageError(
+            "--coulomb needs --cycle. Otherwise the friction coefficient is the viscoelastic part: add Coulomb "
+            "friction while the indenter slides, or give --heating-coulomb to let it heat the contact."
+        )
     reasons = {"cycle": "a periodic state has no end", "heating": "a heated contact has no state"}
     for one, reason in reasons.items():
         for name, typed in (("resume", "--resume"), ("state", "--save-state")):

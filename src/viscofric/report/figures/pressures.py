@@ -184,7 +184,7 @@ def transient_figure(run: TransientSolution, title: str = "") -> Figure:
         plot_transient(above, data, "energy")
     else:
         plot_force_depth(above, data)
-    if loop:
+    if slides:  # also one way: after a long dwell the start takes no room over the time
         plot_friction_loop(below, data)
     else:
         plot_transient(below, data, "energy")
