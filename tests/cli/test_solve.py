@@ -57,6 +57,13 @@ def test_a_contact_beyond_the_frequencies_of_the_rubber_is_reported(tmp_path: Pa
     assert "Warning: " in call(*contact, "--speed", "10 m/s").stderr
 
 
+def test_what_the_fit_of_a_material_file_assumed_is_noted_with_its_contacts(tmp_path: Path) -> None:
+    solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
+    fit = SpectrumFit(None, None, True, True, (1.0, 1e6), ("α(T) was assumed.",))
+    vf.write_card(vf.Material(replace(solid, fit=fit)), tmp_path / "rubber.json", format="json")
+    assert "Note: α(T) was assumed." in call("--material", tmp_path / "rubber.json", *BALL).stderr
+
+
 def test_json_holds_what_python_gives() -> None:
     found, solution = record(*RUBBER, *BALL), expected()
     for name, value in found["results"].items():

@@ -223,7 +223,7 @@ reading_options = together(
 
 
 def find_rubber(name: str, parameter: str = "material") -> Material:
-    """Return the rubber of a file, else of the catalogue, and print what was assumed of a card that does not say it."""
+    """Return the rubber of a file, else of the catalogue, and print what a card leaves open and its fit has noted."""
     from viscofric.rheology.cards import open_card
     from viscofric.rheology.catalogue import catalogue_material
 
@@ -232,5 +232,6 @@ def find_rubber(name: str, parameter: str = "material") -> Material:
         with typed_as({"name": parameter}):
             return catalogue_material(name)
     card = open_card(path)
-    print_notes(card.notes)
+    fit = getattr(card.material.spectrum, "fit", None)
+    print_notes([*card.notes, *([] if fit is None else fit.notes)])
     return card.material
