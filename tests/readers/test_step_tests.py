@@ -44,6 +44,15 @@ def test_a_deformation_that_contradicts_the_heading_is_refused(tmp_path, heading
     assert vf.read_step_tests(path, deformation=other).deformation == other
 
 
+def test_a_creep_strain_lacks_its_stress_which_may_be_one_value(tmp_path):
+    path = written(tmp_path / "creep_25C.csv", ("t (s)", "strain (%)"), [TIME, TIME**0.2])
+    with refused("missing-columns", DataFileError) as caught:
+        vf.read_step_tests(path, kind="creep", deformation="tension")
+    assert caught.value.note.values["missing"] == ["stress"]
+    tests = vf.read_step_tests(path, kind="creep", deformation="tension", columns={"stress": "= 0.1 MPa"})
+    np.testing.assert_allclose(tests.tests[0].response, 1e-7 * TIME**0.2, rtol=1e-6)  # 1/Pa
+
+
 def test_one_file_for_each_temperature(tmp_path):
     """Temperatures from names or arguments; E(t) states tension."""
     for celsius in (20, 40):

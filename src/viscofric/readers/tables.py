@@ -65,7 +65,13 @@ _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 _STATED = re.compile(r"(?<![\w.,])(?P<number>\d+(?:[.,]\d+)?)\s?(?P<unit>[A-Za-zµμ]+(?:/[A-Za-zµμ]+)?)(?![\w/])")
 _IN_TITLES = ("N", "N/m", "m/s")
 #: Quantities that often have one value in all rows, which tables then lack.
-_FOR_ALL_ROWS = {"load": "20 N", "temperature": "25 degC"}
+_FOR_ALL_ROWS = {
+    "load": "20 N",
+    "temperature": "25 degC",
+    "frequency": "10 Hz",
+    "stress": "0.3 MPa",
+    "strain": "5 %",
+}
 #: A quoted cell that does not end with its line, and the most lines of one row.
 _OPEN, _MOST_WRAPPED = re.compile(r'(?:^|[\t;,])"[^"]*$'), 20
 #: A number at the beginning of a cell, but not that of "1/s".
@@ -157,7 +163,8 @@ def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheet
         values["sheets"] = list(sheets)
     absent = [said for said in words.user_columns.values() if place_of(said, headings)[0] is None]
     if absent:
-        problem = f"no row has a column {' and '.join(map(repr, absent))}{among}; this file has {shown}."
+        problem = f"no row has a column {' and '.join(map(repr, absent))}{among}; this file has {shown}"
+        problem += "; a value of all rows has '=' before it." if _VALUE.match(absent[0]) else "."
         return DataFileError(path, Note("no-column", problem, values=values))
     problem = f"no row names columns for {' or '.join(missing)}{among}; {words.example}, this file has {shown}"
     if not headings:

@@ -20,6 +20,7 @@ from viscofric.readers.dma.names import (
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.source import STRAIN_FACTORS, Source, unit_conversion
 from viscofric.readers.table import Table
+from viscofric.readers.tables import name_columns
 from viscofric.step_tests import StepKind
 
 TIME = frozenset(
@@ -153,6 +154,10 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
             factor, offset = table.conversion(column, _SI[kind])
         return factor * table.numbers_or_missing(place) + offset, column.heading, lacks_unit
     stress, strain = table.place("stress"), table.place("strain")
+    if (stress is None) != (strain is None):
+        lacks, other = ("stress", "strain") if stress is None else ("strain", "stress")
+        problem = f"a column of {other}, but none of {lacks}, this one has {table.headings()}"
+        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, [lacks]), [lacks])
     if stress is None or strain is None:
         raise table.refused(
             "missing-columns", f"no column for the {_COLUMN[kind]}; {STEPS.example}, this one has {table.headings()}."
