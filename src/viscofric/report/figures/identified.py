@@ -60,7 +60,7 @@ def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Mate
     axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + style.at_temperature(modulus.reference))
     axes.set_ylabel("modulus (MPa)")
     style.logarithmic(axes)
-    style.legend_above(axes, handles, columns=3)
+    style.legend_above(axes, handles, columns=2)
 
 
 def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[Any]:
