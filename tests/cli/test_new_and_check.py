@@ -33,10 +33,31 @@ def test_starter_files_and_their_data_are_right(tmp_path: Path, template: str) -
     for count in points:
         cases *= count
     assert found["cases"] == cases
+    assert (found["surface"] is not None) == ("[surface]" in template_text(template))
     assert (found["measured_points"] is not None) == ("[measurement]" in template_text(template))
     # Only what the run file names is written beside it.
     data = {path.name for path in tmp_path.iterdir()} - {"study.toml"}
     assert data == {name for name in ("dma.csv", "mtm.csv") if f'"{name}"' in template_text(template)}
+
+
+def test_a_surface_is_checked_for_points_in_its_shortest_wave(tmp_path: Path) -> None:
+    surface = {"hurst": 0.8, "rms_height": "2 um", "shortest": "20 um", "rolloff": "100 um", "points": 64, "seed": 1}
+    lines = [f"{name} = {json.dumps(value)}" for name, value in surface.items()]
+    text = """[material]
+catalogue = "synthetic fluoroelastomer"
+[conditions]
+pressure = "50 kPa"
+speed = "1 mm/s"
+temperature = "30 degC"
+[surface]
+"""
+    for spacing, few in (("5 um", True), ("2.5 um", False)):
+        given = text + "\n".join([*lines, f'spacing = "{spacing}"'])
+        found = json.loads(call("check", "-", "--json", given=given).stdout)["surface"]
+        assert found["points"] == [64, 64]
+        assert found["rms_height"] == pytest.approx(2e-6)  # exact by its definition
+        assert found["points_in_shortest_wave"] == pytest.approx(4.0 if few else 8.0)
+        assert ("needed" in call("check", "-", given=given).stdout) == few
 
 
 @pytest.mark.slow

@@ -15,6 +15,7 @@ from viscofric.cli.output import json_option, print_json
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
+    from viscofric.friction.cases.surfaces import SurfaceSource
     from viscofric.study.cases.sweep import Axis
     from viscofric.study.checking import CheckedStudy
     from viscofric.study.rubber import Rubber
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 _STDIN = Path("standard input")
 # Axes that are not listed when they stand alone: the materials are listed, and one sample is the best estimate.
 _NOT_SHOWN = {"material", "sample"}
+#: Points in the shortest wave of a surface from which its contacts are resolved (docs/guide/surfaces.md).
+_ENOUGH_POINTS = 8
 _PLURAL = {"radius": "radii", "radius x": "radii x", "radius y": "radii y", "thickness": "thicknesses"}
 
 
@@ -103,6 +106,7 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
         "title": study.title,
         "materials": [_of_rubber(rubber, material.name) for rubber, material in made],
         "indenter": study.body.shape,
+        "surface": _of_surface(getattr(sweep.cases[0], "surface", None)),
         "axes": {axis.name: {name: list(values) for name, values in axis.columns.items()} for axis in sweep.axes},
         "cases": len(sweep.cases),
         "master_curve_points": found.master_curve_points,
@@ -115,6 +119,21 @@ def _record(found: CheckedStudy, path: Path) -> dict[str, Any]:
         },
         "outputs": ["netcdf", "figures", "report", *extra],
         **listed("notes", found.notes),
+    }
+
+
+def _of_surface(source: SurfaceSource | None) -> dict[str, Any] | None:
+    if source is None:
+        return None
+    from viscofric.friction.cases.surfaces import surface_of
+
+    surface, shortest = surface_of(source), source.wavelengths[0]
+    step = max(one for one, count in zip(surface.spacing, surface.shape, strict=True) if count > 1)
+    return {
+        "points": list(surface.shape),
+        "spacing": step,
+        "rms_height": float(surface.z.std()),
+        "points_in_shortest_wave": shortest / step,
     }
 
 
@@ -139,6 +158,8 @@ def _lines(found: CheckedStudy, record: dict[str, Any], path: Path) -> list[tupl
 
     lines = [("run file", f"{path}: no errors in run file and data")]
     lines += [("material", _material_line(made)) for made in record["materials"]]
+    if record["surface"] is not None:
+        lines.append(("surface", _surface_line(record["surface"])))
     if record["measured_points"] is not None:
         lines.append(("measured", f"{record['measured_points']} points of friction"))
     line = found.study.body.LINE
@@ -188,6 +209,16 @@ def duration(seconds: float) -> str:
 
 def _bytes(number: float) -> str:
     return f"{number / 1e9:.1f} GB" if number >= 1e9 else f"{_rounded(number / 1e6)} MB"
+
+
+def _surface_line(surface: dict[str, Any]) -> str:
+    from viscofric.report.texts.numbers import length
+
+    points = " × ".join(str(count) for count in surface["points"])
+    waves = surface["points_in_shortest_wave"]
+    few = f"; {_ENOUGH_POINTS} or more are needed" if round(waves, 6) < _ENOUGH_POINTS else ""
+    step, height = (length(surface[name]) for name in ("spacing", "rms_height"))
+    return f"{points} points of {step}, rms height {height}, {waves:.2g} points in the shortest wave{few}"
 
 
 def _material_line(made: dict[str, Any]) -> str:
