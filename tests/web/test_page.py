@@ -195,6 +195,17 @@ def test_figures_come_with_their_numbers_and_as_files(drawing: Tab) -> None:
     assert int.from_bytes(files["PNG"][16:20], "big") == 1800
 
 
+def test_a_file_of_a_figure_is_light_or_dark_as_the_page(drawing: Tab) -> None:
+    drawing.value(_FIGURE.replace("'drawn'", "'filed'"))
+    figure = drawing.page.locator("#figure-filed")
+    figure.locator(".main-svg").first.wait_for()
+    for scheme, paper in (("dark", b"rgb(27, 32, 37)"), ("light", b"rgb(255, 255, 255)")):
+        drawing.page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
+        with drawing.page.expect_download() as download:
+            figure.get_by_role("button", name="SVG").click()
+        assert b"fill: " + paper in download.value.path().read_bytes()
+
+
 def test_figures_follow_light_dark_and_units(drawing: Tab) -> None:
     drawing.value(_FIGURE.replace("'drawn'", "'again'"))
     drawing.page.wait_for_selector("#figure-again .main-svg")

@@ -82,7 +82,7 @@ export function layoutOf(spec, dark, forFile) {
   const said = { x: 1, y: 1, xanchor: "right", yanchor: "bottom" };
   const foot = { x: 0, y: 0, yshift: -62, xanchor: "left", yanchor: "top" };
   const ofFile = [
-    note(spec.synthetic && "synthetic data", 11, hue("vermilion", false), said),
+    note(spec.synthetic && "synthetic data", 11, hue("vermilion", dark), said),
     note(spec.origin, 10, look.quiet, foot),
   ];
   const title = { text: `<b>${spec.title}</b>`, font: { size: 16 }, x: 0.02, xanchor: "left", y: 0.97, yanchor: "top" };

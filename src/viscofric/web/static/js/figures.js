@@ -104,7 +104,8 @@ function described(spec) {
 async function savePicture(spec, format) {
   const Plotly = await drawing();
   const [width, height] = spec.map ? [900, 720] : [900, 620];
-  const picture = { data: dataOf(spec, false), layout: { ...layoutOf(spec, false, true), width, height } };
+  const layout = { ...layoutOf(spec, isDark(), true), width, height }; // light or dark as on the page
+  const picture = { data: dataOf(spec, isDark()), layout };
   const url = await Plotly.toImage(picture, { format, width, height, scale: format === "png" ? 2 : 1 });
   const content = url.slice(url.indexOf(",") + 1);
   if (format === "svg") return save(`${spec.id}.svg`, decodeURIComponent(content), "image/svg+xml");
