@@ -173,7 +173,13 @@ class Material(Plotted):
                 f"temperature = {brief(temperature)}: this material has no shift, so its temperature cannot be "
                 "chosen; ",
                 code="no-shift",
-                remedy=Remedy("give Material(spectrum, shift=WLF(…)) or ") + without("temperature"),
+                remedy=Remedy(
+                    "give Material(spectrum, shift=WLF(…)) or ",
+                    "give its shift factors (material fit --shift-factors) or ",
+                    "give its shift_factors under [material] or ",
+                    "",
+                )
+                + without("temperature"),
                 values={"argument": "temperature"},
             )
         kelvin = positive(temperature, "K", "temperature")

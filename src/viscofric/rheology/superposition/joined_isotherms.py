@@ -124,6 +124,13 @@ BOTH = Quantities.chosen()
 STEP = Quantities("both", np.ones((1, 1)), np.ones(1))
 
 
+# What to do with sweeps at one temperature.
+_ONE_SWEEP = " For one temperature alone, " + Remedy(
+    "read it with read_master_curve.",
+    "give it to material fit --master-curve.",
+    "give it as master_curve under [material].",
+    "choose “A master curve” as “Source of the material”.",
+)
 #: A measurement at one temperature.
 Tested = TypeVar("Tested", Isotherm, StepTest)
 #: Neighbours whose moduli cannot be brought closer than this (decades, joint rms) are not joined.
@@ -182,7 +189,9 @@ def usable(isotherms: Sequence[Isotherm | StepTest]) -> None:
     """Raise SuperpositionError unless there are at least two isotherms of at least two points."""
     if len(isotherms) < 2:
         raise SuperpositionError(
-            f"{len(isotherms)} isotherm cannot be superposed; at least two are needed.", code="too-few-isotherms"
+            f"{len(isotherms)} isotherm cannot be superposed; at least two are needed.",
+            code="too-few-isotherms",
+            remedy=_ONE_SWEEP if isinstance(isotherms[0], Isotherm) else None,
         )
     for isotherm in isotherms:
         if len(isotherm) < 2:
@@ -210,7 +219,7 @@ def join_isotherms(
     broken = np.flatnonzero(~joined[first:last])
     if broken.size:
         steps = [(isotherms[place].temperature, isotherms[place + 1].temperature) for place in np.flatnonzero(joined)]
-        keep = f"keep one of the ranges within which isotherms overlap ({ranges(steps)}) and leave out the others, or "
+        keep = f"keep one of the ranges within which isotherms overlap ({ranges(steps)}) and delete the others, or "
         raise SuperpositionError(_gap(isotherms, first + int(broken[0]), keep), code="no-overlap")
     notes = tuple(
         Note("left-out", f"The isotherm at {shown(isotherms[place].temperature)} was left out: {_gap(isotherms, gap)}")
