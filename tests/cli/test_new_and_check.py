@@ -60,6 +60,25 @@ temperature = "30 degC"
         assert ("needed" in call("check", "-", given=given).stdout) == few
 
 
+def test_a_scan_without_a_unit_is_noted_with_its_steps(tmp_path: Path) -> None:
+    rows = [",".join(f"{1.0 + (i * j) % 5}" if i != j else "" for j in range(8)) for i in range(8)]
+    (tmp_path / "scan.csv").write_text("\n".join(rows))
+    text = """[material]
+catalogue = "synthetic fluoroelastomer"
+[conditions]
+pressure = "50 kPa"
+speed = "1 mm/s"
+temperature = "30 degC"
+[surface]
+file = "scan.csv"
+spacing = "1 mm"
+prepare = ["fill", "window"]
+"""
+    (tmp_path / "study.toml").write_text(text)
+    found = json.loads(call("check", tmp_path / "study.toml", "--json").stdout)
+    assert {"unit-assumed", "implausible-heights", "filled"} <= {one["code"] for one in found["note_records"]}
+
+
 @pytest.mark.slow
 @pytest.mark.apart
 @pytest.mark.timeout(600)

@@ -13,7 +13,7 @@ import numpy as np
 
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.cases.case import moved
-from viscofric.friction.cases.surfaces import surface_of
+from viscofric.friction.cases.surfaces import notes_on, surface_of
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, Remedy
 from viscofric.study.cases.estimates import (
@@ -107,6 +107,9 @@ class CheckedStudy:
         said = [note for rubber in self.rubbers for note in rubber.notes]
         said += self.measured.notes if self.measured is not None else ()
         said += self.study.notes
+        if self.study.surface is not None:
+            first: Any = self.sweep.cases[0]
+            said += notes_on(first.surface)
         said += material_notes(self.study, [rubber.material for rubber in self.rubbers])
         return tuple(dict.fromkeys([*said, *self._too_soft(), *self._of_jobs()]))
 

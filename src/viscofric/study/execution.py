@@ -14,6 +14,7 @@ from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import StudyError
 from viscofric.files import file_path
 from viscofric.friction.cases.record import Failure
+from viscofric.friction.cases.surfaces import notes_on
 from viscofric.notes import Note, dumped, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.cases.singles import Singles
@@ -238,6 +239,9 @@ def tree_of(
     if study.heating is not None and study.interface is not None and interface.law is None:
         of_friction.append(NO_LAW)
     of_friction += material_notes(study, contacts.plan.rubbers.materials)
+    if study.surface is not None:
+        first: Any = contacts.sweep.cases[0]
+        of_friction += notes_on(first.surface)
     notes = [note for one in rubbers for note in _named(one, [*one.rubber.notes, *one.bands.notes], rubbers)]
     said = [words for one in rubbers for words in _named(one, one.doubts(study.conditions.temperature), rubbers)]
     tree.attrs = {

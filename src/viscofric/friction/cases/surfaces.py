@@ -14,7 +14,7 @@ from typing import Any, Literal, TypeAlias
 
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import DataFileError, InputError, brief
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
 from viscofric.roughness.made import self_affine
 from viscofric.roughness.reading import read_topography
 from viscofric.roughness.topography import Topography
@@ -130,6 +130,14 @@ SurfaceSource: TypeAlias = MadeSurface | ScannedSurface
 def surface_of(source: SurfaceSource) -> PeriodicSurface:
     """Return the surface of contacts, made once for many; InputError or DataFileError if it cannot be made."""
     return source.topography().to_surface()
+
+
+@functools.lru_cache(maxsize=_KEPT)
+def notes_on(source: SurfaceSource) -> tuple[Note, ...]:
+    """Return what was assumed, doubted and changed in reading and preparing a measured surface."""
+    if isinstance(source, MadeSurface):
+        return ()
+    return tuple(note for note in map(note_of, source.topography().history) if note.code)
 
 
 def file_digest(path: Path) -> str:
