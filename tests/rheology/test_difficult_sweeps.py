@@ -72,6 +72,31 @@ def test_gaps_between_neighbours_are_reported():
     assert "no-overlap" not in codes(whole.notes)
 
 
+def test_frequencies_between_isotherms_far_apart_were_not_measured():
+    # 0.1 to 10 Hz at each; from 30 to 90 °C log10 α falls by 3.4.
+    def joined(*celsius):
+        made = planted_sweeps(0, celsius=celsius)
+        fit = vf.superpose(made.sweeps, "30 degC", shift=made.material.shift)
+        spectrum = vf.fit_retardation_spectrum(fit.master_curve)
+        return fit, spectrum, vf.Material(spectrum, shift=made.material.shift)
+
+    fit, spectrum, material = joined(30.0, 90.0)
+    ((first, last),) = spectrum.fit.gaps
+    omega = fit.master_curve.angular_frequency
+    assert not np.any((omega > first) & (omega < last))
+    inside, beside = np.sqrt(first * last), (first, last)
+    assert not spectrum.fit.covers(inside)
+    assert np.all(spectrum.fit.covers(beside))
+    samples = vf.sample_materials(fit, spectrum, samples=20)
+    assert samples.to_dataset([inside, *beside]).within_measured_frequencies.values.tolist() == [0.0, 1.0, 1.0]
+    (note,) = samples.modulus_band([inside, *beside]).notes
+    assert (note.code, note.values["points"]) == ("beyond-measured", 1)
+    # A contact of half-length a sees v/a.
+    contact = vf.solve_steady(material, vf.Ball("10 mm"), speed=1e-3 * inside, load="1 N", accuracy=0.1)
+    assert "beyond-measured" in codes(contact.warnings)
+    assert joined(30.0, 60.0, 90.0)[1].fit.gaps == ()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["glass", "same glass"])
 def test_a_resonance_in_the_glass_does_not_tear_isotherms_apart(real_data, name):

@@ -101,7 +101,8 @@ def test_synthetic_fluoroelastomer_is_as_designed():
 
 
 def test_the_measured_frequencies_move_with_the_temperature():
-    fit = vf.rheology.SpectrumFit(0.01, 0.01, True, True, (1e-3, 1e6), measured_storage=(1e6, 1e9))
+    known = {"measured_storage": (1e6, 1e9), "gaps": ((1.0, 100.0),)}
+    fit = vf.rheology.SpectrumFit(0.01, 0.01, True, True, (1e-3, 1e6), **known)
     spectrum = vf.RetardationSpectrum(1e6, 1e9, [1e-6 - 1e-9], [1e-3], fit)
     material = vf.Material(spectrum, shift=vf.WLF(10.0, 100.0, 293.15))
     moved = material.at_reference(333.15)
@@ -109,6 +110,7 @@ def test_the_measured_frequencies_move_with_the_temperature():
     # What was measured at ω and the old reference is seen at ω/α and the new one.
     alpha = material.shift(333.15)
     assert moved.spectrum.fit.frequency_range == pytest.approx((1e-3 / alpha, 1e6 / alpha), rel=1e-12)
+    assert moved.spectrum.fit.gaps[0] == pytest.approx((1.0 / alpha, 100.0 / alpha), rel=1e-12)
     assert moved.at_reference(293.15).spectrum.fit.frequency_range == pytest.approx((1e-3, 1e6), rel=1e-9)
 
 

@@ -72,7 +72,8 @@ class FrictionCurves(Plotted):
         95 % limits of predicted friction due to the errors of the material.
     within_measured_frequencies : (n,) array or None
         0 for contacts at frequencies that were not measured, where friction and its limits belong to an extrapolated
-        modulus; 1 for others.  None where friction was measured, or where no contact is known to be such.
+        or, in gaps of the measurement, interpolated modulus; 1 for others.  None where friction was measured, or where
+        no contact is known to be such.
     viscoelastic_freedom, coulomb_freedom : (n,) array or None
         Degrees of freedom behind the standard errors of measured friction, infinite where these are known exactly;
         `interval` uses them.

@@ -269,7 +269,10 @@ def _frequencies(tree: DataTree) -> Iterator[Check]:
     if not counts:
         return
     ends = [significant(end, 2) for end in numbers(tree.attrs, "frequency_range")]
-    measured = f" ({ends[0]} to {ends[1]} rad/s at the reference temperature)" if len(ends) == 2 else ""
+    gaps = [significant(end, 2) for end in numbers(tree.attrs, "frequency_gaps")]
+    without = " or ".join(f"{first} to {last}" for first, last in zip(gaps[::2], gaps[1::2], strict=True))
+    but = f", but not at {without} rad/s," if gaps else ""
+    measured = f" ({ends[0]} to {ends[1]} rad/s{but} at the reference temperature)" if len(ends) == 2 else ""
     kind = "identified" if is_from_friction(tree) else "measured"
     meaning = "the frequency of the contact (shift factor times speed over half its length)"
     if outside:

@@ -229,6 +229,8 @@ class MaterialSamples(Plotted, Items["Material"]):
         the spectrum would do.
     misfit : SystematicMisfit or None
         What the fitted spectrum misses of the measured moduli beyond noise; None where that is not known.
+    gaps : tuple of (float, float)
+        Parts of `frequency_range` in which nothing was measured, rad/s.
     """
 
     materials: tuple[Material, ...]
@@ -236,6 +238,7 @@ class MaterialSamples(Plotted, Items["Material"]):
     tau: Array
     frequency_range: tuple[float, float]
     misfit: SystematicMisfit | None = None
+    gaps: tuple[tuple[float, float], ...] = ()
 
     def _items(self) -> Sequence[Material]:
         return self.materials
@@ -315,7 +318,7 @@ class MaterialSamples(Plotted, Items["Material"]):
 
     def _beyond(self, reduced: Array) -> tuple[Note, ...]:
         """Return a note on reduced frequencies that were not measured."""
-        beyond = reduced[~covers(self.frequency_range, reduced)]
+        beyond = reduced[~covers(self.frequency_range, reduced, self.gaps)]
         if not beyond.size:
             return ()
         subject = f"{beyond.size} of {reduced.size} reduced frequencies, {beyond.min():.3g} to {beyond.max():.3g} rad/s"
@@ -325,7 +328,7 @@ class MaterialSamples(Plotted, Items["Material"]):
             "lowest": float(beyond.min()),
             "highest": float(beyond.max()),
         }
-        return (beyond_note(self.frequency_range, f"{subject}, lie", "measured", **values),)
+        return (beyond_note(self.frequency_range, f"{subject}, lie", gaps=self.gaps, **values),)
 
     def to_dataset(
         self, angular_frequency: ArrayLike, temperature: Quantity | None = None, level: float = 0.95
@@ -347,7 +350,8 @@ class MaterialSamples(Plotted, Items["Material"]):
         omega = np.ravel(in_si(angular_frequency, "rad/s", "angular_frequency"))
         level = share(level, "level", example=0.95)
         band = self.modulus_band(omega, temperature, level)
-        within = covers(self.frequency_range, omega * 10.0 ** self._log10_alpha(temperature)).astype(float)
+        reduced = omega * 10.0 ** self._log10_alpha(temperature)
+        within = covers(self.frequency_range, reduced, self.gaps).astype(float)
         columns = {"within_measured_frequencies": (within, "1", "whether the frequency was measured")}
         for part, take in {"storage": np.real, "loss": np.imag}.items():
             for end, limit in {"lower": band.lower, "upper": band.upper}.items():

@@ -381,7 +381,7 @@ def sample_materials(
     assert spectrum.fit is not None  # `Refit` refuses others
     measured = spectrum.fit.frequency_range if joint else frequencies_of(parts[0].master_curve)
     missed = None if joint else _misfit(parts[0].master_curve, common, spectrum)
-    return MaterialSamples(materials, *_on_lattice(refit, fitted), measured, missed)
+    return MaterialSamples(materials, *_on_lattice(refit, fitted), measured, missed, spectrum.fit.gaps)
 
 
 def _on_lattice(refit: Refit, fitted: Sequence[Modes]) -> tuple[Array, Array]:

@@ -238,6 +238,8 @@ def setting(study: Study, sweep: Sweep, rubbers: Sequence[StudyRubber]) -> dict[
             known[name] = float(values[0])
     if len(rubbers) == 1 and (fit := rubbers[0].spectrum_fit) is not None:
         known["frequency_range"] = fit.frequency_range
+        if fit.gaps:
+            known["frequency_gaps"] = [end for gap in fit.gaps for end in gap]
     if study.uncertainty.members or any(rubber.bands.samples is not None for rubber in rubbers):
         known["seed"] = study.uncertainty.seed
     return known
