@@ -181,6 +181,19 @@ def test_shift_factors_alone_move_friction_along_its_slope() -> None:
     assert at_reference.material_error[0] < 1e-10 * at_reference.viscoelastic[0]
 
 
+@pytest.mark.parametrize(("speed", "power"), [(1e-9, 1.0), (1e9, -1.0)])
+def test_friction_of_modes_far_from_the_time_of_the_contact_moves_with_them(speed: float, power: float) -> None:
+    """At vτ/a of 1e-9 and 1e9 friction is proportional to τ and to 1/τ."""
+    law = vf.Arrhenius(activation_energy=1e5, reference="60 degC")
+    one, faster, slower = (
+        replace(vf.Material.standard_linear_solid("3 MPa", "6 MPa", tau), shift=law) for tau in (1e-3, 0.8e-3, 1.25e-3)
+    )
+    curves = predicted(one, drawn_from(faster, slower), 333.15, speed, accuracy=1e-2)
+    limits = sorted([0.8**power, 1.25**power])
+    found = np.concatenate([curves.viscoelastic_lower, curves.viscoelastic_upper]) / curves.viscoelastic
+    np.testing.assert_allclose(found, limits, rtol=1e-2)  # the accuracy of the derivatives
+
+
 @pytest.mark.slow
 def test_a_vertical_shift_moves_friction_by_the_load_rule() -> None:
     """Moduli b times larger at a temperature are a load b times smaller: Δμ = −F ∂μ/∂F Δln b."""

@@ -1,7 +1,8 @@
 """Sensitivity of one contact's friction to the compliance at every retardation time, from one adjoint solve.
 
 With the derivatives ∂μ/∂C of modes without compliance, added where the material has no mode, g(τ) = ∂μ/∂C is known for
-all τ.  It is smooth, approaches its glassy value for vτ far below the contact's length, and zero far above it.
+all τ.  It is smooth, approaches its glassy value for vτ far below the contact's length, in proportion to τ, and zero
+far above it, as 1/τ.  Where all modes are that short or that long, friction itself is this small difference.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 SPACING = 0.5
 #: Nodes nearer than this in ln τ would cause ripples in the interpolation.
 LEAST_SPACING = 0.1
-#: Range of their vτ over the length of the contact: beyond it, g is at its limits to 1e-5.
+#: Range of their vτ over the length of the contact: beyond it, g follows its power laws to 1e-5.
 REACH = 1e-6, 1e6
 #: Of ln τ.
 ROUNDING = 1e-9
@@ -46,10 +47,10 @@ class ComplianceSensitivity:
         """Return g at ln τ, in its shape, Pa."""
         from scipy.interpolate import CubicSpline
 
-        first, last = self.log_tau[0], self.log_tau[-1]
-        between = CubicSpline(self.log_tau, self.slope)(np.clip(log_tau, first, last))
-        # The nodes at the ends may be times of the material itself: rounding must not put them beyond.
-        return np.where(log_tau < first - ROUNDING, self.glass, np.where(log_tau > last + ROUNDING, 0.0, between))
+        inside = np.clip(log_tau, self.log_tau[0], self.log_tau[-1])
+        beyond = np.exp(-np.abs(log_tau - inside))  # one inside
+        limit = np.where(log_tau < inside, self.glass, 0.0)
+        return limit + (CubicSpline(self.log_tau, self.slope)(inside) - limit) * beyond
 
 
 def solve_with_sensitivity(
@@ -61,7 +62,8 @@ def solve_with_sensitivity(
     relaxed = (1.0 - material.poisson_ratio**2) / here.E0 + counterface
     length = Scale.for_load(indenter, 1.0 / relaxed, load).length
     alpha = 1.0 if temperature is None or material.shift is None else float(material.shift(temperature))
-    everywhere = replace(material, spectrum=_with_empty_modes(material.modes_at(), length / (speed * alpha)))
+    time = length / (speed * alpha)
+    everywhere = replace(material, spectrum=_with_empty_modes(material.modes_at(), time))
     solution = solve_and_differentiate(
         everywhere, indenter, speed=speed, load=load, temperature=temperature, **settings
     )
@@ -69,7 +71,7 @@ def solve_with_sensitivity(
     assert found is not None
     glass = -found.E_inf * modes.E_inf**2
     log_tau = np.log(modes.tau)
-    nodes = _apart(log_tau)
+    nodes = _nodes(everywhere.modes_at(), time)
     sensitivity = ComplianceSensitivity(
         friction=solution.friction_coefficient,
         compliance_part=0.0,
@@ -86,8 +88,8 @@ def solve_with_sensitivity(
 
 def log_times(spectrum: RetardationSpectrum, time: float) -> Array:
     """Return ln τ at which a contact's sensitivity is given; `time` is its unit of length (`Scale`) over speed, s."""
-    log_tau = np.log(_with_empty_modes(spectrum, time).tau)
-    return log_tau[_apart(log_tau)]
+    everywhere = _with_empty_modes(spectrum, time)
+    return np.log(everywhere.tau)[_nodes(everywhere, time)]
 
 
 def _with_empty_modes(spectrum: RetardationSpectrum, time: float) -> RetardationSpectrum:
@@ -101,10 +103,11 @@ def _with_empty_modes(spectrum: RetardationSpectrum, time: float) -> Retardation
     return RetardationSpectrum(spectrum.E0, spectrum.E_inf, C[order], tau[order], spectrum.fit)
 
 
-def _apart(log_tau: Array) -> list[int]:
-    """Return rows of ascending values that are far enough from the preceding one."""
-    rows = [0]
-    for row, value in enumerate(log_tau):
-        if value - log_tau[rows[-1]] >= LEAST_SPACING:
+def _nodes(spectrum: RetardationSpectrum, time: float) -> list[int]:
+    """Return the modes within reach of a time (s) that are far enough from the preceding one, ascending."""
+    rows: list[int] = []
+    log_tau = np.log(spectrum.tau / time)
+    for row in np.flatnonzero(np.abs(log_tau) <= np.log(REACH[1]) + ROUNDING).tolist():
+        if not rows or log_tau[row] - log_tau[rows[-1]] >= LEAST_SPACING:
             rows.append(row)
     return rows
