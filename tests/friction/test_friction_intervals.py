@@ -12,7 +12,7 @@ from scipy.stats import t as student
 
 from friction.made_runs import FOUR, friction_curves, timed_sweeps, traction_runs
 from refusals import refused
-from viscofric.friction.curve_checks import relative_errors
+from viscofric.friction.curve_checks import relative_errors, shared_level
 from viscofric.friction.measurement.errors import Pool, Scatter
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import codes
@@ -246,8 +246,9 @@ def test_deviations_that_speeds_share_count_once() -> None:
 
 def test_errors_that_speeds_share_are_noted_with_their_size() -> None:
     """Each of 12 runs differs by 4 % of its friction, at all speeds alike: level_error can take it."""
-    notes = separate(timed_sweeps(FIVE, variation=0.04, runs=20, readings=2, seed=1)).notes
-    assert "errors-shared-by-speeds" in codes(notes)
+    curves = separate(timed_sweeps(FIVE, variation=0.04, runs=20, readings=2, seed=1))
+    assert "errors-shared-by-speeds" in codes(curves.notes)
+    assert shared_level(curves) == pytest.approx(np.median(curves.viscoelastic_error / curves.viscoelastic), rel=0.2)
     notes = separate(timed_sweeps(FIVE, variation=0.04, runs=20, readings=2, anew=True, seed=1)).notes
     assert "errors-shared-by-speeds" not in codes(notes)
 

@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.arrays import Array, Integers, Mask
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
-from viscofric.friction.curve_checks import error_freedom
+from viscofric.friction.curve_checks import error_freedom, shared_level
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.intervals import half_widths
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
@@ -58,8 +58,9 @@ class Agreement(Plotted):
         d in the order of the measured points.
     bias_error : float
         Standard error of `bias`; s and e are taken as independent from point to point, m as one error of all points,
-        the least favourable case, and so is s where Coulomb friction is assumed.  Infinite if any s is.  It does not
-        include errors that all speeds of a run share; `separate` notes their size.
+        the least favourable case, and so is s where Coulomb friction is assumed.  Infinite if any s is.  The part of s
+        that the speeds of a temperature share, as `separate` notes or a master curve holds (``level_error``), is one
+        error of each temperature.
     bias_error_at : (k,) array
     share_within_scatter : float or None
         Share of the points where predicted and measured differ by at most the standard deviation over the measured
@@ -230,13 +231,15 @@ def compare(
         )
     if isinstance(measured, FrictionMasterCurve) and isinstance(predicted, FrictionMasterCurve):
         points = measured.curves
+        level = max(measured.level_error, shared_level(points))
         _insist_on_friction(points)
         pairs = along_reduced_speed(measured, predicted)
     else:
         points = insist_on_curves(measured, "measured")
+        level = shared_level(points)
         _insist_on_friction(points)
         pairs = point_by_point(points, insist_on_curves(predicted, "predicted"))
-    return _agreement(pairs, shifted, len(points) - len(pairs.measured))
+    return _agreement(pairs, level, shifted, len(points) - len(pairs.measured))
 
 
 def _insist_on_friction(measured: FrictionCurves) -> None:
@@ -251,11 +254,12 @@ def _insist_on_friction(measured: FrictionCurves) -> None:
         )
 
 
-def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
+def _agreement(pairs: Pairs, level: float, shifted: bool, not_covered: int) -> Agreement:
     measured = pairs.measured
     difference = pairs.predicted - measured.viscoelastic
     relative = difference / measured.viscoelastic
-    own = np.hypot(measured.viscoelastic_error, pairs.numerical_error)
+    shared = np.minimum(level * np.abs(measured.viscoelastic), measured.viscoelastic_error)
+    own = np.sqrt(measured.viscoelastic_error**2 - shared**2 + pairs.numerical_error**2)
     material = np.zeros(len(measured)) if pairs.material_error is None else pairs.material_error
     likely = half_widths(measured.viscoelastic_error, error_freedom(measured)[0], WITHIN)
     rest = 2.0 * np.hypot(pairs.numerical_error, material)
@@ -263,9 +267,11 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     known = np.isfinite(measured.viscoelastic_error)
     repeated = (measured.replicates > 1) & np.isfinite(measured.viscoelastic_scatter)
     in_scatter = np.abs(difference) <= measured.viscoelastic_scatter
-    own, material = own / measured.viscoelastic, material / measured.viscoelastic
+    own, shared, material = (one / measured.viscoelastic for one in (own, shared, material))
     if measured.assumption:  # an error of the assumed Coulomb friction is one of all points
-        own, material = np.zeros(len(measured)), np.hypot(own, material)
+        material = np.sqrt(own**2 + shared**2 + material**2)
+        own = shared = np.zeros(len(measured))
+    groups = [np.isin(np.arange(len(measured)), rows) for rows in nominal_rows(measured.temperature)]
 
     def numbers(rows: Mask) -> tuple[float, float, float, float, float]:
         """Return bias, rms, shares within error and within scatter, NaN without such points, and error of the bias."""
@@ -274,11 +280,10 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
             float(np.sqrt(np.mean(relative[rows] ** 2))),
             _share(within[rows & known]),
             _share(in_scatter[rows & repeated]),
-            _error_of_mean(own[rows], material[rows]),
+            _error_of_mean(own[rows], [shared[rows & group] for group in groups], material[rows]),
         )
 
     bias, rms, share_within_error, share_within_scatter, bias_error = numbers(np.full(len(measured), True))
-    groups = [np.isin(np.arange(len(measured)), rows) for rows in nominal_rows(measured.temperature)]
     bias_at, rms_at, error_at, scatter_at, bias_error_at = np.array([numbers(group) for group in groups]).T
     return Agreement(
         bias=bias,
@@ -303,9 +308,10 @@ def _agreement(pairs: Pairs, shifted: bool, not_covered: int) -> Agreement:
     )
 
 
-def _error_of_mean(independent: Array, common: Array) -> float:
-    """Return the standard error of a mean whose terms have independent errors and a common one."""
-    return float(np.hypot(np.sqrt(np.sum(independent**2)) / independent.size, common.mean()))
+def _error_of_mean(independent: Array, shared: list[Array], common: Array) -> float:
+    """Return the standard error of a mean of terms with independent errors, errors of groups and a common one."""
+    own = np.sum(independent**2) + sum(group.sum() ** 2 for group in shared)
+    return float(np.hypot(np.sqrt(own) / independent.size, common.mean()))
 
 
 def _share(within: Mask) -> float:

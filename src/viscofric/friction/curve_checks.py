@@ -12,7 +12,7 @@ from viscofric.errors import wrong_argument
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.intervals import threshold
 from viscofric.nominal import nominal_rows
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
 from viscofric.rheology.uncertainty.material_samples import freedom_of_scatter, prior_freedom
 from viscofric.units import Quantity, number, plain, shown_celsius, shown_speed
 
@@ -47,6 +47,16 @@ TAILS, MEAN_SQUARE, TAILS_COST = 2.0, 0.921, 1.0195
 ROUNDS, SETTLED = 10, 0.1
 #: Fewest errors that have a common one.
 FEWEST_ERRORS = 6
+#: Code of the note on errors of measured friction that the speeds of a temperature share.
+SHARED_BY_SPEEDS = "errors-shared-by-speeds"
+
+
+def shared_level(curves: FrictionCurves) -> float:
+    """Return the relative error of measured friction that the speeds of a temperature share; 0 where none is noted."""
+    notes = map(note_of, curves.notes)
+    return max(
+        (float(note.values.get("level_error", 0.0)) for note in notes if note.code == SHARED_BY_SPEEDS), default=0.0
+    )
 
 
 def shared_error(value: Quantity, name: str) -> float:

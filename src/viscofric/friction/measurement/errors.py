@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscofric.arrays import Array, Indices, Integers, Mask
+from viscofric.friction.curve_checks import SHARED_BY_SPEEDS
 from viscofric.friction.measurement.conditions import where
 from viscofric.friction.measurement.doubts import CHANCE
 from viscofric.friction.measurement.fit import WEAR, Fit
@@ -213,10 +214,11 @@ def _on_runs(fits: list[Fit], common: dict[int, float]) -> Iterator[Note]:
     if common:
         level = float(np.median(list(common.values())))
         yield Note(
-            "errors-shared-by-speeds",
+            SHARED_BY_SPEEDS,
             f"{_where(fits, list(common))} runs differ by the same amount at all speeds, so that the errors of the "
             f"speeds of one temperature are not independent: they have a common error of {100.0 * level:.2g} % of "
             f"viscoelastic friction (level_error = {level:.2g} in shift_friction and identify_material).",
+            values={"level_error": level},
         )
 
 
