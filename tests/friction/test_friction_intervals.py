@@ -186,6 +186,17 @@ def test_intervals_hold_the_truth_where_runs_differ_and_steps_have_many_readings
     assert np.mean(width) < 2.0 * 1.96 * one * 4.3 / 1.96 * 1.3
 
 
+def test_errors_of_one_reading_of_each_configuration_are_noted() -> None:
+    """A run that differs as a whole, by temperature or track, leaves nothing over in its configurations."""
+
+    def noted(replicates: int) -> bool:
+        runs = traction_runs(viscoelastic=lambda v, T: 0.02, noise=0.01, replicates=replicates)
+        return "errors-from-left-over" in codes(separate(runs).notes)
+
+    assert noted(1)
+    assert not noted(2)
+
+
 @pytest.mark.slow
 def test_what_configurations_leave_over_is_in_the_errors_where_runs_are_not_repeated() -> None:
     """One run of each configuration, which differ by 4 %: the readings alone say a tenth of it."""

@@ -80,7 +80,11 @@ class BetweenRuns:
             variance[at], freedom[at] = some_variance, some_freedom
         residual = _with_residual(fits, weights, variance, freedom)
         unrepeated = [place for place, number in found if number == _VISCOELASTIC]
-        once = [place for place, fit in enumerate(fits) if _measured_once(fit) and place not in unrepeated]
+        # Exact forces, such as made ones, leave a residual of their rounding.
+        rounding = [ROUNDING * np.abs(fit.mean(weights) / [fit.group.load, 1.0, 1.0, 1.0]).sum() for fit in fits]
+        left_over = np.sqrt(variance[:, _VISCOELASTIC]) > rounding
+        once = [place for place, fit in enumerate(fits) if _measured_once(fit) and left_over[place]]
+        once = [place for place in once if place not in unrepeated]
         notes = [
             *_on_residual(fits, residual),
             *_on_few(fits, unrepeated, autocorrelation, once, freedom),
@@ -255,9 +259,8 @@ def _scatters(fit: Fit, weights: Array) -> list[Scatter]:
 
 
 def _measured_once(fit: Fit) -> bool:
-    """Whether a condition has exactly one pass, of several readings, in each of its configurations."""
-    few = int(fit.passes.max()) + 1 == len(fit.group.signs)
-    return few and not fit.paired and fit.group.rows.size > len(fit.group.signs)
+    """Whether a condition has exactly one pass in each of its configurations."""
+    return int(fit.passes.max()) + 1 == len(fit.group.signs) and not fit.paired
 
 
 def of_readings(
