@@ -17,6 +17,7 @@ import numpy as np
 
 from viscofric.arguments import LARGEST, insist_on, numbers, real
 from viscofric.errors import InputError, ViscofricError, not_imported, wrong_argument
+from viscofric.notes import Remedy
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -408,11 +409,12 @@ def shown_celsius(kelvin: float, form: str = "z.1f") -> str:
     return shown_number(celsius(kelvin), form)
 
 
-def kelvin_hint(kelvin: float) -> str:
-    """Return a hint for a plain number that was probably meant in degrees Celsius, or an empty text."""
+def kelvin_hint(kelvin: float) -> Remedy:
+    """Return the end of a sentence: for Python, a hint where a plain number was probably meant in degrees Celsius."""
     if kelvin >= COLDEST_PLAUSIBLE:
-        return ""
-    return f"; plain numbers are kelvin: for {kelvin:.4g} °C write '{kelvin:.4g} degC'"
+        return Remedy(".")
+    # Commands, run files and the page take temperatures with their unit only.
+    return Remedy(f"; plain numbers are kelvin: for {kelvin:.4g} °C write '{kelvin:.4g} degC'.", ".", page=".")
 
 
 def plain(number: float, digits: int = 4) -> str:

@@ -432,6 +432,17 @@ def test_comments_of_cards(tmp_path: Path) -> None:
 MEASURED: dict[str, Any] = {"E0_extrapolated": False, "E_inf_extrapolated": False, "frequency_range": (1.0, 10.0)}
 
 
+def test_plain_numbers_are_named_to_users_of_python_only() -> None:
+    """Commands, run files and the page take a temperature with its unit: −200 °C there is no 73 °C."""
+    for of in (vf.synthetic_fluoroelastomer().shift, FACTORS, vf.WLF(10.0, 100.0, 293.15)):
+        with pytest.raises(vf.InputError) as caught:
+            of(73.15)
+        assert "'73.15 degC'" in caught.value.note.words("python")
+        for reader in ("shell", "run_file", "page"):
+            assert "kelvin" not in caught.value.note.words(reader)
+            assert caught.value.note.words(reader).endswith(("extrapolate.", "decades.", "above it only."))
+
+
 @pytest.mark.parametrize(
     ("known", "remarks"),
     [

@@ -18,7 +18,7 @@ from viscofric.errors import DataFileError, InputError, wrong_argument
 from viscofric.files import decoded, read_bytes
 from viscofric.notes import Remedy
 from viscofric.readers.headings import Vocabulary
-from viscofric.units import Quantity, conversion, kelvin_hint, positive, shown_celsius
+from viscofric.units import COLDEST_PLAUSIBLE, Quantity, conversion, kelvin_hint, positive, shown_celsius
 
 #: What a test sweeps: the frequency, the temperature or the strain amplitude.
 Test: TypeAlias = Literal["frequency", "temperature", "amplitude"]
@@ -245,11 +245,9 @@ def temperatures_of(given: Quantity | Sequence[Quantity | None] | None, count: i
 
 def _kelvin(value: Quantity) -> float:
     kelvin = positive(value, "K", "temperature")
-    hint = kelvin_hint(kelvin) if isinstance(value, (int, float)) else ""
-    if hint:
-        raise wrong_argument(
-            "temperature", value, f"is {shown_celsius(kelvin, 'z.4g')} °C{hint}.", "looks-like-celsius"
-        )
+    if isinstance(value, (int, float)) and kelvin < COLDEST_PLAUSIBLE:
+        problem = f"is {shown_celsius(kelvin, 'z.4g')} °C{kelvin_hint(kelvin).python}"
+        raise wrong_argument("temperature", value, problem, "looks-like-celsius")
     return kelvin
 
 

@@ -143,8 +143,9 @@ def _check(isotherms: Sequence[FrictionIsotherm], reference: float | None) -> No
     if reference is not None and not low - NOMINAL <= reference <= high + NOMINAL:
         raise InputError(
             f"reference = {shown_celsius(reference)} °C lies outside the friction curves, {shown(isotherms[0])} to "
-            f"{shown(isotherms[-1])}{kelvin_hint(reference)}.",
+            f"{shown(isotherms[-1])}",
             code="reference-outside",
+            remedy=kelvin_hint(reference),
             values={"argument": "reference"},
         )
 

@@ -198,8 +198,9 @@ def superpose_ramps(
     if not low <= kelvin <= high:
         raise InputError(
             f"reference = {shown_celsius(kelvin)} °C lies outside the ramps, {shown_celsius(low)} to "
-            f"{shown_celsius(high)} °C{kelvin_hint(kelvin)}.",
+            f"{shown_celsius(high)} °C",
             code="outside-measured",
+            remedy=kelvin_hint(kelvin),
         )
     b = _vertical(vertical, kelvin)
     peaks = tuple(

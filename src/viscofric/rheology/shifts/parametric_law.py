@@ -277,8 +277,9 @@ class ParametricLaw(ShiftLaw):
             coldest = float(kelvin.min())
             raise InputError(
                 f"temperature = {shown_celsius(coldest)} °C: the {self.title} law diverges at "
-                f"{shown_celsius(self._divergence)} °C and is valid above it only{kelvin_hint(coldest)}.",
+                f"{shown_celsius(self._divergence)} °C and is valid above it only",
                 code="below-pole",
+                remedy=kelvin_hint(coldest),
             )
         if not self.bounded or self.fitted_range is None or not np.any(self._outside(kelvin)):
             return
@@ -297,8 +298,9 @@ class ParametricLaw(ShiftLaw):
         return InputError(
             f"temperature = {shown_celsius(wanted)} °C lies {gap:.3g} K {side} the {shown_celsius(low)} to "
             f"{shown_celsius(high)} °C that this {self.title} law was fitted on. It is valid {direction} to "
-            f"{shown_celsius(reach.limit)} °C only, because {reach.reason}; {self._remedy()}{kelvin_hint(wanted)}.",
+            f"{shown_celsius(reach.limit)} °C only, because {reach.reason}; {self._remedy()}",
             code="outside-fitted",
+            remedy=kelvin_hint(wanted),
         )
 
     def _remedy(self) -> str:

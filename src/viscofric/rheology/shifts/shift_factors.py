@@ -128,7 +128,7 @@ class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
                     page="; leave it out, or, with sweeps, use a law under “Shift” to extrapolate",
                     field="conditions.temperature",
                 )
-                + f"{kelvin_hint(wanted)}.",
+                + kelvin_hint(wanted),
             )
 
     def _log10(self, kelvin: Array) -> Array:

@@ -15,7 +15,16 @@ from viscofric.arrays import Array, Mask
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted
-from viscofric.units import Quantities, Quantity, kelvin_hint, positive, to_si, to_si_array, to_si_in_shape
+from viscofric.units import (
+    Quantities,
+    Quantity,
+    kelvin_hint,
+    positive,
+    shown_celsius,
+    to_si,
+    to_si_array,
+    to_si_in_shape,
+)
 
 Temperatures: TypeAlias = Array | list[float] | list[str] | tuple[float, ...] | tuple[str, ...]
 
@@ -117,11 +126,11 @@ class Shift(Plotted, ABC):
         """Return the shift, as `log10`; InputError also if it is beyond the range of floating-point numbers."""
         decades = self.log10(temperature)
         if np.any(np.abs(decades) > _MOST_DECADES):
-            kelvin = np.ravel(in_kelvin(temperature))[np.argmax(np.abs(decades))]
+            kelvin = float(np.ravel(in_kelvin(temperature))[np.argmax(np.abs(decades))])
             raise InputError(
-                f"temperature = {kelvin:.4g} K: the shift there is more than {_MOST_DECADES} decades from 1"
-                f"{kelvin_hint(float(kelvin))}.",
+                f"temperature = {shown_celsius(kelvin)} °C: the shift there is beyond {_MOST_DECADES} decades",
                 code="out-of-range",
+                remedy=kelvin_hint(kelvin),
             )
         return 10.0**decades
 

@@ -174,8 +174,9 @@ class VerticalShiftFactors(ShiftTable, VerticalShift):
             raise InputError(
                 f"temperature = {shown_celsius(wanted)} °C lies outside {shown_celsius(low)} to {shown_celsius(high)} "
                 f"°C, where the vertical shift was measured; a density shift, ρT/(ρ0 T0), is "
-                f"valid beyond{kelvin_hint(wanted)}.",
+                "valid beyond",
                 code="outside-measured",
+                remedy=kelvin_hint(wanted),
             )
 
     def to_dataset(self, temperatures: Any = None) -> Dataset:

@@ -180,9 +180,9 @@ def shifted_isotherms(
     if not temperatures[0] - NOMINAL <= kelvin <= temperatures[-1] + NOMINAL:
         raise InputError(
             f"reference = {shown_celsius(kelvin)} °C lies outside the joined isotherms, "
-            f"{shown(temperatures[0])} to {shown(temperatures[-1])}{kelvin_hint(kelvin)}. "
-            f"{' '.join(joined.notes)}".rstrip(),
+            f"{shown(temperatures[0])} to {shown(temperatures[-1])}",
             code="reference-outside",
+            remedy=kelvin_hint(kelvin) + "".join(f" {note}" for note in joined.notes),
         )
     if shift is None:
         held = held_places(fixed or {}, temperatures, kelvin)
