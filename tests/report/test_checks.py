@@ -107,6 +107,8 @@ def test_cases_beyond_the_measured_frequencies_are_counted(tree: xr.DataTree) ->
         "prediction_master": [0, 41],
         "range": [1e-4, 1e6],
     }
+    tree.attrs["frequency_gaps"] = [1.0, 100.0, 1e3, 1e5]
+    assert numbers(tree, "Measured frequency range")["gaps"] == [1.0, 100.0, 1e3, 1e5]
 
 
 def test_results_of_an_older_viscofric_lack_the_newer_checks(tree: xr.DataTree) -> None:

@@ -283,6 +283,8 @@ def _frequencies(tree: DataTree) -> Iterator[Check]:
     else:
         words = f"In all cases {meaning} lies within the {kind} range{measured}."
     counted = {**cases, "range": [*numbers(tree.attrs, "frequency_range")]}
+    if gaps:
+        counted["gaps"] = numbers(tree.attrs, "frequency_gaps")
     yield Check.of("Measured frequency range", outside == 0, Note("frequency-range", words, values=counted))
 
 
