@@ -49,10 +49,10 @@ class Unsteady:
     def pressure(self, state):
         return Field({"x": np.zeros(1)}, np.zeros(1))
 
-    def scatter(self, one, other):
+    def pointwise_difference(self, one, other):
         return 0.0
 
-    def sudden(self, state):
+    def rate_change(self, states, start, end):
         return 0.0
 
     def early(self, since):

@@ -57,7 +57,8 @@ class Difference(NamedTuple):
     dissipated: float = 0.0
     slopes_along: float = 0.0  # friction from the pressure on slopes
     slopes_across: float = 0.0
-    points: float = 0.0  # friction, from the differences of single points; see `Mover.scatter` and `Mover.sudden`
+    #: Friction, from single points: see `Mover.pointwise_difference` and `Mover.rate_change`
+    points: float = 0.0
 
 
 #: Of equal chains.

@@ -15,7 +15,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Generic
+from typing import Generic, NamedTuple
 
 import numpy as np
 
@@ -91,6 +91,14 @@ def march(
         f"the accuracy {accuracy:g} was not reached with steps that each add {share:.2g} of it; ask for less.",
         code="steps-not-converged",
     )
+
+
+class _Halves(NamedTuple, Generic[State]):
+    """States of the fine chain at the ends of its last two steps, and the instants of the second one."""
+
+    states: tuple[State, State, State]
+    start: Instant
+    end: Instant
 
 
 @dataclass(eq=False)
@@ -242,10 +250,12 @@ class _March(Generic[State]):
             left, proposed = end - time, step
             step = left if step >= left else min(step, 0.5 * left)  # no tiny last step
             reached = end if step == left else time + step
-            tried = self._try(pair, [time, 0.5 * (time + reached), reached])
-            ratio = self._ratio(pair, tried)
+            tried, fine = self._try(pair, [time, 0.5 * (time + reached), reached])
+            ratio, change = self._ratio(pair, tried), 0.0
             too_quick = ratio * self.share > 1.0  # the step alone adds more than the accuracy
-            ratio = max(ratio, self.mover.sudden(tried.fine.state) / (self._with(tried).friction * self.accuracy))
+            if not too_quick:
+                change = self.mover.rate_change(*fine)
+                ratio = max(ratio, change / (self._with(tried).friction * self.accuracy))
             if ratio > 1.0 and step > (least if too_quick else max(least, _LEAST * (end - start))):
                 self.rejected += 1
                 step *= _growth(ratio)
@@ -269,7 +279,7 @@ class _March(Generic[State]):
                 )
             # A step shortened by the end of a part is no guide to the length of the next one.
             step = max(proposed if step < proposed and ratio < 1.0 else least, step * _growth(ratio))
-            pair = self._take(tried, reached, end, step)
+            pair = self._take(tried, reached, end, step, change)
             time = reached
 
     def _first_step(self, start: float, end: float) -> float:
@@ -285,7 +295,7 @@ class _March(Generic[State]):
         place, last, count = 0, len(edges) - 1, int(self._pace) or 2
         while place < last:
             count = min(count, last - place)
-            tried = self._try(pair, edges[[place, place + count // 2, place + count]].tolist())
+            tried, _ = self._try(pair, edges[[place, place + count // 2, place + count]].tolist())
             ratio = self._ratio(pair, tried)
             taken, count = count, max(2, 2 * int(0.5 * count * _growth(ratio)))
             if ratio > 1.0 and taken > 2:
@@ -295,13 +305,12 @@ class _March(Generic[State]):
                 place += taken
                 pair = self._take(tried, float(edges[place]), float(edges[-1]), count if place < last else 0.0)
 
-    def _try(self, pair: Pair[State], times: list[float]) -> Pair[State]:
-        """Step from the first time to the last: the coarse chain at once, the fine one by those in between too."""
-        instants = [self._instant(time) for time in times]
-        fine = pair.fine
-        for start, end in itertools.pairwise(instants):
-            fine = self._step(fine, start, end)
-        return Pair(self._step(pair.coarse, instants[0], instants[-1]), fine)
+    def _try(self, pair: Pair[State], times: Sequence[float]) -> tuple[Pair[State], _Halves[State]]:
+        """Step from the first time to the last: the coarse chain at once, the fine one by that in between too."""
+        first, middle, last = (self._instant(time) for time in times)
+        halfway = self._step(pair.fine, first, middle)
+        tried = Pair(self._step(pair.coarse, first, last), self._step(halfway, middle, last))
+        return tried, _Halves((pair.fine.state, halfway.state, tried.fine.state), middle, last)
 
     def _step(self, link: Link[State], start: Instant, end: Instant) -> Link[State]:
         state = self.mover.step(link.state, start, end)
@@ -323,11 +332,13 @@ class _March(Generic[State]):
         before, after = (over_scales(difference(one), scales) for one in (pair, tried))
         return max(abs(two - one) for one, two in zip(before, after, strict=True)) / (self.share * self.accuracy)
 
-    def _take(self, tried: Pair[State], reached: float, end: float, pace: float) -> Pair[State]:
+    def _take(
+        self, tried: Pair[State], reached: float, end: float, pace: float, rate_change: float = 0.0
+    ) -> Pair[State]:
         self.taken += 1
         instant = self._instant(reached)
         self.mover.accept(tried.fine.state, instant)
-        pair = self._seen(tried)
+        pair = self._seen(tried, rate_change)
         worst = max(map(abs, over_scales(difference(pair), self._scales))) / 3.0
         if worst > self.accuracy and not self._limited:
             raise _TooLargeError(worst / self.accuracy)
@@ -349,8 +360,8 @@ class _March(Generic[State]):
             max(old.energy, abs(pair.fine.work), seen.stored, seen.dissipated),
         )
 
-    def _seen(self, pair: Pair[State]) -> Pair[State]:
-        points = max(self.mover.scatter(*(link.state for link in pair)), self.mover.sudden(pair.fine.state))
+    def _seen(self, pair: Pair[State], rate_change: float = 0.0) -> Pair[State]:
+        points = max(self.mover.pointwise_difference(pair.coarse.state, pair.fine.state), rate_change)
         self._scales, self._spread = self._with(pair), faded(self._spread, pair, points)
         return pair
 

@@ -133,12 +133,15 @@ class Mover(Protocol[State]):
         """Return the pressure of a state."""
         ...
 
-    def scatter(self, one: State, other: State) -> float:
+    def pointwise_difference(self, one: State, other: State) -> float:
         """Return the root of the sum of the squares by which the friction of each point differs between two states."""
         return 0.0
 
-    def sudden(self, state: State) -> float:
-        """Return the change of the friction by points touched within the last steps, which it may not show yet."""
+    def rate_change(self, states: tuple[State, State, State], start: Instant, end: Instant) -> float:
+        """Return the change of friction in a step as the last one, minus that in it, if points touch or leave at rest.
+
+        `states` are those at the ends of the last two steps, of one length; the last one has this start and end.
+        """
         return 0.0
 
     def early(self, since: float) -> float:

@@ -9,6 +9,7 @@ Inside, depths are in rms heights and compliances in that of the most compliant 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
@@ -61,8 +62,6 @@ class PeriodicState:
     dissipated: float
     trend: Array | None = None  # (nx, ny) rate of change of the pressure in the step before, 1/s
     lagging: float = 0.0  # after a jump: energy of the modes without a field minus that after they have followed
-    touched: float = 0.0  # 1 if a point was touched in the last step, else 0
-    sudden: float = 0.0  # change of the friction per area by points touched within a step at rest
 
 
 class _Step(NamedTuple):
@@ -175,14 +174,7 @@ class PeriodicMover(Mover[PeriodicState]):
     def step(self, state: PeriodicState, start: Instant, end: Instant, *, keep: bool = True) -> PeriodicState:
         """Return the state at the end of a step or jump; without `keep` its memory overwrites that of the one given."""
         lagging = self.modes.at_once if end.clock - start.clock == 0.0 else 0.0
-        before, friction = state.pressure, state.friction
         found = self._stepped(state, start, end, lagging, keep=keep)
-        if end.clock > start.clock:
-            touched = float(before.any() and np.any(found.pressure[before == 0.0]))
-            resting = np.array_equal(end.position, start.position)
-            if resting and max(touched, state.touched) > 0.0:
-                found = replace(found, sudden=self._change_of_rate(friction, found, start, end))
-            return replace(found, touched=touched)
         if lagging == 0.0:
             return found
         change = np.linalg.norm(self._scale * state.waves) ** 2 - np.linalg.norm(self._scale * found.waves) ** 2
@@ -197,18 +189,6 @@ class PeriodicMover(Mover[PeriodicState]):
         work = float(found.pressure.mean()) * (found.depth - state.depth)
         lost = work - (found.stored - state.stored - state.lagging)
         return replace(found, dissipated=state.dissipated + lost)
-
-    def _change_of_rate(self, before: tuple[float, float], state: PeriodicState, start: Instant, end: Instant) -> float:
-        """Return by how much the change of the friction in another such step would differ from that in this one."""
-        # A point touched late in a step carries nothing yet, but alters the rates at which all pressures change.
-        following = end
-        if start.pressure is not None and end.pressure is not None:
-            following = end._replace(pressure=max(0.0, 2.0 * end.pressure - start.pressure))
-        elif start.gap is not None and end.gap is not None:
-            following = end._replace(gap=2.0 * end.gap - start.gap)
-        later = self._stepped(state, start, following, 0.0, keep=True)
-        along, across = np.array(before) - 2.0 * np.array(state.friction) + np.array(later.friction)
-        return math.hypot(along, across)
 
     def _stepped(
         self,
@@ -263,13 +243,30 @@ class PeriodicMover(Mover[PeriodicState]):
         """Return the pressure of a state, Pa, on the surface's own points."""
         return Field({"x": self.surface.x, "y": self.surface.y}, self.pressure_unit * state.pressure)
 
-    def scatter(self, one: PeriodicState, other: PeriodicState) -> float:
+    def pointwise_difference(self, one: PeriodicState, other: PeriodicState) -> float:
         """Return the root of the sum of the squares by which the friction of each point differs between two states."""
         return self.pressure_unit * float(np.linalg.norm((one.pressure - other.pressure) * self._steepness))
 
-    def sudden(self, state: PeriodicState) -> float:
-        """Return the change of the friction by points touched within the last steps, which it may not show yet."""
-        return self.pressure_unit * self.depth_unit * state.sudden
+    def rate_change(
+        self, states: tuple[PeriodicState, PeriodicState, PeriodicState], start: Instant, end: Instant
+    ) -> float:
+        """Return the change of friction in a step as the last one, minus that in it, if points touch or leave at rest.
+
+        A point that touches or leaves late in a step hardly changes the friction yet, but alters the rates at which all
+        pressures change.
+        """
+        loaded = [one.pressure > 0.0 for one in states]
+        changed = any(np.any(one != other) for one, other in itertools.pairwise(loaded))
+        if not changed or not loaded[0].any() or not np.array_equal(end.position, start.position):
+            return 0.0
+        following = end
+        if start.pressure is not None and end.pressure is not None:
+            following = end._replace(pressure=max(0.0, 2.0 * end.pressure - start.pressure))
+        elif start.gap is not None and end.gap is not None:
+            following = end._replace(gap=2.0 * end.gap - start.gap)
+        later = self._stepped(states[-1], start, following, 0.0, keep=True)
+        forces = np.array([one.friction for one in (*states[1:], later)])
+        return self.pressure_unit * self.depth_unit * math.hypot(*np.diff(forces, 2, axis=0)[0])
 
     def early(self, since: float) -> float:
         """Return how many times as large the error of merged modes is so soon after a jump, s of the clock."""

@@ -65,13 +65,14 @@ class Watch:
         """Return the pressure of the state."""
         return self.mover.pressure(state.state)
 
-    def scatter(self, one: Watched, other: Watched) -> float:
+    def pointwise_difference(self, one: Watched, other: Watched) -> float:
         """Return the friction by which the points of two states differ."""
-        return self.mover.scatter(one.state, other.state)
+        return self.mover.pointwise_difference(one.state, other.state)
 
-    def sudden(self, state: Watched) -> float:
-        """Return the change of the friction by points touched within the last steps."""
-        return self.mover.sudden(state.state)
+    def rate_change(self, states: tuple[Watched, Watched, Watched], start: Instant, end: Instant) -> float:
+        """Return the change of friction in another step at rest, minus that in the last one."""
+        first, middle, last = (one.state for one in states)
+        return self.mover.rate_change((first, middle, last), start, end)
 
     def memory_of(self, state: Watched) -> NDArray[Any]:
         """Return the memory of the state."""
