@@ -154,11 +154,10 @@ def _half_matrix(coefficients: Array, nx: int, half: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class DenseBall:
-    """A dense ball contact in Hertz units of E0: μR/a0, δR/a0², cells in the window's longer edge."""
+    """A dense ball contact in Hertz units of E0: μR/a0 and δR/a0²."""
 
     friction: float
     indentation: float
-    contact_cells: int
 
 
 def _solve_ball(
@@ -185,7 +184,7 @@ def _solve_ball(
     if touches:
         grown = 0.2 * max(rear + front, 2.0 * side)
         return _solve_ball(rear + grown, front + grown, side + grown, cells, material)
-    return DenseBall(friction, contact.indentation, int(np.count_nonzero(pressure))), extent
+    return DenseBall(friction, contact.indentation), extent
 
 
 def dense_friction(
