@@ -52,6 +52,7 @@ def test_a_heated_curve_has_both_frictions_and_a_picture(tmp_path: Path) -> None
     assert picture.exists()
     points = json.loads(run("curve", *LINE, *options, "--json"))["points"]
     assert points[1]["temperature_rise"] > points[0]["temperature_rise"] > 0.0
+    assert all(0.0 < one["temperature_rise_error"] < one["temperature_rise"] for one in points)
 
 
 @pytest.mark.slow

@@ -45,6 +45,17 @@ def test_a_curve_has_the_states_of_its_contacts(curves: vf.friction.HeatedFricti
     assert curves.coulomb_rise + curves.loss_rise == pytest.approx(curves.temperature_rise, rel=1e-2)
 
 
+def test_a_rise_of_temperature_has_the_error_of_its_contact(curves: vf.friction.HeatedFrictionCurves) -> None:
+    """Both are solved to the same residual, by other steps: 1 % of the rise, a third of the error at most."""
+    one = vf.solve_steady(WARM, CYLINDER, speed=2.0, temperature=300.0, load=100.0, accuracy=1e-2, heating=HEATING)
+    assert one.heating is not None
+    assert curves.temperature_rise_error[1] == pytest.approx(one.heating.temperature_rise_error, rel=0.3)
+    assert np.all((curves.temperature_rise_error > 0.0) & (curves.temperature_rise_error < curves.temperature_rise))
+    data = curves.to_dataset()["temperature_rise_error"]
+    assert data.attrs["units"] == "K"
+    assert np.array_equal(data.values.ravel(), curves.temperature_rise_error)
+
+
 def test_one_state_is_cold_and_hot_and_columns_are_kept(curves: vf.friction.HeatedFrictionCurves) -> None:
     assert np.array_equal(curves.cold_friction, curves.hot_friction)
     assert np.array_equal(curves.cold_friction, curves.viscoelastic)

@@ -25,7 +25,7 @@ def curves() -> vf.friction.HeatedFrictionCurves:
     return vf.friction.HeatedFrictionCurves(
         SPEED, np.full(3, 303.15), np.full(3, 5.0), COLD, none, none, np.ones(3), source="predicted",
         isothermal_friction=1.1 * COLD, face_rise=1.001 * rise, loss_weighted_rise=0.1 * rise, skin=none,
-        **heat, **states,
+        temperature_rise_error=0.1 * rise, **heat, **states,
     )  # fmt: skip
 
 

@@ -190,10 +190,12 @@ def test_heat_and_interface_are_those_of_the_run_file(desk: Desk, tmp_path: Path
     path = tmp_path / "study.toml"
     path.write_text(study_text(study), encoding="utf-8")
     stored = vf.run_study(path).tree["heating"].to_dataset()
-    for column in ("temperature_rise", "coulomb_rise", "loss_rise", "interface_friction", "total_friction"):
+    of_heat = ("temperature_rise", "temperature_rise_error", "coulomb_rise", "loss_rise")
+    for column in (*of_heat, "interface_friction", "total_friction"):
         np.testing.assert_allclose(answer[column], stored[column], rtol=ROUNDING)
     np.testing.assert_allclose(answer["heated_friction"], stored["friction_coefficient"], rtol=ROUNDING)
     assert answer["quantities"].keys() >= EXTRA
+    assert answer["parts"]["temperature_rise"][0]["error"] == "temperature_rise_error"
 
 
 def test_a_law_that_is_fitted_is_left_to_the_run(desk: Desk) -> None:

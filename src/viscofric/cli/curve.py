@@ -165,15 +165,15 @@ def _record(
 def _of_heat(curves: FrictionCurves, rows: slice) -> list[list[str]]:
     """Return the columns of heated contacts at one temperature: isothermal friction, and the rise."""
     from viscofric.friction.heating import HeatedFrictionCurves
-    from viscofric.report.texts.numbers import significant
+    from viscofric.report.texts.numbers import significant, with_error
 
     if not isinstance(curves, HeatedFrictionCurves):
         return []
     assert curves.isothermal_friction is not None
-    assert curves.temperature_rise is not None
+    rises = zip(curves.temperature_rise[rows].tolist(), curves.temperature_rise_error[rows].tolist(), strict=True)
     return [
         ["isothermal", *(significant(value, 4) for value in curves.isothermal_friction[rows].tolist())],
-        ["rise (K)", *(significant(value, 3) for value in curves.temperature_rise[rows].tolist())],
+        ["rise (K)", *(with_error(value, error) for value, error in rises)],
     ]
 
 

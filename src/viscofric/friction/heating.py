@@ -36,6 +36,8 @@ class HeatedFrictionCurves(SolvedHeatColumns, FrictionCurves):
     temperature_rise, coulomb_rise, loss_rise, track_rise : (n,) array
         Rise of temperature that the rubber responds to, its parts due to Coulomb friction and to the loss, and the part
         left by earlier passes, K.
+    temperature_rise_error : (n,) array
+        Estimated error of the first of these; see `ContactHeating`.
     face_rise, loss_weighted_rise : (n,) array
         Both mean rises, over the face and where the loss is released, K; see `Heating`.
     skin : array

@@ -23,9 +23,10 @@ RISES = {
 }
 #: Columns of friction with heating that are numbers of each contact's `ContactHeating`.
 OF_CONTACT = RISES | {
-    "skin": ("1", "depth that the heat reaches during the contact over half the length of the contact")
+    "temperature_rise_error": ("K", "estimated error of the rise of temperature"),
+    "skin": ("1", "depth that the heat reaches during the contact over half the length of the contact"),
 }
-#: Columns of friction with heating, `skin` of solved contacts only.
+#: Columns of friction with heating; the error of the rise and `skin` of solved contacts only.
 COLUMNS = {
     "isothermal_friction": ("1", "viscoelastic friction coefficient without heating"),
     **OF_CONTACT,
@@ -80,8 +81,9 @@ class HeatColumns(Shown):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SolvedHeatColumns(HeatColumns):
-    """The same of solved contacts."""
+    """The same of solved contacts, with the error of the rise."""
 
+    temperature_rise_error: Array
     skin: Array
 
 
@@ -157,7 +159,6 @@ class ContactHeating(Shown):
         """Return all numbers with units and long names; those of the other state only where there is one."""
         heat = "(W/m of a line contact, W/m² of a rough surface)"
         meanings = OF_CONTACT | {
-            "temperature_rise_error": ("K", "estimated error of the rise of temperature"),
             "residual": ("K", "rise produced minus rise assumed"),
             "coulomb_heat": ("W", f"heat of Coulomb friction {heat}"),
             "loss_heat": ("W", f"heat of the viscoelastic loss {heat}"),

@@ -169,6 +169,8 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
     temperature_rise, coulomb_rise, loss_rise, track_rise : (m, n, k) array
         Rise of temperature that the rubber responds to, its parts due to Coulomb friction and to the loss, and the part
         left by earlier passes, K.  Above the mean of the surface, unless the size of the nominal contact is given.
+    temperature_rise_error : (m, n, k) array
+        Estimated error of the first of these; see `ContactHeating`.
     face_rise, loss_weighted_rise : (m, n, k) array
         Both mean rises, over the contact spots and where the loss is released, K; see `Heating`.
     skin : array

@@ -77,7 +77,7 @@ def _heat(solution: ContactSolution) -> list[tuple[str, str]]:
         return f"{short(rise, 3)} K"
 
     lines = [
-        ("rise of temperature", kelvin(heat.temperature_rise)),
+        ("rise of temperature", f"{with_error(heat.temperature_rise, heat.temperature_rise_error)} K"),
         ("  by Coulomb friction", kelvin(heat.coulomb_rise)),
         ("  by the loss", kelvin(heat.loss_rise)),
         *([("  of it by earlier passes", kelvin(heat.track_rise))] if heat.track_rise else []),

@@ -180,6 +180,8 @@ def _parts(found: dict[str, Any]) -> dict[str, Any]:
         main: Spec = {"y": name, "mode": "lines+markers", "size": 6, "text": "remarks"}
         if name == "friction":
             main |= band or {"error": "error"}
+        if f"{name}_error" in found:
+            main |= {"error": f"{name}_error"}
         style: Spec = {"mode": "lines", "width": 1.2, "legend": False}
         beside = [{**style, "y": other, "dash": dash, "text": words} for other, dash, words in _BESIDE.get(name, [])]
         parts[name] = [main, *beside]
@@ -217,7 +219,8 @@ def _of_tables(
     if heatings is not None:
         solve(heatings)
         warm = {name: values[:, 0, 0] for name, values in heatings.columns_of_cases().items()}
-        found |= {name: warm[name] for name in ("temperature_rise", "coulomb_rise", "loss_rise") if name in warm}
+        names = ("temperature_rise", "temperature_rise_error", "coulomb_rise", "loss_rise")
+        found |= {name: warm[name] for name in names if name in warm}
         found |= {"heated_friction": warm["friction_coefficient"]} if warm else {}
         if law is not None and warm:
             found["interface_friction"] = warm["interface_friction"]
