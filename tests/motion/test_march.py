@@ -52,7 +52,7 @@ class Unsteady:
     def pointwise_difference(self, one, other):
         return 0.0
 
-    def rate_change(self, states, start, end):
+    def rate_change(self, first, middle, last, start, end):
         return 0.0
 
     def early(self, since):

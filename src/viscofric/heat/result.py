@@ -12,17 +12,14 @@ from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.showing import Rows, Shown
 
-#: Rises of temperature of a steady contact, with unit and long name.
-RISES = {
+#: Columns of friction with heating that are numbers of each contact's `ContactHeating`, with unit and long name.
+OF_CONTACT = {
     "temperature_rise": ("K", "mean rise of temperature that the rubber responds to"),
     "coulomb_rise": ("K", "rise of temperature due to Coulomb friction"),
     "loss_rise": ("K", "rise of temperature due to the viscoelastic loss"),
     "track_rise": ("K", "rise of temperature by earlier passes"),
     "face_rise": ("K", "mean rise of temperature of the face"),
     "loss_weighted_rise": ("K", "mean rise of temperature where the loss is released"),
-}
-#: Columns of friction with heating that are numbers of each contact's `ContactHeating`.
-OF_CONTACT = RISES | {
     "temperature_rise_error": ("K", "estimated error of the rise of temperature"),
     "skin": ("1", "depth that the heat reaches during the contact over half the length of the contact"),
 }

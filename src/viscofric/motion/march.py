@@ -15,7 +15,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Generic, NamedTuple
+from typing import Generic
 
 import numpy as np
 
@@ -91,14 +91,6 @@ def march(
         f"the accuracy {accuracy:g} was not reached with steps that each add {share:.2g} of it; ask for less.",
         code="steps-not-converged",
     )
-
-
-class _Halves(NamedTuple, Generic[State]):
-    """States of the fine chain at the ends of its last two steps, and the instants of the second one."""
-
-    states: tuple[State, State, State]
-    start: Instant
-    end: Instant
 
 
 @dataclass(eq=False)
@@ -305,12 +297,15 @@ class _March(Generic[State]):
                 place += taken
                 pair = self._take(tried, float(edges[place]), float(edges[-1]), count if place < last else 0.0)
 
-    def _try(self, pair: Pair[State], times: Sequence[float]) -> tuple[Pair[State], _Halves[State]]:
+    def _try(
+        self, pair: Pair[State], times: Sequence[float]
+    ) -> tuple[Pair[State], tuple[State, State, State, Instant, Instant]]:
         """Step from the first time to the last: the coarse chain at once, the fine one by that in between too."""
+        # Also returns the states of the fine chain, and the instants of its last step; see `Mover.rate_change`.
         first, middle, last = (self._instant(time) for time in times)
         halfway = self._step(pair.fine, first, middle)
         tried = Pair(self._step(pair.coarse, first, last), self._step(halfway, middle, last))
-        return tried, _Halves((pair.fine.state, halfway.state, tried.fine.state), middle, last)
+        return tried, (pair.fine.state, halfway.state, tried.fine.state, middle, last)
 
     def _step(self, link: Link[State], start: Instant, end: Instant) -> Link[State]:
         state = self.mover.step(link.state, start, end)

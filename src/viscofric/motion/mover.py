@@ -137,10 +137,10 @@ class Mover(Protocol[State]):
         """Return the root of the sum of the squares by which the friction of each point differs between two states."""
         return 0.0
 
-    def rate_change(self, states: tuple[State, State, State], start: Instant, end: Instant) -> float:
+    def rate_change(self, first: State, middle: State, last: State, start: Instant, end: Instant) -> float:
         """Return the change of friction in a step as the last one, minus that in it, if points touch or leave at rest.
 
-        `states` are those at the ends of the last two steps, of one length; the last one has this start and end.
+        The states are those at the ends of the last two steps, of one length; the last one has this start and end.
         """
         return 0.0
 

@@ -248,14 +248,14 @@ class PeriodicMover(Mover[PeriodicState]):
         return self.pressure_unit * float(np.linalg.norm((one.pressure - other.pressure) * self._steepness))
 
     def rate_change(
-        self, states: tuple[PeriodicState, PeriodicState, PeriodicState], start: Instant, end: Instant
+        self, first: PeriodicState, middle: PeriodicState, last: PeriodicState, start: Instant, end: Instant
     ) -> float:
         """Return the change of friction in a step as the last one, minus that in it, if points touch or leave at rest.
 
         A point that touches or leaves late in a step hardly changes the friction yet, but alters the rates at which all
         pressures change.
         """
-        loaded = [one.pressure > 0.0 for one in states]
+        loaded = [one.pressure > 0.0 for one in (first, middle, last)]
         changed = any(np.any(one != other) for one, other in itertools.pairwise(loaded))
         if not changed or not loaded[0].any() or not np.array_equal(end.position, start.position):
             return 0.0
@@ -264,8 +264,8 @@ class PeriodicMover(Mover[PeriodicState]):
             following = end._replace(pressure=max(0.0, 2.0 * end.pressure - start.pressure))
         elif start.gap is not None and end.gap is not None:
             following = end._replace(gap=2.0 * end.gap - start.gap)
-        later = self._stepped(states[-1], start, following, 0.0, keep=True)
-        forces = np.array([one.friction for one in (*states[1:], later)])
+        later = self._stepped(last, start, following, 0.0, keep=True)
+        forces = np.array([one.friction for one in (middle, last, later)])
         return self.pressure_unit * self.depth_unit * math.hypot(*np.diff(forces, 2, axis=0)[0])
 
     def early(self, since: float) -> float:

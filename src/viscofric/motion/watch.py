@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscofric.arrays import Array
-from viscofric.motion.mover import Field, Mover, Observation
+from viscofric.motion.mover import Mover, Observation
 from viscofric.motion.schedule import Instant, Schedule
 
 
@@ -38,7 +38,11 @@ class Watch:
         return cls(mover, schedule.start, 2.0 * np.pi / (schedule.end - schedule.start))
 
     def __getattr__(self, name: str) -> Any:
-        return getattr(self.mover, name)
+        """Return what the mover has; where that is a function, it takes states of this one."""
+        found = getattr(self.mover, name)
+        if not callable(found):
+            return found
+        return lambda *given: found(*(one.state if isinstance(one, Watched) else one for one in given))
 
     def begin(self) -> Watched:
         """Return the mover's first state, with empty sums."""
@@ -53,30 +57,9 @@ class Watch:
         settled = self.mover.settle(state.state, instant, shortest)
         return state if settled is state.state else self._next(state, settled, instant, instant)
 
-    def accept(self, state: Watched, instant: Instant) -> None:
-        """Pass the state on."""
-        self.mover.accept(state.state, instant)
-
     def observe(self, state: Watched) -> Observation:
         """Return what is seen of the state."""
         return state.seen
-
-    def pressure(self, state: Watched) -> Field:
-        """Return the pressure of the state."""
-        return self.mover.pressure(state.state)
-
-    def pointwise_difference(self, one: Watched, other: Watched) -> float:
-        """Return the friction by which the points of two states differ."""
-        return self.mover.pointwise_difference(one.state, other.state)
-
-    def rate_change(self, states: tuple[Watched, Watched, Watched], start: Instant, end: Instant) -> float:
-        """Return the change of friction in another step at rest, minus that in the last one."""
-        first, middle, last = (one.state for one in states)
-        return self.mover.rate_change((first, middle, last), start, end)
-
-    def memory_of(self, state: Watched) -> NDArray[Any]:
-        """Return the memory of the state."""
-        return self.mover.memory_of(state.state)
 
     def with_memory(self, state: Watched, memory: NDArray[Any]) -> Watched:
         """Return a state with another memory."""
