@@ -156,7 +156,7 @@ def moment_of(
     off = difference(pair)
     each = spread.load, spread.depth, math.hypot(spread.along, spread.across), max(spread.work, spread.dissipated)
     steps = Errors(*(part * one for part, one in zip(_OF_STEPS, each, strict=True)))
-    # Those of points touched within a step are of first order, and cancel in the friction only by chance.
+    # Those of points that touch or leave within a step are of first order, and cancel in the friction only by chance.
     steps = steps._replace(friction=max(steps.friction, spread.points))
     errors = Errors(*(sum(parts) for parts in zip(steps, left_out, floor, strict=True)))
     slopes = _OF_STEPS.friction * math.hypot(spread.slopes_along, spread.slopes_across) + left_out[2] + floor.friction
