@@ -430,7 +430,6 @@ FOREIGN_TEXT = (
     "viscofric.friction.cases.surfaces",
     "viscofric.report.html",
     "viscofric.web.access",
-    "viscofric.web.jobs.context",
     "viscofric.web.study_text",
     "viscofric.web.workspace",
 )

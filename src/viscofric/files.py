@@ -39,6 +39,9 @@ _KEY = re.compile(rf"{_PART}(?:[ \t]*+\.[ \t]*+{_PART})*+")
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 # Below the space, but for tabs and ends of lines.
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
+# In remarks of files, unless it is the kind of a substance, which may well be measured.
+_SYNTHETIC = re.compile(r"\bsynthetic\b(?!\s+(rubber|elastomer|polymer|oil|grease|lubricant))", re.IGNORECASE)
+_REMARKED = 64_000  # bytes at the beginning of a file whose remarks say where its data come from
 
 
 def file_path(path: object) -> Path:
@@ -98,6 +101,16 @@ def decoded(data: bytes, path: str | PathLike[str]) -> str:
 def read_text(path: str | PathLike[str], most: int | None = None) -> str:
     """Return a text file; see `read_bytes` and `decoded`."""
     return decoded(read_bytes(path, most), path)
+
+
+def says_synthetic(path: str | PathLike[str]) -> bool:
+    """Whether a text file says of itself, in a remark (#) among its first lines, that it was not measured."""
+    try:
+        with file_path(path).open("rb") as file:
+            lines = decoded(file.read(_REMARKED), path).splitlines()[:50]
+    except (OSError, DataFileError):
+        return False
+    return any(_SYNTHETIC.search(line) for line in lines if line.startswith("#"))
 
 
 def parse_json(text: str | bytes, **options: Any) -> Any:

@@ -199,7 +199,7 @@ def test_a_finished_master_curve_makes_the_same_rubber(fitted: tuple[Path, str],
 
 @pytest.mark.slow
 def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
-    done = call("fit", EXAMPLE, "--reference", "30 degC", "--samples", 0, "--synthetic", "-o", tmp_path / "out")
+    done = call("fit", EXAMPLE, "--reference", "30 degC", "--samples", 0, "-o", tmp_path / "out")
     assert done.exit_code == 0, done.output
     assert "Synthetic data" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
 

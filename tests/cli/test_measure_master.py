@@ -17,6 +17,7 @@ import viscofric as vf
 from cli.friction_files import COULOMB, LAW, TEMPERATURES, ZERO_FORCE, curves, runs, viscoelastic
 from cli.refusals import refusal
 from viscofric.cli import main
+from viscofric.report.figures import saving
 
 
 def call(*words: object) -> Result:
@@ -139,12 +140,23 @@ def test_steps_that_are_not_steady_are_left_out(tmp_path: Path) -> None:
     assert [point["viscoelastic"] for point in found["points"]] == [point["viscoelastic"] for point in whole["points"]]
 
 
-def test_measure_draws_a_picture_and_calls_made_data_synthetic(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("remark", "option", "made_up"),
+    [("", False, False), ("", True, True), ("# SYNTHETIC data\n", False, True)],
+    ids=["measured", "by the option", "by the file"],
+)
+def test_a_picture_calls_made_data_synthetic(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, remark: str, option: bool, made_up: bool
+) -> None:
+    marked: list[object] = []
+    monkeypatch.setattr(saving, "mark_synthetic", marked.append)
     path = runs(tmp_path / "runs.csv")
-    done = call("measure", path, "--picture", tmp_path / "curves.svg", "--synthetic")
+    path.write_text(remark + path.read_text(encoding="utf-8").replace("SYNTHETIC", ""), encoding="utf-8")
+    done = call("measure", path, "--picture", tmp_path / "curves.svg", *(["--synthetic"] if option else []))
     assert done.exit_code == 0, done.output
     assert done.stdout.splitlines()[-1] == f"picture  {tmp_path / 'curves.svg'}"
     assert (tmp_path / "curves.svg").stat().st_size > 0
+    assert bool(marked) is made_up
 
 
 def test_shift_finds_the_planted_factors_and_writes_them(tmp_path: Path) -> None:

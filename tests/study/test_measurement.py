@@ -56,8 +56,17 @@ def curves() -> vf.FrictionCurves:
 def results(tmp_path_factory: pytest.TempPathFactory) -> StudyResults:
     folder = tmp_path_factory.mktemp("measured")
     vf.write_friction_curves(curves(), folder / "curves.csv")
-    (folder / "study.toml").write_text(STUDY, encoding="utf-8")
+    written = (folder / "curves.csv").read_text(encoding="utf-8")
+    (folder / "curves.csv").write_text(f"# SYNTHETIC data\n{written}", encoding="utf-8")
+    vf.write_card(replace(vf.synthetic_fluoroelastomer(), name="a rubber"), folder / "rubber.json", format="json")
+    of_file = STUDY.replace('catalogue = "synthetic fluoroelastomer"', 'file = "rubber.json"')
+    (folder / "study.toml").write_text(of_file, encoding="utf-8")
     return run_study(folder / "study.toml")
+
+
+@pytest.mark.slow
+def test_friction_that_its_file_calls_synthetic_is_not_called_measured(results: StudyResults) -> None:
+    assert results.tree.attrs["data_origin"] == "synthetic"
 
 
 @pytest.mark.slow

@@ -38,6 +38,17 @@ def rubber(**asked: Any) -> Any:
     return make_rubber(validated(MaterialTable, asked))
 
 
+def test_a_material_is_synthetic_where_the_catalogue_or_a_file_says_so(sweeps: Path, tmp_path: Path) -> None:
+    own = vf.Material.standard_linear_solid("2 MPa", "200 MPa", "1 ms")
+    for material, synthetic in ((own, False), (vf.synthetic_fluoroelastomer(), True)):
+        vf.write_card(material, tmp_path / "card.json", format="json")
+        assert rubber(file=str(tmp_path / "card.json")).synthetic is synthetic
+    plain = sweeps.read_text(encoding="utf-8")
+    for remark, synthetic in (("", False), ("# SYNTHETIC data\n", True), ("# a synthetic rubber, measured\n", False)):
+        (tmp_path / "dma.csv").write_text(remark + plain, encoding="utf-8")
+        assert rubber(dma=str(tmp_path / "dma.csv"), **REFERENCE).synthetic is synthetic
+
+
 def test_given_factors_are_used_as_they_are(sweeps: Path, tmp_path: Path) -> None:
     law = vf.WLF(8.0, 120.0, "30 degC")
     kelvin = np.arange(-10.0, 61.0, 5.0) + 273.15

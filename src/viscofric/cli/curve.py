@@ -21,7 +21,14 @@ from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, refuse_to_overwrite
 from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
 from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, write_files
-from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.cli.rubber_options import (
+    NamedRubber,
+    chosen_layer,
+    chosen_rubber,
+    in_contact,
+    is_made_up,
+    rubber_options,
+)
 from viscofric.cli.run import NOT_ACCURATE
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -99,7 +106,7 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     print_notes(curves.notes)
     write_files(
         ("curves", out, partial(write_friction_curves, curves)),
-        ("picture", picture, drawing(_figure_of(curves), curves, mark=rubber.synthetic)),
+        ("picture", picture, drawing(_figure_of(curves), curves, mark=is_made_up(rubber, parameters))),
     )
     beyond = _beyond_accuracy(curves, parameters["accuracy"])
     if beyond:

@@ -14,6 +14,7 @@ from viscofric.cli.friction_sources import friction_curves, separation_options, 
 from viscofric.cli.output import (
     answer,
     drawing,
+    is_synthetic,
     json_option,
     out_option,
     picture_option,
@@ -218,9 +219,10 @@ def command(
 
     answer(record, lambda: _print(found))
     print_notes(curves.notes)
+    made_up = is_synthetic(synthetic, sources)
     write_files(
         ("material", out, lambda path: write_card(found.material, path, format="json")),
-        ("picture", picture, drawing("identified.identified_figure", found, known, mark=synthetic)),
+        ("picture", picture, drawing("identified.identified_figure", found, known, mark=made_up)),
     )
 
 

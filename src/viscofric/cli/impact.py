@@ -20,7 +20,7 @@ from viscofric.cli.files import DATA, refuse_to_overwrite, write_dataset
 from viscofric.cli.heating_options import contact_inputs
 from viscofric.cli.keys import key
 from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
-from viscofric.cli.rubber_options import chosen_rubber, rubber_options
+from viscofric.cli.rubber_options import chosen_rubber, is_made_up, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
     answer(record, lambda: _print(f"{name}{rubber.mark}, {parameters['mass']}\n", result, seconds), indent=None)
     write_files(
         ("data", out, lambda path: write_dataset(path, result.to_dataset())),
-        ("picture", picture, drawing("pressures.impact_figure", result, name, mark=rubber.synthetic)),
+        ("picture", picture, drawing("pressures.impact_figure", result, name, mark=is_made_up(rubber, parameters))),
     )
     print_notes(result.warnings, word="Warning")
 

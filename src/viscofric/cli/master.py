@@ -13,6 +13,7 @@ from viscofric.cli.friction_sources import friction_curves, separation_options, 
 from viscofric.cli.output import (
     answer,
     drawing,
+    is_synthetic,
     json_option,
     out_option,
     picture_option,
@@ -101,7 +102,8 @@ def command(
 
     answer(record, lambda: _print(master, known, law, why, agreement))
     print_notes((*curves.notes, *master.notes))
-    draw = drawing("friction.shifted_figure", master, known, mark=synthetic, synthetic=synthetic)
+    made_up = is_synthetic(synthetic, sources)
+    draw = drawing("friction.shifted_figure", master, known, mark=made_up, synthetic=made_up)
     write_files(
         ("factors", out, lambda path: master.shift_factors.save(path)),  # noqa: PLW0108 - not of all of them
         ("picture", picture, draw),

@@ -13,6 +13,7 @@ from viscofric.cli.friction_sources import separated_runs, separation_options, s
 from viscofric.cli.output import (
     answer,
     drawing,
+    is_synthetic,
     json_option,
     out_option,
     picture_option,
@@ -57,7 +58,8 @@ def command(runs: tuple[Path, ...], out: Path | None, picture: Path | None, synt
 
     answer(record, lambda: _print(curves))
     print_notes(curves.notes)
-    draw = drawing("friction.friction_figure", curves, mark=synthetic, synthetic=synthetic)
+    made_up = is_synthetic(synthetic, runs)
+    draw = drawing("friction.friction_figure", curves, mark=made_up, synthetic=made_up)
     write_files(("curves", out, lambda path: write_friction_curves(curves, path)), ("picture", picture, draw))
 
 

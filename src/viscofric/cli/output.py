@@ -15,6 +15,7 @@ import click
 from viscofric.cli.commands import Decorator
 from viscofric.cli.files import DASH, OUT, PICTURES, WRITTEN, check_ending, to_be_written
 from viscofric.cli.overview import TYPED
+from viscofric.files import says_synthetic
 
 #: Help of `--json` where a study runs.
 RUN_JSON = "Print progress as JSON, one object a line; the last one has the outcome."
@@ -51,8 +52,15 @@ def picture_option(words: str) -> Decorator:
 
 #: Where data may be synthetic that do not say so themselves.
 synthetic_option = click.option(
-    "--synthetic", is_flag=True, help="The data are synthetic: label figures and report accordingly."
+    "--synthetic",
+    is_flag=True,
+    help="The data are synthetic, and no remark (#) in a file says so: label figures and report accordingly.",
 )
+
+
+def is_synthetic(flag: bool, files: Iterable[Path]) -> bool:
+    """Whether data are synthetic, by the option or by what their files say."""
+    return flag or any(map(says_synthetic, files))
 
 
 def json_option(words: str = "Print inputs and results as JSON, in SI units.") -> Decorator:

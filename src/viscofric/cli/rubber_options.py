@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from viscofric.cli.commands import Decorator, together
-from viscofric.cli.contact_options import option
+from viscofric.cli.contact_options import inputs_of, option
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import DASH, Source, plainly
 from viscofric.cli.keys import key, table_of
+from viscofric.cli.output import is_synthetic
 
 if TYPE_CHECKING:
     from viscofric.contact.bodies import Layer
@@ -76,7 +77,7 @@ rubber_options = together(
     key("material.deformation", condition=_WITH_DMA),
     key("material.modulus_unit", metavar="UNIT", condition=_WITH_DMA),
     column_options("'frequency=f in Hz'", condition=_WITH_DMA),
-    click.option("--synthetic", is_flag=True, help="With --dma: the data are synthetic, not measured."),
+    click.option("--synthetic", is_flag=True, help="With --dma: the data are synthetic, and no remark (#) says so."),
     click.option(
         "--E0", "rubber_modulus", metavar="E", help="Alternative: standard linear solid; relaxed modulus, e.g. '1 MPa'."
     ),
@@ -127,6 +128,11 @@ class NamedRubber(NamedTuple):
         }
 
 
+def is_made_up(rubber: NamedRubber, parameters: dict[str, Any]) -> bool:
+    """Whether the rubber is synthetic, or a file of it or of the indenter says so."""
+    return is_synthetic(rubber.synthetic, inputs_of(parameters))
+
+
 def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
     """Return the rubber that the options name."""
     single = [name for name in _SINGLE if parameters[name] is not None]
@@ -167,7 +173,7 @@ def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
     print_notes(made.notes)
     first, *more = parameters["dma"]
     name = f"the rubber of {plainly(str(first.name))}" + (f" and {len(more)} more" if more else "")
-    return NamedRubber(made.material, name, parameters["synthetic"], made)
+    return NamedRubber(made.material, name, parameters["synthetic"] or made.synthetic, made)
 
 
 def _named(name: str) -> NamedRubber:
@@ -182,11 +188,10 @@ def _named(name: str) -> NamedRubber:
         return NamedRubber(
             rubber.material, rubber.material.name or f"the rubber of {Path(name).name}", synthetic, rubber
         )
-    from viscofric.rheology.catalogue import catalogue
+    from viscofric.rheology.catalogue import is_synthetic
 
     material = find_rubber(name)
-    synthetic = any(entry.kind == "SYNTHETIC" and entry.make().name == material.name for entry in catalogue())
-    return NamedRubber(material, material.name or f"the rubber of {Path(name).name}", synthetic)
+    return NamedRubber(material, material.name or f"the rubber of {Path(name).name}", is_synthetic(material))
 
 
 def chosen_layer(parameters: dict[str, Any]) -> Layer | None:

@@ -21,7 +21,14 @@ from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
 from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
-from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.cli.rubber_options import (
+    NamedRubber,
+    chosen_layer,
+    chosen_rubber,
+    in_contact,
+    is_made_up,
+    rubber_options,
+)
 from viscofric.cli.speed_options import list_of
 from viscofric.contact.settings import ContactSettings
 
@@ -116,7 +123,7 @@ def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
         return contact_record(_inputs(parameters, rubber, shape, solution), solution, seconds)
 
     answer(record, lambda: _print(name, rubber, solution, seconds))
-    draw = drawing("contact.contact_figure", solution, shape.indenter, name, mark=rubber.synthetic)
+    draw = drawing("contact.contact_figure", solution, shape.indenter, name, mark=is_made_up(rubber, parameters))
     write_files(("picture", picture, draw), ("fields", out, lambda path: write_fields(path, solution)))
 
 

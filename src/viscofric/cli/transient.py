@@ -35,7 +35,14 @@ from viscofric.cli.output import (
     print_written,
     write_files,
 )
-from viscofric.cli.rubber_options import NamedRubber, chosen_layer, chosen_rubber, in_contact, rubber_options
+from viscofric.cli.rubber_options import (
+    NamedRubber,
+    chosen_layer,
+    chosen_rubber,
+    in_contact,
+    is_made_up,
+    rubber_options,
+)
 
 if TYPE_CHECKING:
     from viscofric.contact.bodies import Layer
@@ -114,7 +121,7 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
         lambda: _print(name, rubber, history, result, seconds),
         indent=None,
     )
-    _write(name, rubber.synthetic, result, parameters["times"] is not None, out, drawings)
+    _write(name, is_made_up(rubber, parameters), result, parameters["times"] is not None, out, drawings)
     if parameters["state"] is not None:
         print_written(("state", parameters["state"]), err=is_piped())
     print_notes(run.warnings, word="Warning")

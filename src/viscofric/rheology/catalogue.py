@@ -112,6 +112,11 @@ def catalogue_material(name: str) -> Material:
     return replace(material, citation=entry.citation) if entry.kind == "published" else material
 
 
+def is_synthetic(material: Material) -> bool:
+    """Whether a material is, by its name, a synthetic one of the catalogue."""
+    return any(_plain(entry.name) == _plain(material.name) for entry in _ENTRIES if entry.kind == "SYNTHETIC")
+
+
 def _plain(name: str) -> str:
     return " ".join(str(name).lower().replace("-", " ").replace("_", " ").split())
 

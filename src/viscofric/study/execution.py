@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.arguments import flag, insist_on, insist_on_function
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import StudyError
-from viscofric.files import file_path
+from viscofric.files import file_path, says_synthetic
 from viscofric.friction.cases.record import Failure
 from viscofric.friction.cases.surfaces import notes_on
 from viscofric.notes import Note, dumped, note_of, records
@@ -246,7 +246,7 @@ def tree_of(
     said = [words for one in rubbers for words in _named(one, one.doubts(study.conditions.temperature), rubbers)]
     tree.attrs = {
         "title": study.title,
-        "data_origin": "synthetic" if any(one.rubber.synthetic for one in rubbers) else study.data_origin,
+        "data_origin": _origin(study, rubbers),
         **{name: text for name in DESCRIBED if (text := getattr(study, name))},
         "notes": _listed([*notes, *study.notes, *of_friction]),
         "warnings": _listed(
@@ -264,6 +264,12 @@ def tree_of(
         **setting(study, contacts.sweep, rubbers),
     }
     return tree
+
+
+def _origin(study: Study, rubbers: Sequence[StudyRubber]) -> str:
+    """Return the origin of the data; a material or a file that calls itself synthetic is so whatever the study says."""
+    made_up = any(one.rubber.synthetic for one in rubbers) or any(map(says_synthetic, study.inputs))
+    return "synthetic" if made_up else study.data_origin
 
 
 def _missed_accuracy(cases: Dataset, study: Study) -> list[str]:

@@ -10,6 +10,7 @@ from typing import Any, cast
 
 from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
+from viscofric.files import says_synthetic
 from viscofric.notes import Note, note_of
 from viscofric.ramps import TemperatureRamps
 from viscofric.readers.dma.master_curves import read_master_curve
@@ -17,7 +18,7 @@ from viscofric.readers.dma.ramps import read_ramps
 from viscofric.readers.dma.read import read_dma
 from viscofric.readers.steps.read import read_step_tests
 from viscofric.rheology.cards import open_card
-from viscofric.rheology.catalogue import catalogue_entry, catalogue_material
+from viscofric.rheology.catalogue import catalogue_material, is_synthetic
 from viscofric.rheology.material import Material
 from viscofric.rheology.ramps.superpose import RampLaw, assumed_of, superpose_ramps
 from viscofric.rheology.shifts.law_comparison import LawComparison
@@ -39,7 +40,8 @@ from viscofric.study.run_file.material import MaterialTable
 
 def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
     """Return the material of [material]; a liquid is its master curve with `liquids`, else a `LiquidError`."""
-    return at_strain(_at_small_strain(table, liquids), table)
+    made = at_strain(_at_small_strain(table, liquids), table)
+    return replace(made, synthetic=made.synthetic or any(map(says_synthetic, table.inputs)))
 
 
 def _at_small_strain(table: MaterialTable, liquids: bool) -> Rubber:
@@ -54,13 +56,12 @@ def _at_small_strain(table: MaterialTable, liquids: bool) -> Rubber:
 
 def _predefined(table: MaterialTable) -> Rubber:
     notes: tuple[str, ...] = ()
-    synthetic = False
     if table.file is None:
-        entry = catalogue_entry(str(table.catalogue))
-        material, synthetic, source = catalogue_material(entry.name), entry.kind != "published", "the catalogue"
+        material, source = catalogue_material(str(table.catalogue)), "the catalogue"
     else:
         card = open_card(table.file)
         material, notes, source = card.material, tuple(card.notes), f"the file {table.file.name}"
+    synthetic = is_synthetic(material)
     if table.reference_temperature is not None:
         material = material.at_reference(table.reference_temperature)
     if table.name:

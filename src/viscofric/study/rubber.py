@@ -24,7 +24,7 @@ class Rubber:
 
     material: Material  # with a shift, about the reference temperature
     source: str = ""  # origin of a predefined material
-    synthetic: bool = False  # whether it is synthetic, from the catalogue
+    synthetic: bool = False  # whether the catalogue, or a file that it is made of, calls it synthetic
     sweeps: IsothermalSweeps | None = None  # sweeps, fit: None for a predefined material
     fit: Superposition | None = None
     #: step_tests, step_fit: Creep or relaxation tests, instead of sweeps or together with them

@@ -58,7 +58,7 @@ def run_material(
     tree = xarray.DataTree.from_dict(rubber_groups(rubber, draws))
     tree.attrs = {
         "title": title,
-        "data_origin": "synthetic" if synthetic else "measured",
+        "data_origin": "synthetic" if synthetic or rubber.synthetic else "measured",
         "command": command,
         "notes": dumped(records([*rubber.notes, *(draws.notes if draws is not None else ())])),
         "warnings": "[]",

@@ -12,6 +12,7 @@ from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import WRITTEN, Source, refuse_to_overwrite
 from viscofric.cli.output import (
     drawing,
+    is_synthetic,
     json_option,
     out_option,
     picture_option,
@@ -85,7 +86,8 @@ def command(files: tuple[Path, ...], as_json: bool, picture: Path | None, out: P
     else:
         click.echo("\n".join(lines))
         print_notes(notes)
-    write_files(("picture", picture, drawing("ramps.amplitude_figure", fit, mark=chosen["synthetic"])))
+    made_up = is_synthetic(chosen["synthetic"], files)
+    write_files(("picture", picture, drawing("ramps.amplitude_figure", fit, mark=made_up)))
 
 
 def _fitted(fit: PayneFit) -> tuple[dict[str, Any], list[str]]:

@@ -13,6 +13,7 @@ from viscofric.cli.files import CSV, JSON, WRITTEN, Source, check_ending, refuse
 from viscofric.cli.output import (
     answer,
     drawing,
+    is_synthetic,
     json_option,
     out_option,
     picture_option,
@@ -119,12 +120,13 @@ def command(
     kelvin = temperatures if len(temperatures) == len(files) else (temperatures or (None,)) * len(files)
     records = [one for path, at in zip(files, kelvin, strict=True) for one in _records(path, at, parameters)]
     found = identify_from_indentation(records, shape.indenter, **_settings(parameters))
+    made_up = is_synthetic(synthetic, files)
     data = found.to_dataset()
     answer(lambda: {"results": record(data), **listed("notes", found.notes)}, lambda: click.echo(str(found)))
     write_files(
         ("material", out, lambda path: write_card(found.material, path, format="json")),
         ("table", table, data.to_dataframe().to_csv),
-        ("picture", picture, drawing("identified.indentation_figure", found, known, mark=synthetic)),
+        ("picture", picture, drawing("identified.indentation_figure", found, known, mark=made_up)),
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -13,16 +12,13 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
-from viscofric.errors import DataFileError, ViscofricError
-from viscofric.files import read_text
+from viscofric.errors import ViscofricError
 from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from viscofric.study.running.running import Event
 
 _BETWEEN_SENT = 0.05  # s, of progress: a browser shows no more
-#: In remarks of files, unless it is the kind of a substance, which may well be measured.
-_SYNTHETIC = re.compile(r"\bsynthetic\b(?!\s+(rubber|elastomer|polymer|oil|grease|lubricant))", re.IGNORECASE)
 
 
 class JobOptions(BaseModel):
@@ -69,12 +65,3 @@ class Context:
     def part(self, part: dict[str, Any]) -> None:
         """Hand over a part of the result that can be shown already."""
         self.send("part", {"part": part})
-
-
-def is_made_up(path: Path) -> bool:
-    """Whether a file says of itself that it was not measured."""
-    try:
-        remarks = [line for line in read_text(str(path)).splitlines()[:50] if line.startswith("#")]
-    except DataFileError:
-        return False
-    return any(map(_SYNTHETIC.search, remarks))

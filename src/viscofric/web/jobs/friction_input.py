@@ -10,7 +10,7 @@ from typing import Any
 
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError, StudyError
-from viscofric.files import read_bytes
+from viscofric.files import read_bytes, says_synthetic
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, note_of
@@ -20,7 +20,7 @@ from viscofric.report.texts.friction import runs_lines
 from viscofric.study.measurement import read_measurement, separated
 from viscofric.study.run_file.contact import AnyIndenterTable, IndenterTable
 from viscofric.study.run_file.measurement import MeasurementTable
-from viscofric.web.jobs.context import Context, is_made_up
+from viscofric.web.jobs.context import Context
 from viscofric.web.jobs.rubbers import checked_part, insist_on_uploads, kept
 
 _NOTHING = Note("", "")
@@ -57,7 +57,7 @@ def friction_curves(study: Mapping[str, Any], context: Context) -> FrictionCurve
 def _of_curves(table: MeasurementTable, context: Context) -> Measured:
     curves, (path,) = _named(read_measurement(table), context), table.inputs
     lines = [("file", path.name), ("recognised as", "a table of friction curves, separated already")]
-    return Measured(False, lines, [], is_made_up(path), curves, _NOTHING, tuple(map(note_of, curves.notes)))
+    return Measured(False, lines, [], says_synthetic(path), curves, _NOTHING, tuple(map(note_of, curves.notes)))
 
 
 def _of_runs(table: MeasurementTable, context: Context) -> Measured:
@@ -66,7 +66,7 @@ def _of_runs(table: MeasurementTable, context: Context) -> Measured:
     kinds = dict.fromkeys(format_name(Source(str(path), read_bytes(path))) for path in table.mtm)
     lines += [("recognised as", "; ".join(kinds)), *runs_lines(runs)]
     steps = [(step.number, str(step)) for step in runs.steps]
-    made_up = any(is_made_up(path) for path in table.mtm)
+    made_up = any(says_synthetic(path) for path in table.mtm)
     try:
         curves = _named(separated(runs, table), context)
     except InputError as error:

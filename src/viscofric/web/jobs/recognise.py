@@ -7,7 +7,8 @@ from typing import Any
 
 from pydantic import Field
 
-from viscofric.web.jobs.context import Context, JobOptions, is_made_up
+from viscofric.files import says_synthetic
+from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.rubbers import insist_on_uploads
 
 
@@ -24,4 +25,4 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     insist_on_uploads("material", tuple(map(Path, options.files)), context.files)
     files = [context.files / name for name in options.files]
     kinds = {kind: [path.name for path in paths] for kind, paths in by_kind(files).items()}
-    return {"kinds": kinds, "synthetic": any(map(is_made_up, files))}
+    return {"kinds": kinds, "synthetic": any(map(says_synthetic, files))}

@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.datasets import plain, record
 from viscofric.errors import DataFileError, InputError
+from viscofric.files import says_synthetic
 from viscofric.notes import listed, note_of
 from viscofric.ramps import TemperatureRamps
 from viscofric.readers.dma.checks import outliers
@@ -89,7 +90,7 @@ def _of_sweeps(table: MaterialTable, traced: TracedSweeps) -> dict[str, Any]:
         **listed("notes", notes, "page"),
         "specimens": specimens,
         "reference": plain(round(nearest, 2)),
-        "synthetic": False,
+        "synthetic": any(map(says_synthetic, table.inputs)),
     }
 
 
@@ -202,7 +203,8 @@ _PER_DECADE = 40
 
 def _read_other(table: MaterialTable) -> dict[str, Any]:
     """Return the ramps or step tests of [material]; the field of an `InputError` is the key of what is not stated."""
-    common: dict[str, Any] = {"isotherms": [], "files": [], "flagged": [], "left_out": 0, "synthetic": False}
+    common: dict[str, Any] = {"isotherms": [], "files": [], "flagged": [], "left_out": 0}
+    common["synthetic"] = any(map(says_synthetic, table.inputs))
     if table.ramps is not None:
         ramps = read_ramps_of(table)
         asked = ["assumed_shift"] if len(ramps) == 1 else []
