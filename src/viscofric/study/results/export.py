@@ -5,15 +5,17 @@ from __future__ import annotations
 import io
 import re
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal, get_args
 
+import numpy as np
+
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import DataFileError, InputError, check_choice, not_written
 from viscofric.files import file_path, write_atomically
-from viscofric.notes import notes_in
+from viscofric.notes import from_json, notes_in
 from viscofric.study.results.columns import about, columns_of, table_text, tables
 from viscofric.study.results.file import RESULTS_FILE, cases_of
 
@@ -62,7 +64,7 @@ _SENTENCES = ("warnings", "notes")
 
 
 def workbook(tree: DataTree, cases: Dataset) -> bytes:
-    """Return results as the bytes of a workbook: sheets summary, prediction, the other tables, variables."""
+    """Return results as the bytes of a workbook: sheets summary, prediction, other tables, values, variables."""
     import xlsxwriter  # type: ignore[import-untyped]
 
     target = io.BytesIO()
@@ -71,9 +73,11 @@ def workbook(tree: DataTree, cases: Dataset) -> bytes:
     with xlsxwriter.Workbook(target, options) as book:
         made = _Made(book)
         made.summary(tree.attrs)
-        for name, dataset in [("prediction", cases), *tables(tree)]:
+        others = list(tables(tree))
+        for name, dataset in [("prediction", cases), *others]:
             made.table(name, dataset)
-        made.variables()
+        made.listing("values", [("table", "name", "value"), *_values(others)])
+        made.listing("variables", [("name", "unit", "meaning"), *made.meaning])
         attributes = tree.attrs
         book.set_properties(
             {
@@ -141,15 +145,25 @@ class _Made:
         page.freeze_panes(1, sum(variable in dataset.coords for variable in names))
         page.autofilter(0, 0, count, len(names) - 1)
 
-    def variables(self) -> None:
-        """Write the meaning of the headings."""
-        page = self.sheet("variables")
-        for row, cells in enumerate([("name", "unit", "meaning"), *self.meaning]):
+    def listing(self, name: str, rows: Iterable[Sequence[Any]]) -> None:
+        """Write what belongs to whole tables or columns, under its headings: three columns."""
+        page = self.sheet(name)
+        for row, cells in enumerate(rows):
             for column, cell in enumerate(cells):
-                page.write_string(row, column, cell, self.bold if row == 0 else None)
-        for column, width in enumerate((28, 10, 90)):
+                page.write_string(row, column, cell, self.bold) if row == 0 else _write(page, row, column, cell)
+        for column, width in enumerate((28, 28, 90)):
             page.set_column(column, column, width)
         page.freeze_panes(1, 0)
+
+
+def _values(named: Iterable[tuple[str, Dataset]]) -> Iterator[tuple[str, str, Any]]:
+    """Yield the attributes of tables: numbers and texts, each sentence of a list by itself; no other JSON."""
+    for table, dataset in named:
+        for name, value in dataset.attrs.items():
+            held = from_json(value)
+            for one in held if isinstance(held, list) else [held]:
+                if isinstance(one, str | int | float | np.number) and str(one):
+                    yield table, str(name), one
 
 
 def _write(page: Any, row: int, column: int, value: Any) -> None:
