@@ -219,9 +219,10 @@ def test_ls_dyna_leaves_its_second_card_blank_and_its_numbers_are_those_of_the_m
 
 
 @pytest.mark.filterwarnings("error", "ignore:The card for")
-@pytest.mark.parametrize("program", ["abaqus", "ansys", "ls-dyna"])
 @pytest.mark.parametrize("law", [WLF(8.86, 101.6, 298.15), Arrhenius(123456.789, 303.15), None])
-@pytest.mark.parametrize("domain", ["time", "frequency"])
+@pytest.mark.parametrize(
+    ("program", "domain"), [("abaqus", "time"), ("abaqus", "frequency"), ("ansys", "time"), ("ls-dyna", "time")]
+)
 def test_cards_in_megapascal_come_back_in_pascal(tmp_path, program, law, domain):
     path = write_card(rubber(law), tmp_path / "card", program, density=1100.0, modulus_unit="MPa", domain=domain)
     assert "Units: MPa, s, mm, tonne" in path.read_text()
@@ -254,10 +255,27 @@ def test_megapascal_and_tonnes_by_hand(tmp_path):
     assert [float(dyna[5][:20]), float(dyna[5][40:60])] == pytest.approx([1 / 2.98, 1 / 0.06], rel=1e-13)
 
 
-@pytest.mark.parametrize("program", ["comsol", "comsol-branches", "json"])
-def test_formats_that_state_their_units_are_in_si_only(tmp_path, program):
-    with refused("unit-system"):
-        write_card(rubber(), tmp_path / "card", program, modulus_unit="MPa")
+@pytest.mark.parametrize("program", ["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json"])
+@pytest.mark.parametrize(
+    ("choice", "programs"),
+    [
+        ({"modulus_unit": "MPa"}, ("abaqus", "ansys", "ls-dyna")),
+        ({"temperature_unit": "degC"}, ("abaqus", "ansys", "ls-dyna")),
+        ({"domain": "frequency"}, ("abaqus",)),
+        ({"material_id": 7}, ("ansys", "ls-dyna")),
+    ],
+)
+def test_a_choice_changes_the_card_or_is_refused(tmp_path, program, choice, programs):
+    needed = {"poisson_ratio": 0.49, "density": 1e3}
+    if program in programs:
+        usual = written(tmp_path, rubber(), program, **needed)
+        assert written(tmp_path, rubber(), program, **needed, **choice) != usual
+        return
+    with refused("not-of-format"):
+        write_card(rubber(), tmp_path / "card", program, **needed, **choice)
+
+
+def test_an_unknown_unit_of_a_card_is_refused(tmp_path):
     with refused("wrong-choice", naming="modulus_unit = 'psi'"):
         write_card(rubber(), tmp_path / "card", "abaqus", modulus_unit="psi")
 

@@ -208,8 +208,8 @@ SAID = [
     ),
     (
         lambda: vf.write_card(SOLID, "card", "comsol", modulus_unit="MPa"),
-        "unit-system",
-        ("modulus_unit = 'MPa': comsol holds SI units; leave modulus_unit out (it is for abaqus, ansys, ls-dyna)."),
+        "not-of-format",
+        ("modulus_unit = 'MPa': comsol has no such choice; leave modulus_unit out (it is for abaqus, ansys, ls-dyna)."),
     ),
     (
         lambda: vf.write_card(vf.Material(TABLE), "card", "abaqus"),

@@ -37,6 +37,23 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json")
     show_default=True,
     help="Units of Abaqus, ANSYS and LS-DYNA cards; MPa goes with mm, s and tonne.",
 )
+@click.option(
+    "--temperature-unit",
+    type=click.Choice(["K", "degC"]),
+    default="K",
+    show_default=True,
+    help="Temperatures of Abaqus, ANSYS and LS-DYNA cards.",
+)
+@click.option(
+    "--domain",
+    type=click.Choice(["time", "frequency"]),
+    default="time",
+    show_default=True,
+    help="Analysis of Abaqus cards: in time (Prony series) or in frequency.",
+)
+@click.option(
+    "--material-id", type=int, default=1, show_default=True, help="Number of the material in ANSYS and LS-DYNA cards."
+)
 @click.option("--density", metavar="RHO", help="Density, e.g. '1100 kg/m^3'; required for LS-DYNA.")
 @click.option(
     "--card-law",

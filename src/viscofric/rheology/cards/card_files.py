@@ -33,6 +33,13 @@ CardLaw: TypeAlias = Literal["best", "wlf", "vft", "arrhenius"]
 #: Programs whose cards have no units: those of the model apply.
 _WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
 _WITH_DENSITY = (*_WITHOUT_UNITS, "comsol")
+#: Argument of `write_card` -> its default, and the formats that hold it.
+_OF_FORMATS: dict[str, tuple[object, tuple[str, ...]]] = {
+    "modulus_unit": ("Pa", _WITHOUT_UNITS),
+    "temperature_unit": ("K", _WITHOUT_UNITS),
+    "domain": ("time", ("abaqus",)),
+    "material_id": (1, ("ansys", "ls-dyna")),
+}
 
 
 class _Program(NamedTuple):
@@ -96,7 +103,7 @@ def write_card(
     density : float or quantity, optional
         kg/m³; LS-DYNA needs it, "json" and "comsol-branches" hold none.
     temperature_unit : {"K", "degC"}
-        In which the model counts temperatures; COMSOL parameters carry their unit.
+        Of cards for Abaqus, ANSYS and LS-DYNA: in which the model counts temperatures.
     domain : {"time", "frequency"}
         Of Abaqus: ``*VISCOELASTIC, TIME=PRONY`` or ``FREQUENCY=PRONY`` (which takes no ``*TRS``).
     material_id : int
@@ -140,14 +147,13 @@ def write_card(
     check_choice(temperature_unit, "temperature_unit", "K", "degC")
     check_choice(domain, "domain", "time", "frequency")
     check_choice(modulus_unit, "modulus_unit", *get_args(UnitSystem))
-    if modulus_unit != "Pa" and format not in _WITHOUT_UNITS:
-        raise wrong_argument(
-            "modulus_unit",
-            modulus_unit,
-            f"{format} holds SI units; leave modulus_unit out (it is for {', '.join(_WITHOUT_UNITS)}).",
-            "unit-system",
-        )
     whole_number(material_id, "material_id", 1)
+    given = {"modulus_unit": modulus_unit, "temperature_unit": temperature_unit, "domain": domain}
+    for name, value in (given | {"material_id": material_id}).items():
+        usual, formats = _OF_FORMATS[name]
+        if value != usual and format not in formats:
+            said = f"{format} has no such choice; leave {name} out (it is for {', '.join(formats)})."
+            raise wrong_argument(name, value, said, "not-of-format")
     notes: list[Note] = []
     if law is not None:
         material = _with_law(material, law, notes)

@@ -308,9 +308,6 @@ CARD = [
     *when(
         {"@card.format": _UNITS},
         choice("@card.modulus_unit", "Units of the model", [["Pa", "Pa, m, s, kg"], ["MPa", "MPa, mm, s, t"]], "Pa"),
-    ),
-    *when(
-        {"@card.format": _PROGRAMS},
         choice("@card.temperature_unit", "Temperatures of the model", [["K", "kelvin"], ["degC", "°C"]], "K"),
     ),
     *when(

@@ -14,8 +14,6 @@ from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.export_files import offered
 from viscofric.web.jobs.rubbers import made_rubber
 
-_WITHOUT_UNITS = ("abaqus", "ansys", "ls-dyna")
-
 
 class Options(JobOptions):
     """Which card, and what the rubber does not say; see `viscofric.rheology.cards.write_card`."""
@@ -44,7 +42,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             poisson_ratio=options.poisson_ratio,
             density=options.density or None,
             temperature_unit=options.temperature_unit,
-            modulus_unit=options.modulus_unit if form in _WITHOUT_UNITS else "Pa",
+            modulus_unit=options.modulus_unit,
             domain=options.domain,
             law=options.law if form != "json" and isinstance(rubber.material.shift, ShiftFactors) else None,
         )
