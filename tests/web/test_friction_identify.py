@@ -14,7 +14,8 @@ from viscofric.web.forms import FORMS
 from viscofric.web.jobs.context import Context, JobError
 from web.friction_workspace import STUDY, done, workspace
 
-CURVES = {**STUDY, "measurement": {"curves": "curves.csv"}}
+CONDITIONS = {**STUDY["conditions"], "temperature": ["40 degC", "60 degC"]}
+CURVES = {**STUDY, "conditions": CONDITIONS, "measurement": {"curves": "curves.csv"}}
 ANCHOR = {"of": "rubber", "frequency": "1 Hz", "temperature": "40 degC"}
 QUICK: dict[str, Any] = {"accuracy": 0.05, "samples": 40}
 
@@ -61,6 +62,10 @@ def test_shift_factors_and_fit_are_reported_at_all_temperatures(identified: dict
     assert len(identified["factors"]["temperature"]) == len(identified["fit"]) == 5
     assert identified["rms"] < 0.03
     assert identified["sentences"]
+
+
+def test_temperatures_of_the_study_that_the_identified_material_lacks_are_told(identified: dict[str, Any]) -> None:
+    assert identified["temperature"] == {"given": ["40 degC", "60 degC"], "kept": ["40 degC"]}  # measured up to 52 °C
 
 
 def test_progress_runs_from_begin_to_end(identified: dict[str, Any], heard: list[dict[str, Any]]) -> None:
@@ -130,3 +135,17 @@ def test_what_is_missing_is_reported(context: Context) -> None:
     with refused("missing", JobError) as caught:
         done("identify", context, {"measurement": CURVES["measurement"]}, beside=False)
     assert caught.value.field == "indenter"
+
+
+def test_contacts_are_solved_to_the_accuracy_of_the_study(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = []
+
+    def asked(*_: object, accuracy: float, **__: object) -> None:
+        seen.append(accuracy)
+        raise vf.InputError("enough.", code="enough")
+
+    monkeypatch.setattr("viscofric.web.jobs.identify.identify_material", asked)
+    for solver in ({"accuracy": 5e-3}, {}):
+        with refused("enough"):
+            done("identify", context, {**CURVES, "solver": solver}, anchor=ANCHOR)
+    assert seen == [5e-3, 1e-3]

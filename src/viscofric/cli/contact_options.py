@@ -213,6 +213,7 @@ elastic_options = together(
     ),
     heading="Elastic indenter",
 )
+accuracy_option = key("solver.accuracy", type=float, default=1e-3)
 contact_options = together(
     direction_option,
     elastic_options,
@@ -224,7 +225,7 @@ contact_options = together(
         help="Coulomb friction coefficient, whose shear changes the pressure; negative for slip against the motion "
         "[default: none].",
     ),
-    key("solver.accuracy", type=float, default=1e-3),
+    accuracy_option,
     click.option(
         "--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda."
     ),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.contact_options import chosen_indenter, sliding_indenter_options
+from viscofric.cli.contact_options import accuracy_option, chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import WRITTEN, Source, refuse_to_overwrite
 from viscofric.cli.output import (
@@ -21,6 +21,7 @@ from viscofric.cli.output import (
     write_files,
 )
 from viscofric.cli.rubber_options import reading_options
+from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -51,6 +52,7 @@ _PERCENT = click.FloatRange(0.0, 1000.0)
 )
 @click.option("--speed", metavar="V", help="Its speed, e.g. '20 mm/s'.")
 @click.option("--contact-temperature", metavar="T", help="Its temperature, e.g. '60 degC'.")
+@accuracy_option
 @synthetic_option
 @picture_option("Draw the sweep")
 @json_option("Print everything as JSON, in SI units.")
@@ -80,7 +82,7 @@ def command(files: tuple[Path, ...], as_json: bool, picture: Path | None, out: P
             from viscofric.rheology.cards import write_card
 
             lines.append(f"file     {write_card(material, out, format='json')}")
-    record["notes"] = [str(note) for note in notes]
+    record |= listed("notes", notes)
     if as_json:
         print_json(record)
     else:
@@ -126,7 +128,7 @@ def _scaled(fit: PayneFit, chosen: dict[str, Any], notes: list[str]) -> tuple[di
             load=chosen["load"],
             temperature=chosen["contact_temperature"],
             measured_at=measured,
-            accuracy=1e-2,
+            accuracy=chosen["accuracy"],
         )
     notes += found.notes
     return *_compared(found, shape.words), found.material

@@ -20,6 +20,7 @@ from viscofric.cli.output import (
     typed_command,
 )
 from viscofric.cli.rubber_options import column_options
+from viscofric.notes import listed
 
 
 @as_command("ramp")
@@ -75,7 +76,7 @@ def command(files: tuple[Path, ...], as_json: bool, out: Path | None, **chosen: 
             "angular_frequency": ramps.angular_frequencies.tolist(),
             "temperature_range": list(ramps.temperature_range),
             "glass_transitions": [vars(one) for one in peaks],
-            "notes": [str(note) for note in ramps.notes],
+            **listed("notes", ramps.notes),
         }
         print_json(record)
     else:

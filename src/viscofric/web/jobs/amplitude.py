@@ -19,8 +19,6 @@ from viscofric.web.jobs.rubbers import checked_tables, made_rubber
 from viscofric.web.study_text import study_of
 
 _DIGITS = 6
-#: Friction is compared to this, relative.
-_ACCURACY = 0.02
 
 
 class Options(JobOptions):
@@ -74,7 +72,7 @@ def _contact(study: dict[str, Any], fit: PayneFit, measured_at: float | None, co
         temperature=case.temperature,
         measured_at=measured_at,
         layer=case.layer,
-        accuracy=max(_ACCURACY, checked.solver.accuracy),
+        accuracy=checked.solver.accuracy,
     )
     words = (
         f"At {quantity(case.speed, 'speed')}, {quantity(case.temperature, 'temperature')} the strain of the contact is "

@@ -15,12 +15,14 @@ from viscofric.friction.identification.result import IdentifiedMaterial
 from viscofric.notes import Note
 from viscofric.rheology.cards import write_card
 from viscofric.rheology.material import Material
-from viscofric.units import angular_frequency, positive
+from viscofric.study.run_file.settings import SolverTable
+from viscofric.units import angular_frequency, celsius, positive
 from viscofric.web.figures.friction import identified_view
 from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.friction_data import by_temperature, measured_points, texts
 from viscofric.web.jobs.friction_input import friction_curves, indenter_of, measured
-from viscofric.web.jobs.rubbers import made_rubber
+from viscofric.web.jobs.rubbers import checked_part, made_rubber
+from viscofric.web.study_text import study_of
 
 _DOWNLOAD = "rubber_from_friction.json"
 _DIGITS = 6
@@ -35,7 +37,8 @@ class Options(JobOptions):
     shift: Literal["friction", "rubber"] = "friction"  # where α(T) comes from
     anchor: AnchorOptions | None = None  # what fixes the level of the modulus
     beside: bool = True  # whether to compare with the page's material
-    accuracy: float = Field(1e-2, ge=1e-4, le=0.1)  # of each contact that is solved
+    #: Relative error of each contact that is solved; that of [solver] without
+    accuracy: float | None = Field(None, ge=1e-4, le=0.1)
     samples: int = Field(200, ge=20, le=1_000)  # rubbers drawn for the bands
 
 
@@ -49,7 +52,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         )
     wants_rubber = options.beside or options.shift == "rubber" or (options.anchor and options.anchor.of == "rubber")
     rubber = made_rubber(study, context).material if wants_rubber else None
-    chosen: dict[str, Any] = {"accuracy": options.accuracy, "samples": options.samples}
+    accuracy = checked_part(solver=(SolverTable, study.get("solver", {}))).solver.accuracy
+    chosen: dict[str, Any] = {"accuracy": options.accuracy or accuracy, "samples": options.samples}
     if options.shift == "rubber":
         if rubber is None or rubber.shift is None:
             raise JobError(
@@ -75,12 +79,27 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         progress=report,
         **chosen,
     )
-    numbers: dict[str, Any] = plain(_reply(found, curves, rubber if options.beside else None, anchor, context))
+    reply = _reply(found, curves, rubber if options.beside else None, anchor, context)
+    numbers: dict[str, Any] = plain(reply | {"temperature": _temperatures(study, found.material, context)})
     made_up = measured(study, context).synthetic
     view = identified_view(
         numbers, plain(measured_points(curves)), synthetic=made_up or (None if options.beside else False)
     )
     return numbers | view
+
+
+def _temperatures(study: dict[str, Any], material: Material, context: Context) -> dict[str, Any] | None:
+    """Return the ``given`` temperatures of a study and those ``kept`` that a material has; None where it has all."""
+    try:
+        kelvin = study_of(study, context.files)[1].conditions.temperature
+    except InputError:
+        return None  # other fields say what is wrong
+    shift, given = material.shift, study["conditions"].get("temperature")
+    if shift is None or (known := shift.valid_at(list(kelvin))).all():
+        return None
+    texts = given if isinstance(given, list) else [f"{celsius(one):.6g} degC" for one in kelvin]
+    kept = [text for text, has in zip(texts, known, strict=True) if has]
+    return {"given": given, "kept": kept or [f"{celsius(shift.reference):.6g} degC"]}
 
 
 def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:

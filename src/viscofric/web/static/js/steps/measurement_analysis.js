@@ -75,11 +75,15 @@ function identifyOptions() {
 const identify = ofMeasured("identify", identifyOptions, { manual: true });
 
 /** Make the identified rubber that of the page. */
-async function take({ download }) {
+async function take({ download, temperature }) {
   const response = await fetch(downloadUrl(download));
   const [name] = await uploadFiles([new File([await response.blob()], download)]);
-  state.set("material", { file: name });
-  announce("The page now uses the identified material.");
+  const given = JSON.stringify(state.get("conditions.temperature"));
+  const beyond = temperature && given === JSON.stringify(temperature.given);
+  const data_origin = measured.shown?.synthetic ? "synthetic" : undefined;
+  state.change({ material: { file: name }, data_origin, ...(beyond && { "conditions.temperature": temperature.kept }) });
+  const where = beyond ? ` Temperatures without its shift factors are left out; ${temperature.kept.join(", ")} are kept.` : "";
+  announce(`The page now uses the identified material.${where}`);
 }
 
 /** The card of the identification. */
