@@ -19,7 +19,8 @@ from cli.refusals import refusal, refusal_of
 from marks import apart
 from viscofric import open_results, report
 from viscofric.cli import main
-from viscofric.cli.run import NOT_ACCURATE, print_outcome
+from viscofric.cli.commands import NOT_ACCURATE
+from viscofric.cli.run import print_outcome
 from viscofric.notes import Note
 from viscofric.study import execution
 from viscofric.study.results.file import save_results

@@ -6,6 +6,7 @@ import json
 import math
 from dataclasses import replace
 from functools import cache
+from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from click.testing import CliRunner, Result
 import viscofric as vf
 from cli.refusals import refusal
 from viscofric.cli import main
+from viscofric.cli.commands import NOT_ACCURATE
 from viscofric.contact import steady
 from viscofric.report.figures.contact import contact_figure
 from viscofric.report.figures.saving import save_picture
@@ -381,3 +383,23 @@ def test_ctrl_c_is_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
     done = call(*RUBBER, *BALL)
     assert done.exit_code == 130
     assert done.output.split() == ["Interrupted."]
+
+
+@pytest.mark.parametrize(
+    ("command", "function"),
+    [("solve", "viscofric.contact.steady.solve_steady"), ("curve", "viscofric.friction.prediction.predict_friction")],
+)
+def test_a_result_that_misses_the_accuracy_is_printed_with_a_status_of_its_own(
+    command: str, function: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    module, _, name = function.rpartition(".")
+    exact = getattr(import_module(module), name)
+    monkeypatch.setattr(function, lambda *given, accuracy, **more: exact(*given, accuracy=0.1, **more))
+    done = CliRunner().invoke(main, [command, *RUBBER, *BALL, "--json"])
+    assert done.exit_code == NOT_ACCURATE, done.output
+    assert json.loads(done.stdout)
+
+
+def test_an_accuracy_that_no_grid_reaches_has_the_same_status() -> None:
+    done = call(*RUBBER, *BALL, "--finest", "128", "--accuracy", "1e-4")
+    assert (done.exit_code, done.stdout) == (NOT_ACCURATE, "")

@@ -10,7 +10,12 @@ import click
 from viscofric.cli.errors import words_of
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from viscofric.notes import Reader
+
+#: Exit statuses of studies of which some cases failed, and of results that are not to the requested accuracy.
+SOME_CASES_FAILED, NOT_ACCURATE = 3, 4
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
@@ -19,6 +24,12 @@ _HEADINGS: dict[click.Parameter, str] = {}
 _OTHERS = "Options"  # heading of all others
 #: Headings that several commands have.
 CONDITIONS, CONTACT = "Conditions", "Contact"
+
+
+class _NotAccurateError(click.ClickException):
+    """What did not converge to the requested accuracy."""
+
+    exit_code = NOT_ACCURATE
 
 
 class Command(click.Command):
@@ -40,13 +51,14 @@ class Command(click.Command):
         return super().parse_args(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; what viscofric raises on purpose becomes a message, and exit status 1."""
-        from viscofric.errors import ViscofricError
+        """Run the command; what viscofric raises on purpose becomes a message, and exit status 1 or `NOT_ACCURATE`."""
+        from viscofric.errors import ConvergenceError, ViscofricError
 
         try:
             return super().invoke(ctx)
         except ViscofricError as error:
-            raise click.ClickException(words_of(error, self.reader)) from error
+            kind = _NotAccurateError if isinstance(error, ConvergenceError) else click.ClickException
+            raise kind(words_of(error, self.reader)) from error
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options under their headings: first those with required ones, last those of no heading."""
@@ -62,6 +74,17 @@ class Command(click.Command):
             ordered = sorted(sections[heading], key=lambda one: not one.required)
             with formatter.section(heading):
                 formatter.write_dl([row for one in ordered if (row := one.get_help_record(ctx)) is not None])
+
+
+def exit_if_beyond(accuracy: float, friction: ArrayLike, error: ArrayLike) -> None:
+    """Warn of friction whose estimated error exceeds the accuracy, and end the command with `NOT_ACCURATE`."""
+    from viscofric.contact.free.estimates import beyond_accuracy
+
+    beyond = beyond_accuracy(friction, error, accuracy)
+    if beyond.any():
+        points = f"{beyond.sum()} of {beyond.size} points have" if beyond.size > 1 else "The result has"
+        click.echo(f"Warning: {points} an estimated error beyond --accuracy {accuracy:g}.", err=True)
+        click.get_current_context().exit(NOT_ACCURATE)
 
 
 def as_command(

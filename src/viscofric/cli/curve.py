@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import CONDITIONS, as_command, together
+from viscofric.cli.commands import CONDITIONS, as_command, exit_if_beyond, together
 from viscofric.cli.contact_options import (
     NamedIndenter,
     chosen_indenter,
@@ -29,7 +29,6 @@ from viscofric.cli.rubber_options import (
     is_made_up,
     rubber_options,
 )
-from viscofric.cli.run import NOT_ACCURATE
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
@@ -108,19 +107,7 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
         ("curves", out, partial(write_friction_curves, curves)),
         ("picture", picture, drawing(_figure_of(curves), curves, mark=is_made_up(rubber, parameters))),
     )
-    beyond = _beyond_accuracy(curves, parameters["accuracy"])
-    if beyond:
-        said = f"{beyond} of {len(curves)} points have an estimated error beyond --accuracy {parameters['accuracy']:g}."
-        click.echo(f"Warning: {said}", err=True)
-        click.get_current_context().exit(NOT_ACCURATE)
-
-
-def _beyond_accuracy(curves: FrictionCurves, accuracy: float) -> int:
-    """Return the number of points whose estimated error exceeds the accuracy, relative to friction (1e-6 at least)."""
-    from viscofric.contact.free.estimates import FRICTION_FLOOR
-
-    sizes = abs(curves.viscoelastic).clip(min=FRICTION_FLOOR)
-    return int((curves.viscoelastic_error > accuracy * sizes * (1.0 + 1e-9)).sum())
+    exit_if_beyond(parameters["accuracy"], curves.viscoelastic, curves.viscoelastic_error)
 
 
 def _kelvins(material: Material, given: list[float]) -> list[float]:

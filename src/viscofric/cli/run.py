@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import NOT_ACCURATE, SOME_CASES_FAILED, as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.files import FOLDER
 from viscofric.cli.output import RUN_JSON, json_option, out_option, print_written
@@ -18,7 +18,6 @@ from viscofric.notes import listed
 if TYPE_CHECKING:
     from viscofric.study.results.results import StudyResults
 
-SOME_CASES_FAILED, NOT_ACCURATE = 3, 4
 #: Checks of the numbers themselves; others judge the assumptions and the data.
 _NUMERICAL = ("Accuracy", "Energy balance", "Contact conditions")
 # As many notes and kinds of failure are printed; the report has them all.

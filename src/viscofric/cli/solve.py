@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import CONDITIONS, CONTACT, as_command, together
+from viscofric.cli.commands import CONDITIONS, CONTACT, as_command, exit_if_beyond, together
 from viscofric.cli.contact_options import (
     NamedIndenter,
     chosen_indenter,
@@ -125,6 +125,8 @@ def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
     answer(record, lambda: _print(name, rubber, solution, seconds))
     draw = drawing("contact.contact_figure", solution, shape.indenter, name, mark=is_made_up(rubber, parameters))
     write_files(("picture", picture, draw), ("fields", out, lambda path: write_fields(path, solution)))
+    if parameters["grid"] is None:
+        exit_if_beyond(parameters["accuracy"], solution.friction_coefficient, solution.diagnostics.friction_error)
 
 
 def _speed(text: str) -> float | str:

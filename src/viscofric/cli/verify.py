@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import NOT_ACCURATE, SOME_CASES_FAILED, as_command
 from viscofric.cli.errors import placed_at
 from viscofric.cli.files import CSV, DASH
 from viscofric.cli.output import json_option, out_option, print_json, write_rows
@@ -34,7 +34,7 @@ _PRINTED = (
 
 def compare_test(folder: Path, as_json: bool) -> None:
     """Run the study of a friction test, and print every point with the errors of both."""
-    from viscofric.cli.run import NOT_ACCURATE, SOME_CASES_FAILED, run_and_report
+    from viscofric.cli.run import run_and_report
     from viscofric.datasets import plain, record
     from viscofric.report.results import group, is_synthetic, sentences
     from viscofric.report.texts.friction_tables import measurement_table

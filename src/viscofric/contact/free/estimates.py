@@ -10,13 +10,16 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array
+    from numpy.typing import ArrayLike
+
+    from viscofric.arrays import Array, Mask
     from viscofric.contact.free.stage import Stage
 
 
 FEWEST_GRIDS = 3  # one change alone may be small by chance
 #: Friction is resolved relative to its own value, but not below this fraction of a0/R.
 FRICTION_FLOOR = 1e-6
+_ROUNDING = 1e-9  # errors above the accuracy by this part of it are within
 # Factor by which changes fall from grid to grid at the least.  Those of the friction fall with the power 3/2 of the
 # cell on average, 0.35, since the pressure rises like a square root at the edges; those of other numbers with its first
 # power.  The rest is for chance.
@@ -116,6 +119,12 @@ def least_error(stages: list[Stage], halvings: int) -> float:
     pressure = settled(values, measured_fading(values)).error / _PRESSURE_ERROR_FALL**halvings
     scale = max(abs(last.energy_friction), FRICTION_FLOOR)
     return last.problem.geometry.scatter * min(uncertain, pressure) / scale
+
+
+def beyond_accuracy(friction: ArrayLike, error: ArrayLike, accuracy: float, slope: float = 1.0) -> Mask:
+    """Return where errors of friction exceed the relative accuracy; the floor is that of a contact of this slope."""
+    size = np.maximum(np.abs(friction), FRICTION_FLOOR * slope)
+    return np.asarray(np.abs(error) > accuracy * size * (1.0 + _ROUNDING))
 
 
 def settled(values: Array, fading: float = _FADING) -> Estimate:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.free.estimates import FRICTION_FLOOR
+from viscofric.contact.free.estimates import beyond_accuracy as is_beyond
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, notes_in
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Mask
     from viscofric.friction.curves import FrictionCurves
-
-_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,12 +168,11 @@ def beyond_accuracy(cases: Dataset, accuracy: float) -> Mask:
     `cases` have any shape; failed ones count as within.  Friction below the solver's floor, a fraction of the contact's
     slope, is compared with the floor.
     """
-    friction, error = (np.abs(cases[name].values) for name in ("friction_coefficient", "friction_error"))
-    floor = 0.0
+    slope = 0.0
     if {"indentation", "front", "rear"} <= set(cases.variables):
         slopes = np.ravel(2.0 * cases["indentation"].values / (cases["front"].values + cases["rear"].values))
-        floor = FRICTION_FLOOR * float(np.max(slopes[np.isfinite(slopes)], initial=0.0))
-    return np.asarray(error > accuracy * np.maximum(friction, floor) * (1.0 + _ROUNDING))
+        slope = float(np.max(slopes[np.isfinite(slopes)], initial=0.0))
+    return is_beyond(cases["friction_coefficient"].values, cases["friction_error"].values, accuracy, slope)
 
 
 def open_results(path: str | Path) -> StudyResults:
