@@ -536,6 +536,7 @@ CALLS: dict[str, Any] = {
         0.5}),
     "Material.at": lambda: (shifted(), {"temperature": 310.0}),
     "Material.at_reference": lambda: (shifted(), {"reference": 310.0}),
+    "Material.notes_at": lambda: (shifted(), {"temperature": 310.0}),
     "Material.modes_at": lambda: (shifted(), {"temperature": 310.0}),
     "Material.complex_modulus": lambda: (shifted(), {"angular_frequency": np.array([1.0, 2.0]), "temperature": 310.0}),
     "Arrhenius": lambda: {"activation_energy": 1e5, "reference": 300.0, **fitted(), "covariance": np.eye(1)},

@@ -100,6 +100,31 @@ def test_a_contact_and_curves_of_contacts_note_frequencies_that_were_not_measure
     assert not vf.solve_steady(material, vf.Ball("10 mm"), speed=math.inf, load="1 N", accuracy=0.1).warnings
 
 
+def test_what_is_not_known_of_a_material_is_noted_in_every_result() -> None:
+    law = vf.Arrhenius(activation_energy=1.286e5, reference="30 degC", fitted_range=(293.15, 313.15))
+    material = vf.Material(vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").spectrum, shift=law)
+    contact = {"load": "1 N", "accuracy": 0.1}
+    within, beyond = (
+        vf.solve_steady(material, vf.Ball("10 mm"), speed="1 m/s", temperature=celsius, **contact)
+        for celsius in ("30 degC", "60 degC")
+    )
+    assert (codes(within.warnings), codes(beyond.warnings)) == (set(), {"extrapolated"})
+    assert codes(vf.FrictionCurves.from_solutions([within, beyond]).notes) == {"extrapolated"}
+    curves = vf.predict_friction(
+        material, vf.Ball("10 mm"), speeds="1 m/s", temperatures=["30 degC", "60 degC"], **contact
+    )
+    assert codes(curves.notes) == {"frequencies-unknown", "extrapolated"}
+    (note,) = (note for note in curves.notes if note.code == "extrapolated")
+    assert note.values == {"lowest": 333.15, "highest": 333.15}
+    road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
+    rough = vf.predict_rough_friction(material, road, speeds="0.1 m/s", pressure="5 kPa", temperatures="60 degC")
+    assert codes(rough.notes) == {"frequencies-unknown", "extrapolated"}
+    bounce = vf.motion.solve_impact(
+        material, vf.Ball("5 mm"), mass="4 g", speed="1 m/s", temperature="60 degC", accuracy=1e-2
+    )
+    assert "extrapolated" in codes(bounce.warnings)
+
+
 def test_a_rough_contact_notes_the_part_of_its_friction_at_frequencies_that_were_not_measured() -> None:
     solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
     road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)

@@ -53,7 +53,7 @@ def test_theory_has_numbers_of_all_scales_and_of_each():
     assert found["friction_coefficient"].dims == ("temperature", "speed")
     assert found["area_by_scale"].dims == ("temperature", "speed", "wave_number")
     assert found["flash_temperature"].attrs["units"] == "K"
-    assert set(found.attrs) == {"pressure", "error"}
+    assert set(found.attrs) == {"pressure", "error", "notes", "note_records"}
 
 
 def test_a_topography_keeps_its_history():

@@ -292,8 +292,9 @@ class _Solved(NamedTuple):
         notes: list[Note | None] = [*self.indenter.warnings(self.contact, found.indentation)]
         if self.settings.layer is not None:
             notes.append(self.settings.layer.strain_warning(found.indentation))
-        extrapolated = _beyond_measured(found, self.material.spectrum, self.spectrum)
-        return replace(found, warnings=(*filter(None, notes), *self.material.notes_on_modes, *extrapolated))
+        beyond = _beyond_measured(found, self.material.spectrum, self.spectrum)
+        about = *self.material.notes_on_modes, *beyond, *self.material.notes_at(self.temperature)
+        return replace(found, warnings=(*filter(None, notes), *about))
 
     def derivatives(self, *, with_error: bool = True) -> FrictionDerivatives:
         """Return the derivatives of the friction coefficient; without an error estimate, it is infinite."""

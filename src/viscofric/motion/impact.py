@@ -342,7 +342,7 @@ class _Falling(NamedTuple):
             contact_area=np.pi * radius**2, contact_radius=radius, front=None, rear=None, half_width=None, work=work,
             stored=stored, dissipated=dissipated, errors=errors, steps=len(time) - 1, rejected_steps=0,
             interrupted=False, method="springs", geometry="point", direction=(1.0, 0.0),
-            warnings=(*filter(None, notes), *beyond, *self.material.notes_on_modes),
+            warnings=(*filter(None, notes), *beyond, *self.material.notes_on_modes, *self.material.notes_at(kelvin)),
         )  # fmt: skip
         return ImpactSolution(contacts, run, velocity, self.mass, self.gravity, kelvin, run.warnings)
 

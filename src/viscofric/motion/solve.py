@@ -382,6 +382,7 @@ def assemble(
             *_beyond_measured(problem, moments),
             *notes,
             *problem.material.notes_on_modes,
+            *problem.material.notes_at(kelvin),
         ),
         dent=extent("dent"),
         _fields=tuple(one.field for one in moments),

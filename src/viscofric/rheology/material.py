@@ -4,22 +4,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on, text
 from viscofric.arrays import ComplexArray
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError, brief
-from viscofric.notes import Remedy, without
+from viscofric.notes import Note, Remedy, without
 from viscofric.rheology.shifts.laws import ShiftLaw
+from viscofric.rheology.shifts.shift_law import in_kelvin
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.showing import Plotted, Rows
-from viscofric.units import Quantity, checked_poisson_ratio, positive
+from viscofric.units import Quantity, checked_poisson_ratio, positive, shown_celsius
 
+#: Code of the note on shift factors that are extrapolated.
+EXTRAPOLATED = "extrapolated"
+_MOST_SHOWN = 10
 Spectrum = TypeVar("Spectrum", RetardationSpectrum, ModulusTable)
 
 
@@ -254,11 +259,46 @@ class Material(Plotted):
         """
         return self.at(temperature).complex_modulus(angular_frequency)
 
+    def notes_at(self, temperature: Any = None) -> tuple[Note, ...]:
+        """Return a note where the shift law extrapolates beyond the temperatures that it was fitted to.
+
+        Parameters
+        ----------
+        temperature : float, str, quantity, or an array or list of them, optional
+            Plain numbers are in K; left out, it is the reference.
+
+        Returns
+        -------
+        tuple of Note
+            One at most, with the code ``extrapolated``.
+        """
+        if temperature is None or self.shift is None:
+            return ()
+        every = np.unique(in_kelvin(temperature))
+        beyond = every[np.asarray(self.shift.extrapolates(every))]
+        if not beyond.size:
+            return ()
+        at = ", ".join(shown_celsius(float(one), "z.4g") for one in beyond[:_MOST_SHOWN]) + " °C"
+        at += f" and {beyond.size - _MOST_SHOWN} more temperatures" if beyond.size > _MOST_SHOWN else ""
+        fit = getattr(self.spectrum, "fit", None)
+        friction = fit is not None and fit.from_friction
+        behind = "of the friction from which it was identified" if friction else "of the sweeps"
+        said = f"At {at} the law extrapolates the shift factor beyond the temperatures {behind}."
+        return (Note(EXTRAPOLATED, said, values={"lowest": float(beyond[0]), "highest": float(beyond[-1])}),)
+
 
 def alpha_and_b(material: Material, kelvin: float) -> tuple[float, float]:
     """Return α and b of a material at a temperature, 1 where it has none."""
     alpha = 1.0 if material.shift is None else float(material.shift(kelvin))
     return alpha, 1.0 if material.vertical_shift is None else float(material.vertical_shift(kelvin))
+
+
+def unknown_frequencies(material: Material) -> tuple[Note, ...]:
+    """Return a note on a spectrum whose measured frequencies are unknown; a table of moduli has its own."""
+    if not isinstance(material.spectrum, RetardationSpectrum) or material.spectrum.fit is not None:
+        return ()
+    said = "The measured frequency range of the material is unknown; extrapolation cannot be checked."
+    return (Note("frequencies-unknown", said),)
 
 
 def insist_on_material(given: object) -> None:

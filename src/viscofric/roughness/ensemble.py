@@ -29,7 +29,7 @@ from viscofric.notes import Note, counted
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.interface.friction import check_interface_heat, friction_on_area, insist_on_interface
 from viscofric.rheology.interface.law import InterfaceLaw
-from viscofric.rheology.material import Material, insist_on_material
+from viscofric.rheology.material import Material, insist_on_material, unknown_frequencies
 from viscofric.roughness.patches import contact_statistics
 from viscofric.roughness.rough_friction import HeatedRoughFriction, RoughFriction, shear_notes, states
 from viscofric.roughness.topography import Topography
@@ -275,7 +275,7 @@ def predict_rough_friction(
     shape = len(kelvins), len(velocities), len(named)
     numbers: dict[str, Any] = {name: np.array([getattr(one, name) for one in found]) for name in Numbers._fields[:-1]}
     numbers = {name: column.reshape(shape) for name, column in (numbers | columns).items()}
-    numbers["notes"] = (*counted([one.notes for one in found]), *shared)
+    numbers["notes"] = (*counted([one.notes for one in found]), *unknown_frequencies(material), *shared)
     kelvin_or_nan = np.array([math.nan if kelvin is None else kelvin for kelvin in kelvins])
     if interface is not None:
         warm = kelvin_or_nan[:, None, None] + numbers.get("face_rise", np.zeros(shape))

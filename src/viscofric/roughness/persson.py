@@ -50,7 +50,7 @@ from viscofric.rheology.interface.friction import (
     total_friction,
 )
 from viscofric.rheology.interface.law import InterfaceLaw
-from viscofric.rheology.material import Material, insist_on_material
+from viscofric.rheology.material import Material, insist_on_material, unknown_frequencies
 from viscofric.roughness.flash import Flash
 from viscofric.roughness.persson_integrals import Case, Found, Theory
 from viscofric.roughness.rough_friction import shear_notes, states
@@ -324,7 +324,13 @@ def persson_theory(
     )
     surface = SurfaceCoupling(spectrum.rms_slope(), half_space_coupling(material.poisson_ratio))
     finished = _with_coulomb(result, surface, heating, interface)
-    notes = *finished.notes, *_beyond_measured(material, finished), *_one_way(spectrum)
+    notes = (
+        *finished.notes,
+        *_beyond_measured(material, finished),
+        *unknown_frequencies(material),
+        *material.notes_at(None if np.isnan(finished.temperature).any() else finished.temperature),
+        *_one_way(spectrum),
+    )
     return replace(finished, notes=notes)
 
 

@@ -14,7 +14,7 @@ from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.record import Record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, note_of
-from viscofric.rheology.material import Material
+from viscofric.rheology.material import Material, unknown_frequencies
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -24,7 +24,6 @@ from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber import Rubber, shift_of
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.settings import UncertaintyTable
-from viscofric.units import shown_celsius
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,27 +64,10 @@ class StudyRubber:
 
     def doubts(self, temperatures: Sequence[float]) -> list[Note]:
         """Return notes about extrapolation, and about curves that do not lie on the master curve."""
-        requested = np.array(temperatures)
-        beyond = requested[np.asarray(self.shift.extrapolates(requested))]
         fit = self.spectrum_fit
         # The warnings of a predefined material are reported nowhere else.
         said = list(map(note_of, fit.notes)) if self.rubber.fit is None and fit is not None else []
-        if fit is None:
-            said.append(
-                Note(
-                    "frequencies-unknown",
-                    "The measured frequency range of the material is unknown; extrapolation cannot be checked.",
-                )
-            )
-        if beyond.size:
-            at = ", ".join(shown_celsius(float(kelvin), "z.4g") for kelvin in np.unique(beyond))
-            behind = "of the friction from which it was identified" if self.rubber.from_friction else "of the sweeps"
-            said.append(
-                Note(
-                    "extrapolated",
-                    f"At {at} °C the law extrapolates the shift factor beyond the temperatures {behind}.",
-                )
-            )
+        said += [*unknown_frequencies(self.material), *self.material.notes_at(temperatures)]
         if self.material.vertical_shift is not None:
             said.append(
                 Note(

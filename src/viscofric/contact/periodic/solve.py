@@ -211,7 +211,7 @@ def solve_periodic(
         motion = sliding, toward, kelvin
         solution, steepness = _assemble(surface, same, solid, result, work, given, _Units(depth, unit), motion, finest)
     strains = _large_strains(solution, steepness, layer)
-    return replace(solution, coulomb=coulomb, warnings=(*solution.warnings, *strains))
+    return replace(solution, coulomb=coulomb, warnings=(*solution.warnings, *strains, *material.notes_at(kelvin)))
 
 
 def _insist_on_memory(shape: tuple[int, int], bytes_per_point: int, backend: Backend) -> None:

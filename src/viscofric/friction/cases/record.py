@@ -19,8 +19,8 @@ from viscofric.contact.solution import ContactSolution, Meaning
 from viscofric.datasets import plain
 from viscofric.errors import InputError, ViscofricError
 from viscofric.friction.sensitivity import ComplianceSensitivity
-from viscofric.notes import Note, counted, note_of, records
-from viscofric.rheology.material import Material
+from viscofric.notes import Note, codes, counted, note_of, records
+from viscofric.rheology.material import EXTRAPOLATED, Material, unknown_frequencies
 from viscofric.rheology.spectra.quality import BEYOND, SpectrumFit
 from viscofric.roughness.patches import contact_statistics
 from viscofric.units import shown_number
@@ -244,6 +244,10 @@ _ADDED = "interpolation_error"
 _OF_SOLUTION = ("load", "indentation", "contact_area", "front", "rear", "half_width", "centre_of_pressure")
 
 
+#: Codes of notes that are counted over all contacts of a curve or a study.
+_COUNTED = (BEYOND, EXTRAPOLATED)
+
+
 def _common(solution: ContactSolution | PeriodicSolution, temperature: float, cells: int) -> dict[str, Any]:
     diagnostics = solution.diagnostics
     return {
@@ -255,8 +259,7 @@ def _common(solution: ContactSolution | PeriodicSolution, temperature: float, ce
         "complementarity": diagnostics.complementarity,
         "cells": cells,
         "products": diagnostics.products,
-        # That of a curve or a study is counted over all of its contacts.
-        "warnings": tuple(note for note in map(note_of, solution.warnings) if note.code != BEYOND),
+        "warnings": tuple(note for note in map(note_of, solution.warnings) if note.code not in _COUNTED),
     }
 
 
@@ -310,9 +313,10 @@ def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
         [indenter_record(solution, float(solution.temperature)) for solution in solved],
         units.pop() if units else "N",
     )
-    beyond = [[note for note in map(note_of, solution.warnings) if note.code == BEYOND] for solution in solved]
-    if any(beyond):
-        columns["within_measured_frequencies"] = np.array([0.0 if one else 1.0 for one in beyond])
+    beyond = [[note for note in map(note_of, solution.warnings) if note.code in _COUNTED] for solution in solved]
+    unmeasured = np.array([BEYOND in codes(notes) for notes in beyond])
+    if unmeasured.any():
+        columns["within_measured_frequencies"] = 1.0 - unmeasured
     return columns | {"notes": (*columns["notes"], *counted(beyond))}
 
 
@@ -343,6 +347,7 @@ def columns_of_contacts(
 ) -> dict[str, Any]:
     """Return what `columns_of_records` does, and which frequencies were measured, of contacts warmer by (n,), K."""
     columns = columns_of_records(records, load_unit)
+    columns["notes"] += (*unknown_frequencies(material), *material.notes_at(columns["temperature"]))
     fit: SpectrumFit | None = getattr(material.spectrum, "fit", None)
     if fit is None:  # a table of moduli has notes of its own
         return columns

@@ -165,13 +165,14 @@ def pictures(
     Each of ``numbers`` has ``value`` and ``error``; ``within`` is 1 where the rubber was measured at the contact's
     frequencies, 0 where it is extrapolated, null where that is not known.
     """
-    within, doubts = rubber.is_within(case, case.record(solution)), rubber.doubts([case.temperature])
+    within = rubber.is_within(case, case.record(solution))
+    warnings = dict.fromkeys([*solution.warnings, *rubber.material.notes_at(case.temperature)])
     shared: dict[str, Any] = {
         "stage": "sharp" if sharp else "coarse",
         "speed": case.speed,
         "temperature": case.temperature,
         # Warnings on the material itself belong to other steps.
-        **listed("warnings", [*solution.warnings, *(note for note in doubts if note.code == "extrapolated")], "page"),
+        **listed("warnings", warnings, "page"),
     }
     drawn: Any = _of_surface if case.geometry == "rough" else _of_indenter
     found: dict[str, Any] = drawn(rubber, case, solution)
