@@ -284,3 +284,10 @@ def test_mistakes_of_shifting_are_refused(
     (tmp_path / "mu.csv").write_text(text.replace("viscoelastic friction", "value"), encoding="utf-8")
     found = refusal(*words)
     assert (found.status, found.code) == (1, code), found
+
+
+def test_the_reference_of_known_factors_counts_where_friction_reaches_it(tmp_path: Path) -> None:
+    path = curves(tmp_path / "curves.csv", temperatures=TEMPERATURES[1:])
+    alone = record("master", path)
+    beside = record("master", path, "--shift", "synthetic fluoroelastomer")  # about 30 °C, below all of them
+    assert (beside["found"], beside["reference"]) == (True, alone["reference"])

@@ -116,7 +116,7 @@ def _shifted(
     """Shift friction curves by their own factors, or by those of the modulus where they have none."""
     from viscofric.contact.indenters.shapes import Ball
     from viscofric.errors import SuperpositionError
-    from viscofric.friction.shifting.shift import shift_friction
+    from viscofric.friction.shifting.shift import common_reference, shift_friction
 
     reference = parameters["reference"]
     options: dict[str, Any] = {"indenter": None if parameters["ball"] is None else Ball(parameters["ball"])}
@@ -129,7 +129,7 @@ def _shifted(
             err=True,
         )
     try:
-        about = known.reference if reference is None and known is not None else reference
+        about = common_reference(curves, known) if reference is None else reference
         return shift_friction(curves, reference=about, level_error=parameters["level_error"], **options)
     except SuperpositionError as error:
         if known is None:

@@ -12,7 +12,7 @@ from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.agreement import compare
 from viscofric.friction.curve_files import read_friction_curves
 from viscofric.friction.measurement.tribometry import separate
-from viscofric.friction.shifting.shift import shift_friction
+from viscofric.friction.shifting.shift import common_reference, shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import Note, note_of
 from viscofric.readers.mtm.read import read_mtm
@@ -66,12 +66,9 @@ class Measurement:
 
     def _shifted_by_itself(self) -> FrictionMasterCurve | None:
         """Find α(T) from friction alone, about the modulus's reference if friction covers it."""
-        assert self.material.shift is not None
-        reference: float | None = self.material.shift.reference
-        if not self.curves.temperature.min() <= reference <= self.curves.temperature.max():
-            reference = None
+        about = common_reference(self.curves, self.material.shift)
         try:
-            return shift_friction(self.curves, reference=reference, **self._rule)
+            return shift_friction(self.curves, reference=about, **self._rule)
         except (SuperpositionError, InputError) as error:
             self.notes.append(error.note.at("Friction alone gives no shift factors").coded("no-shift-factors"))
             return None

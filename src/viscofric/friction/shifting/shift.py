@@ -243,6 +243,13 @@ class ChosenLaw(NamedTuple):
     refused: Note | None = None
 
 
+def common_reference(curves: FrictionCurves, known: ShiftLaw | None) -> float | None:
+    """Return the reference of known shift factors, K, where friction reaches it; None: that of the curves alone."""
+    if known is None or not curves.temperature.min() <= known.reference <= curves.temperature.max():
+        return None
+    return float(known.reference)
+
+
 def chosen_law(master: FrictionMasterCurve, kind: str) -> ChosenLaw:
     """Fit a law to shift factors that were found from friction; "best" chooses one, "none" fits none."""
     if kind == "none" or not master.found:

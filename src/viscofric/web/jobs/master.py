@@ -11,7 +11,7 @@ from viscofric.datasets import plain
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-from viscofric.friction.shifting.shift import chosen_law, shift_friction
+from viscofric.friction.shifting.shift import chosen_law, common_reference, shift_friction
 from viscofric.friction.shifting.shift_agreement import LIKELY, compare_shift_factors
 from viscofric.notes import listed
 from viscofric.report.data import FARTHER, law_line, measured_line
@@ -51,13 +51,13 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     result: dict[str, Any] = {"by_rubber": None, "found": None, "refusal": None, "known": None}
     if known is not None:
         context.progress(0, 2, "Shifting by the rubber's factors")
-        by_rubber = _shifted(curves, settings, shift=known, reference=options.reference)
+        by_rubber = shift_friction(curves, shift=known, reference=options.reference, **settings)
         result["by_rubber"] = _curve(by_rubber) | {"words": _words(by_rubber)}
         notes += by_rubber.notes
     context.progress(1, 2, "Finding shift factors from friction")
-    reference = _reference(curves, known) if options.reference is None else options.reference
+    reference = common_reference(curves, known) if options.reference is None else options.reference
     try:
-        found = _shifted(curves, settings, reference=reference, level_error=options.level_error)
+        found = shift_friction(curves, reference=reference, level_error=options.level_error, **settings)
     except SuperpositionError as error:
         if known is None:
             raise
@@ -77,17 +77,6 @@ def _settings(curves: FrictionCurves, indenter: Any, rubber: Material | None) ->
     if indenter is None or indenter.geometry.load_unit != curves.load_unit:
         return {}
     return {"indenter": indenter, "vertical_shift": None if rubber is None else rubber.vertical_shift}
-
-
-def _reference(curves: FrictionCurves, known: ShiftLaw | None) -> float | None:
-    """Return the rubber's reference, where friction reaches it."""
-    if known is None or not curves.temperature.min() <= known.reference <= curves.temperature.max():
-        return None
-    return float(known.reference)
-
-
-def _shifted(curves: FrictionCurves, settings: dict[str, Any], **chosen: Any) -> FrictionMasterCurve:
-    return shift_friction(curves, **settings, **chosen)
 
 
 def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
