@@ -17,6 +17,7 @@ from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import unit_vector
 from viscofric.motion.history import History
 from viscofric.motion.history_files import read_history
+from viscofric.motion.impact import LOOSEST
 from viscofric.motion.stages import staged_history
 from viscofric.notes import Note
 from viscofric.readers.one_table import history_columns
@@ -31,8 +32,6 @@ from viscofric.study.run_file.study import Study, isothermal
 
 #: Conditions of steady cases that an impact does not have.
 _OTHERS = {"load", "speed"}
-#: Largest error of a restitution that can be asked for.
-_LOOSEST = 1e-2
 
 
 class Histories(Singles):
@@ -180,7 +179,7 @@ class Impacts(Singles):
                     "mass": table.mass,
                     "speed": speed,
                     "gravity": table.gravity or 0.0,
-                    "accuracy": min(study.solver.accuracy, _LOOSEST),
+                    "accuracy": min(study.solver.accuracy, LOOSEST),
                     "indenter_modulus": case.modulus,
                     "indenter_poisson_ratio": case.poisson_ratio,
                     "fields": False,

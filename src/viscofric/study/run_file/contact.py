@@ -35,7 +35,7 @@ class AnyIndenterTable(Table):
     """[indenter]: the indenter that slides or rolls over the rubber."""
 
     modulus: Modulus | None = Field(None, description="Young's modulus of an elastic indenter; rigid without it.")
-    poisson_ratio: Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic indenter.")
+    poisson_ratio: Number = Field(0.3, gt=-1.0, le=0.5, description="Poisson's ratio of an elastic indenter.")
 
     shape: str
     #: Class of its cases, and the keys of [conditions] that they take.

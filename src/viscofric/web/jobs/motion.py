@@ -13,7 +13,7 @@ from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import surface_of
 from viscofric.motion.history import History, dense_times
-from viscofric.motion.impact import solve_impact
+from viscofric.motion.impact import LOOSEST, solve_impact
 from viscofric.motion.impact_solution import ImpactSolution
 from viscofric.motion.solution import TransientSolution
 from viscofric.motion.solve import solve_transient
@@ -90,7 +90,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     accuracy = checked.solver.accuracy
     solved: TransientSolution | ImpactSolution
     if options.impact is not None:
-        hit = solved = _impact(rubber.material, case, options.impact)
+        hit = solved = _impact(rubber.material, case, options.impact, min(accuracy, LOOSEST))
         whole, contacts = hit.run, hit.contacts
     else:
         whole = solved = _transient(rubber.material, case, options, accuracy, context)
@@ -146,7 +146,7 @@ def _transient(
     )
 
 
-def _impact(material: Material, case: Case, impact: Impact) -> ImpactSolution:
+def _impact(material: Material, case: Case, impact: Impact, accuracy: float) -> ImpactSolution:
     """Solve the impact of the indenter of a case."""
     if not isinstance(case, IndenterCase):
         raise JobError("An impact needs an indenter; choose a ball or a cone.", "surface", code="rough-surface")
@@ -158,6 +158,7 @@ def _impact(material: Material, case: Case, impact: Impact) -> ImpactSolution:
         case.indenter,
         **impact.model_dump(),
         temperature=case.temperature,
+        accuracy=accuracy,
         indenter_modulus=case.modulus,
         indenter_poisson_ratio=case.poisson_ratio,
     )
