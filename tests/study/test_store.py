@@ -11,11 +11,11 @@ import pytest
 
 from refusals import refused
 from study import sweeps
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, InputError
 from viscofric.files import write_atomically
 from viscofric.friction.cases.record import Failure
 from viscofric.friction.cases.solving import _sources, key_of
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.study.running.store import CaseStore, Damaged
 
 # Friction is no short decimal: it must come back to the last bit.
@@ -64,6 +64,15 @@ def test_no_changed_digit_becomes_a_result(tmp_path: Path) -> None:
     assert set(store.damaged()) == {"a"}
     path.write_text(whole, encoding="utf-8")
     assert store.damaged() == {}
+
+
+def test_the_reason_of_a_failure_is_kept_in_the_words_of_each_reader(tmp_path: Path) -> None:
+    problem = InputError("it is not periodic; use ", code="not-periodic", remedy=Remedy("window().", page="“Window”."))
+    store = CaseStore(tmp_path)
+    store.put("a", Failure.of(problem, "30 °C"))
+    stored = store.get("a")
+    assert isinstance(stored, Failure)
+    assert (stored.note.code, stored.note.where, stored.note.remedy) == ("not-periodic", "30 °C", problem.remedy)
 
 
 def test_a_case_under_the_key_of_another_is_not_taken(tmp_path: Path) -> None:

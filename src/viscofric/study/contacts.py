@@ -8,6 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Mask
+from viscofric.contact.free.estimates import beyond_accuracy
+from viscofric.errors import StudyError
 from viscofric.friction.cases.case import Case, moved
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.planning.plan import Plan, plan_cases
@@ -142,3 +145,24 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
             subject += part.cases[number].FREQUENCIES
             notes.append(rubber.spectrum_fit.beyond_note(subject, contacts=len(beyond), of=len(own)))
     return notes
+
+
+def nothing_solved(first: Note) -> StudyError:
+    """Return the error of a study of which no case could be solved."""
+    return StudyError(first.at("no case could be solved; the first one failed").coded("nothing-solved"))
+
+
+def missed_accuracy(part: Solved, study: Study) -> tuple[Mask, list[Note]]:
+    """Return which of the solved cases miss the accuracy of the study, and a note on them."""
+    records, accuracy = part.records, study.solver.accuracy
+    friction = np.array([one.friction_coefficient for one in records])
+    error = np.array([one.friction_error for one in records])
+    slopes = [2.0 * one.indentation / (one.front + one.rear) for one in records if hasattr(one, "front")]
+    beyond = beyond_accuracy(friction, error, accuracy, max(slopes, default=0.0))
+    if not beyond.any():
+        return beyond, []
+    known = beyond & (friction != 0.0)
+    worst = float(np.max(error[known] / np.abs(friction[known]), initial=0.0))
+    why = "" if study.indenter else ": the spacing of the surface's points is too large"
+    said = f"In {beyond.sum()} of {beyond.size} cases the estimated numerical error of friction, {worst:.2%} at most, "
+    return beyond, [Note("accuracy-missed", f"{said}exceeds the requested accuracy, {accuracy:.2%}{why}.")]

@@ -7,24 +7,21 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from viscofric.arguments import flag, insist_on, insist_on_function
 from viscofric.datasets import Dataset, DataTree
-from viscofric.errors import StudyError
 from viscofric.files import file_path, says_synthetic
 from viscofric.friction.cases.record import Failure
 from viscofric.friction.cases.surfaces import notes_on
 from viscofric.notes import Note, dumped, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.cases.singles import Singles
-from viscofric.study.contacts import Contacts, Solved, doubts
+from viscofric.study.contacts import Contacts, Solved, doubts, missed_accuracy, nothing_solved
 from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.histories import Histories, Impacts, material_notes
 from viscofric.study.interface import StudyInterface, interface_columns, study_interface
 from viscofric.study.measurement import Measurement, read_measurement
 from viscofric.study.results.file import DESCRIBED, save_results
-from viscofric.study.results.results import StudyResults, beyond_accuracy, input_hashes, provenance
+from viscofric.study.results.results import StudyResults, input_hashes, provenance
 from viscofric.study.results.tree import field_groups, master_prediction, material_groups, prediction, setting
 from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.run_file.study import Study, parse_study, read_study_text
@@ -204,7 +201,7 @@ def tree_of(
     failures = list(dict.fromkeys(one.note for part in (requested, at_points, along) for one in part.failures))
     failures += [note for one in singles for note in one.failures]
     if not requested.records:
-        raise StudyError(f"no case could be solved; the first one failed: {failures[0]}", code="nothing-solved")
+        raise nothing_solved(failures[0])
     groups, about = material_groups(
         [rubber_groups(one.rubber, one.bands.samples) for one in rubbers], [one.rubber.attributes for one in rubbers]
     )
@@ -255,7 +252,7 @@ def tree_of(
                 *said,
                 *doubts((requested, at_points, along), rubbers),
                 *assumption_warnings(checked),
-                *_missed_accuracy(groups["/prediction"], study),
+                *missed_accuracy(requested, study)[1],
                 *(note for one in singles for note in one.warnings),
             ]
         ),
@@ -270,23 +267,6 @@ def _origin(study: Study, rubbers: Sequence[StudyRubber]) -> str:
     """Return the origin of the data; a material or a file that calls itself synthetic is so whatever the study says."""
     made_up = any(one.rubber.synthetic for one in rubbers) or any(map(says_synthetic, study.inputs))
     return "synthetic" if made_up else study.data_origin
-
-
-def _missed_accuracy(cases: Dataset, study: Study) -> list[str]:
-    """Return a note about cases that miss the accuracy."""
-    beyond = beyond_accuracy(cases, study.solver.accuracy)
-    if not beyond.any():
-        return []
-    error, friction = (np.abs(cases[name].values[beyond]) for name in ("friction_error", "friction_coefficient"))
-    worst = float(np.max(error[friction > 0.0] / friction[friction > 0.0], initial=0.0))
-    why = "" if study.indenter else ": the spacing of the surface's points is too large"
-    return [
-        Note(
-            "accuracy-missed",
-            f"In {beyond.sum()} of {beyond.size} cases the estimated numerical error of friction, {worst:.2%} at most, "
-            f"exceeds the requested accuracy, {study.solver.accuracy:.2%}{why}.",
-        )
-    ]
 
 
 def _named(one: StudyRubber, sentences: Iterable[str], rubbers: Sequence[StudyRubber]) -> list[Note]:

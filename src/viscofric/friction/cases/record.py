@@ -39,7 +39,7 @@ class ContactFields(NamedTuple):
 class Failure:
     """A case without a result."""
 
-    reason: str  # one sentence
+    reason: str  # one sentence, or a note that brings its remedy
     label: str  # the case in words
     code: str = ""  # of the error that caused it
 
@@ -49,12 +49,12 @@ class Failure:
     @classmethod
     def of(cls, error: ViscofricError, label: str) -> Self:
         """Return the failure of a case that ends with an error."""
-        return cls(str(error), label, error.code)
+        return cls(error.note, label, error.code)
 
     @property
     def note(self) -> Note:
         """The reason as a note whose place is the case."""
-        return Note(self.code, self.reason, self.label)
+        return note_of(self.reason).coded(self.code).at(self.label)
 
 
 # What is stored of every contact, in the order in which results list it.

@@ -12,9 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
+from viscofric.datasets import plain
 from viscofric.errors import DataFileError
 from viscofric.files import LARGEST_FILE, insist_on_size, parse_json, read_bytes, write_atomically
 from viscofric.friction.cases.record import ContactFields, Failure, Record
+from viscofric.notes import note_of, records
 
 _DAMAGED = (OSError, ValueError, TypeError, KeyError, EOFError, zipfile.BadZipFile)
 # Text before the checksum of everything before it.
@@ -47,7 +49,7 @@ class CaseStore:
         try:
             values = parse_json(stored)
             if "failed" in values:
-                return Failure(values["failed"], values["label"], values.get("code", ""))
+                return Failure(note_of(values["failed"]), values["label"], values.get("code", ""))
             record, fields = Record.from_values(values["case"]), values["fields"]
             if not with_fields:
                 return record
@@ -70,7 +72,8 @@ class CaseStore:
         """Store the result of a contact, whole or not at all; raise `DataFileError` if it cannot be written."""
         values: dict[str, object]
         if isinstance(outcome, Failure):
-            values = {"failed": outcome.reason, "label": outcome.label, "code": outcome.code}
+            (reason,) = plain(records([outcome.reason]), None)
+            values = {"failed": reason, "label": outcome.label, "code": outcome.code}
         else:
             values = {"case": outcome.values(), "fields": None}
             if outcome.fields is not None:

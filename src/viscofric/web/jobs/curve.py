@@ -15,7 +15,7 @@ from viscofric.friction.planning.plan import Outcome
 from viscofric.notes import Note, listed
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.study.assumptions import assumption_checks
-from viscofric.study.contacts import Contacts, Solved, doubts
+from viscofric.study.contacts import Contacts, Solved, doubts, missed_accuracy, nothing_solved
 from viscofric.study.heating import NO_LAW, Heatings
 from viscofric.study.interface import interface_columns, study_interface
 from viscofric.study.run_file.study import Study
@@ -25,7 +25,7 @@ from viscofric.study.running.store import CaseStore
 from viscofric.study.study_rubber import StudyRubber, band_columns
 from viscofric.web.figures.spec import Spec, axis, quantity
 from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
-from viscofric.web.jobs.context import Context, JobError, JobOptions
+from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.rubbers import study_rubber
 from viscofric.web.study_text import study_of
 
@@ -51,7 +51,7 @@ _DOUBTS = {
     "extrapolated": "it depends on frequencies at which the material was not measured",
     "shift": "the shift factor is extrapolated beyond the temperatures of the sweeps",
     "strain": "the contact is wide or steep: the small-strain assumption is doubtful",
-    "unresolved": "the grid does not resolve it: its numerical error is more than twice the requested accuracy",
+    "inaccurate": "its estimated numerical error exceeds the requested accuracy",
 }
 #: Drawn beside a quantity: column, dashes and words.
 _BESIDE = {
@@ -81,9 +81,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         requested, at_points, along = contacts.results()
         more, said, law = _of_tables(contacts, requested, lambda plan: run_plan(plan, store, executor, context.show))
     if not requested.records:
-        first = requested.failures[0]
-        reason = f"No case could be solved; the first one failed: {first.note.words('page')}"
-        raise JobError(reason, code=first.code)
+        raise nothing_solved(requested.failures[0].note)
     found = {**layout, **columns(contacts, requested), **more}
     return {
         **found,
@@ -96,7 +94,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
             [
                 *_of_rubbers(contacts, known=True),
                 *doubts((requested,), contacts.rubbers),
-                *_unresolved(found["doubts"]),
+                *missed_accuracy(requested, checked)[1],
             ],
             "page",
         ),
@@ -113,15 +111,6 @@ def _missing(failures: list[Note], count: int) -> list[str]:
 
     said = f"{len(failures)} of {count} conditions have no solution."
     return [said, *grouped_failures(failures, _MOST_REASONS, "page")]
-
-
-def _unresolved(doubts_of: list[list[str]]) -> list[Note]:
-    count = sum("unresolved" in words for words in doubts_of)
-    words = (
-        f"At {count} of {len(doubts_of)} points the grid does not resolve friction to the requested accuracy; the "
-        "error bars show its accuracy."
-    )
-    return [Note("unresolved", words)] if count else []
 
 
 def _contacts(checked: Study, study: dict[str, Any], context: Context) -> Contacts:
@@ -279,8 +268,6 @@ def _notes(contacts: Contacts, study: Study) -> list[str]:
     return list(dict.fromkeys([*notes, *study.notes]))
 
 
-#: Friction counts as unresolved where its error is more than so many times the requested accuracy.
-_UNRESOLVED = 2.0
 #: Numbers of a contact besides its friction, where it has them.
 _COLUMNS = (
     "indentation",
@@ -298,6 +285,8 @@ def columns(contacts: Contacts, requested: Solved) -> dict[str, Any]:
     """Return what is known of all cases, each number a column."""
     bands = band_columns(contacts.rubbers, requested.of_records, requested.records)
     rows = [number for number, outcome in enumerate(requested.outcomes) if not isinstance(outcome, Failure)]
+    missed = np.zeros(len(requested.cases), dtype=bool)
+    missed[rows] = missed_accuracy(requested, contacts.study)[0]
 
     def column(values: Iterable[float]) -> Any:
         whole = np.full(len(requested.cases), np.nan)
@@ -312,24 +301,24 @@ def columns(contacts: Contacts, requested: Solved) -> dict[str, Any]:
         "lower": None if bands is None else column(bands.viscoelastic_lower),
         "upper": None if bands is None else column(bands.viscoelastic_upper),
         "doubts": [
-            _doubts(contacts, case, outcome) for case, outcome in zip(requested.cases, requested.outcomes, strict=True)
+            _doubts(contacts, case, outcome, inaccurate=bool(one))
+            for case, outcome, one in zip(requested.cases, requested.outcomes, missed, strict=True)
         ],
     }
     has = [name for name in _COLUMNS if hasattr(records[0], name)]
     return found | {name: column(getattr(one, name) for one in records) for name in has}
 
 
-def _doubts(contacts: Contacts, case: Any, outcome: Outcome) -> list[str]:
+def _doubts(contacts: Contacts, case: Any, outcome: Outcome, *, inaccurate: bool) -> list[str]:
     """Name what is doubtful about a point."""
     if isinstance(outcome, Failure):
         return ["failed"]
     rubber: StudyRubber = contacts.rubbers[case.material]
-    requested = contacts.study.solver.accuracy * abs(outcome.friction_coefficient)
     found = {
         "extrapolated": rubber.is_within(case, outcome) is False,
         "shift": bool(np.any(rubber.shift.extrapolates(np.array([case.temperature])))),
         "strain": bool(outcome.warnings),
-        "unresolved": outcome.friction_error > _UNRESOLVED * requested,
+        "inaccurate": inaccurate,
     }
     return [name for name, doubtful in found.items() if doubtful]
 
