@@ -239,7 +239,7 @@ def tree_of(
     if study.surface is not None:
         first: Any = contacts.sweep.cases[0]
         of_friction += notes_on(first.surface)
-    notes = [note for one in rubbers for note in _named(one, [*one.rubber.notes, *one.bands.notes], rubbers)]
+    notes = [note for one in rubbers for note in _named(one, one.notes, rubbers)]
     said = [words for one in rubbers for words in _named(one, one.doubts(study.conditions.temperature), rubbers)]
     tree.attrs = {
         "title": study.title,

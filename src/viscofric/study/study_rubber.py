@@ -62,12 +62,18 @@ class StudyRubber:
         rate = float(self.shift(record.temperature)) * record.speed
         return bool(self.spectrum_fit.covers(rate / np.array(case.lengths(record))).all())
 
+    @property
+    def notes(self) -> list[Note]:
+        """What is to be said of the material, its bands, and what is not known of its measurement."""
+        said = (*self.rubber.notes, *self.bands.notes, *unknown_frequencies(self.material))
+        return list(map(note_of, said))
+
     def doubts(self, temperatures: Sequence[float]) -> list[Note]:
         """Return notes about extrapolation, and about curves that do not lie on the master curve."""
         fit = self.spectrum_fit
         # The warnings of a predefined material are reported nowhere else.
         said = list(map(note_of, fit.notes)) if self.rubber.fit is None and fit is not None else []
-        said += [*unknown_frequencies(self.material), *self.material.notes_at(temperatures)]
+        said += self.material.notes_at(temperatures)
         if self.material.vertical_shift is not None:
             said.append(
                 Note(

@@ -92,7 +92,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         **listed(
             "warnings",
             [
-                *_of_rubbers(contacts, known=True),
+                *(note for one in contacts.rubbers for note in one.doubts(checked.conditions.temperature)),
                 *doubts((requested,), contacts.rubbers),
                 *missed_accuracy(requested, checked)[1],
             ],
@@ -251,20 +251,8 @@ class _Sender:
             self._context.part({"cases": list(cases), "friction": list(friction), "known": list(known_ones)})
 
 
-def _of_rubbers(contacts: Contacts, *, known: bool) -> list[str]:
-    """Tell what is doubtful of the rubbers whose measured frequencies are known, or of the others."""
-    temperatures = contacts.study.conditions.temperature
-    return [
-        words
-        for one in contacts.rubbers
-        if (one.spectrum_fit is not None) == known
-        for words in one.doubts(temperatures)
-    ]
-
-
 def _notes(contacts: Contacts, study: Study) -> list[str]:
-    notes = [note for one in contacts.rubbers for note in (*one.rubber.notes, *one.bands.notes)]
-    notes += _of_rubbers(contacts, known=False)
+    notes = [note for one in contacts.rubbers for note in one.notes]
     return list(dict.fromkeys([*notes, *study.notes]))
 
 

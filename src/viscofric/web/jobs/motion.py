@@ -19,7 +19,7 @@ from viscofric.motion.solution import TransientSolution
 from viscofric.motion.solve import solve_transient
 from viscofric.notes import listed
 from viscofric.report.texts.numbers import prefixed
-from viscofric.rheology.material import Material
+from viscofric.rheology.material import Material, unknown_frequencies
 from viscofric.study.run_file.tables import kelvin
 from viscofric.web.figures.motion import motion_view, pressures
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
@@ -97,10 +97,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         contacts = ()
         if not len(whole.time):  # nothing was reached
             raise KeyboardInterrupt
-    # as of the friction curve: what is unknown is a note, what is doubtful a warning
-    doubts, notes = rubber.doubts([case.temperature]), list(rubber.rubber.notes)
-    warnings = list(solved.warnings)
-    (notes if rubber.spectrum_fit is None else warnings).extend(doubts)
+    notes = [*rubber.rubber.notes, *unknown_frequencies(rubber.material)]
+    warnings = [*solved.warnings, *rubber.doubts([case.temperature])]
     data = solved.to_dataset()
     shown, over_time = (
         motion_view(data, contacts, f"{whole.steps} steps, {whole.rejected_steps} rejected"),
