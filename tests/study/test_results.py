@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 from types import SimpleNamespace
 
+import h5py
 import numpy as np
 import pytest
 import xarray
@@ -21,6 +22,7 @@ from viscofric.report.texts.study import grouped_failures
 from viscofric.study.cases.sweep import place, place_in
 from viscofric.study.contacts import Solved
 from viscofric.study.results.file import save_results
+from viscofric.study.results.netcdf import read_netcdf, write_netcdf
 from viscofric.study.results.results import input_hashes
 
 
@@ -37,6 +39,42 @@ def test_what_is_stored_is_what_is_read(tmp_path: Path) -> None:
         assert list(found.materials) == ["NBR", "EPDM / carbon black"]
         assert list(found.fields) == [36]
     assert list(found.materials["NBR"].children) == ["spectrum"]
+
+
+@pytest.fixture
+def of_all_kinds() -> xarray.DataTree:
+    """Return a tree with every kind of variable, dimension and attribute that netCDF knows and results have."""
+    attributes = {"one": "ω", "lines": ["a", "b"], "none": [], "number": 0.5, "range": np.array([1.0, 2.0])}
+    root = xarray.Dataset({"curve": (("point", "speed"), np.arange(6.0).reshape(2, 3))}, {"speed": [1.0, 2.0, 4.0]})
+    child = xarray.Dataset(
+        {
+            "inherited": ("speed", [1, 2, 3], {"units": "m"}),
+            "missing": ("mode", [np.nan, 1.0]),
+            "flag": ("mode", [True, False]),
+            "single": ((), 2.5),
+        },
+        {"name": ("mode", ["α", ""]), "alone": ((), 3)},
+        attributes,
+    )
+    empty = xarray.Dataset({"nothing": (("none", "mode"), np.empty((0, 2))), "no_text": ("none", np.array([], "<U1"))})
+    return xarray.DataTree.from_dict({"/": root, "/child": child, "/child/empty": empty})
+
+
+@pytest.mark.slow
+def test_files_are_those_of_xarray_and_read_as_xarray_reads_them(of_all_kinds: xarray.DataTree, tmp_path: Path) -> None:
+    ours, theirs = tmp_path / "ours.nc", tmp_path / "theirs.nc"
+    write_netcdf(of_all_kinds, ours)
+    of_all_kinds.to_netcdf(theirs, engine="h5netcdf")
+    with xarray.open_datatree(theirs, engine="h5netcdf") as expected:
+        for path in (ours, theirs):
+            with h5py.File(path) as file:
+                found = read_netcdf(file)
+            xarray.testing.assert_identical(found, expected.load())
+        with xarray.open_datatree(ours, engine="h5netcdf") as found:
+            xarray.testing.assert_identical(found.load(), expected)
+            assert [list(node.variables) for node in found.subtree] == [
+                list(node.variables) for node in of_all_kinds.subtree
+            ]
 
 
 @pytest.mark.slow

@@ -107,15 +107,12 @@ def test_a_line_contact_has_a_load_per_length_and_no_half_width() -> None:
 
 
 @pytest.mark.parametrize("together", [True, False])
-@pytest.mark.slow
-def test_all_numbers_have_units_and_survive_a_file(tmp_path: object, together: bool) -> None:
+def test_all_numbers_have_units_and_names(together: bool) -> None:
     sweep = made_sweep(materials=("NBR", "EPDM"), together=together)
     found = prediction(sweep, made_outcomes(sweep, failed=[0]))
     for variable in found.variables.values():
         assert variable.attrs["units"]
         assert variable.attrs["long_name"]
-    found.to_netcdf(f"{tmp_path}/prediction.nc", engine="h5netcdf")
-    xarray.testing.assert_identical(xarray.load_dataset(f"{tmp_path}/prediction.nc", engine="h5netcdf"), found)
 
 
 def test_fields_know_their_case() -> None:

@@ -154,7 +154,7 @@ def write_dataset(path: Path, data: Dataset) -> None:
     from viscofric.files import write_atomically
 
     if path.suffix.lower() == ".nc":
-        from viscofric.study.results.export import write_netcdf
+        from viscofric.study.results.netcdf import write_netcdf
 
         write_netcdf(data, path)
         return

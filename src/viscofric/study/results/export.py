@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import re
-import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
@@ -13,11 +12,12 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from viscofric.datasets import Dataset, DataTree
-from viscofric.errors import DataFileError, InputError, check_choice, not_written
+from viscofric.errors import InputError, check_choice
 from viscofric.files import file_path, write_atomically
 from viscofric.notes import from_json, notes_in
 from viscofric.study.results.columns import about, columns_of, table_text, tables
 from viscofric.study.results.file import RESULTS_FILE, cases_of
+from viscofric.study.results.netcdf import write_netcdf
 
 Form = Literal["csv", "excel", "netcdf"]
 FORMS: tuple[Form, ...] = get_args(Form)
@@ -39,20 +39,6 @@ def export_results(tree: DataTree, folder: Path, form: Form, path: str | Path | 
     else:
         write_netcdf(cases, target)
     return target
-
-
-def write_netcdf(dataset: Dataset, target: Path) -> None:
-    """Write a data set as netCDF, whole or not at all: beside the target, then moved to it."""
-    if target.is_dir():
-        raise DataFileError(target, "is a folder; give the name of a file.", code="is-folder")
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=target.parent, prefix=f".{target.name}.") as temporary:
-            path = Path(temporary) / target.name
-            dataset.to_netcdf(path, engine="h5netcdf")
-            path.replace(target)
-    except (OSError, RuntimeError) as error:
-        raise not_written(target, error) from error
 
 
 #: Rows that a sheet of this format has at most.

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import re
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
 from viscofric.datasets import Dataset, DataTree
-from viscofric.errors import DataFileError, InputError, not_written
-from viscofric.files import file_path, insist_on_true_size, sync_folder
+from viscofric.errors import DataFileError, InputError
+from viscofric.files import file_path, insist_on_true_size
+from viscofric.study.results.netcdf import read_netcdf, write_netcdf
 
 RESULTS_FILE = "results.nc"
 _PREDICTION = "prediction"
@@ -62,8 +61,7 @@ def rubbers_of(tree: DataTree) -> dict[str, DataTree]:
 
 def open_tree(path: str | Path) -> tuple[DataTree, Path]:
     """Return the tree of results and their folder; see `open_results`."""
-    import h5netcdf  # noqa: F401 - its own errors are not those of the file
-    import xarray
+    import h5py
 
     file = file_path(path)
     if file.is_dir():
@@ -80,12 +78,12 @@ def open_tree(path: str | Path) -> tuple[DataTree, Path]:
         raise DataFileError(file, f"no such results file; {_where_they_are(file.parent)}", code="no-results")
     try:
         insist_on_true_size(file)
-        with xarray.open_datatree(file, engine="h5netcdf", phony_dims="access") as stored:
-            tree = stored.load()
-            found = digest(tree)
+        with h5py.File(file) as opened:
+            tree = read_netcdf(opened) if "viscofric_version" in opened.attrs else None
+        found = None if tree is None else digest(tree)
     except Exception as error:  # h5py raises many kinds, and the file is more informative
         raise what_is_wrong(file, error) from error
-    if "viscofric_version" not in tree.attrs:
+    if tree is None:
         raise DataFileError(file, "is a netCDF file, but not one of results of viscofric.", code="not-results")
     if not tree.children:
         raise DataFileError(
@@ -110,17 +108,7 @@ def save_results(tree: DataTree, folder: Path) -> Path:
     """Write a tree to ``results.nc`` of a folder, as a whole or not at all."""
     target = folder / RESULTS_FILE
     tree.attrs[DIGEST] = digest(tree)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=folder, prefix=".results.") as temporary:
-            path = Path(temporary) / RESULTS_FILE
-            tree.to_netcdf(path, engine="h5netcdf")
-            with path.open("rb+") as file:
-                os.fsync(file.fileno())
-            path.replace(target)
-            sync_folder(folder)
-    except (OSError, RuntimeError) as error:  # RuntimeError: HDF5, where it closes a file on a full disk
-        raise not_written(target, error) from error
+    write_netcdf(tree, target)
     return target
 
 
