@@ -306,13 +306,16 @@ class _EvenRange(_Range):
     spacing: Literal["linear"] = Field("linear", description="Equal steps between the values.")
 
 
-_FROM, _TO = Field(alias="from", description="First value."), Field(alias="to", description="Last value.")
+def _ends() -> tuple[Any, Any]:
+    """Return the fields of two ends: new ones for each class, since pydantic before 2.12 writes its type into them."""
+    return Field(alias="from", description="First value."), Field(alias="to", description="Last value.")
 
 
 def _range(title: str, end: Any, base: type[_Range] = _Range) -> type[_Range]:
     """Return a range of values of a type; its title ends in "Range"."""
     words = f"A range of {title.removesuffix('Range').lower()}s."
-    return create_model(title, __base__=base, __doc__=words, first=(end, _FROM), last=(end, _TO))
+    first, last = _ends()
+    return create_model(title, __base__=base, __doc__=words, first=(end, first), last=(end, last))
 
 
 SpeedRange = _range("SpeedRange", Speed)
@@ -321,8 +324,8 @@ SpeedRange = _range("SpeedRange", Speed)
 class SeedRange(_Span):
     """All whole numbers between two ends."""
 
-    first: Seed = _FROM
-    last: Seed = _TO
+    first: Seed = _ends()[0]
+    last: Seed = _ends()[1]
 
     def problems(self) -> Iterator[Problem]:
         """Yield the contradictions within the table."""
