@@ -1,16 +1,35 @@
-"""Refusals of the command line by what they are about."""
+"""Calls of the command line: what it prints, and its refusals by what they are about."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import json
+from typing import Any, NamedTuple
 
-from click.testing import CliRunner
+import pytest
+from click.testing import CliRunner, Result
 
 from viscofric.cli import main
 from viscofric.errors import ViscofricError
 
-if TYPE_CHECKING:
-    from click.testing import Result
+
+def call(*words: object, given: str | bytes | None = None) -> Result:
+    """Call the program, however it ends; `given` is its standard input."""
+    return CliRunner().invoke(main, [*map(str, words)], input=given)
+
+
+def succeed(*words: object, given: str | bytes | None = None) -> Result:
+    """Call the program, which must succeed."""
+    done = call(*words, given=given)
+    assert done.exit_code == 0, done.output
+    return done
+
+
+def record(*words: object) -> dict[str, Any]:
+    """Return what the program prints as JSON, in which there is no NaN."""
+    found: dict[str, Any] = json.loads(
+        succeed(*words, "--json").stdout, parse_constant=lambda name: pytest.fail(f"{name} is no JSON")
+    )
+    return found
 
 
 class Refusal(NamedTuple):
@@ -34,7 +53,7 @@ class Refusal(NamedTuple):
 
 def refusal(*words: object, given: str | bytes | None = None) -> Refusal:
     """Call the program, which must refuse in one sentence, without a traceback."""
-    return refusal_of(CliRunner().invoke(main, [*map(str, words)], input=given))
+    return refusal_of(call(*words, given=given))
 
 
 def refusal_of(result: Result) -> Refusal:

@@ -19,8 +19,8 @@ import pytest
 from click.testing import CliRunner
 
 import viscofric as vf
+from cli.calls import refusal_of
 from cli.friction_files import curves, runs
-from cli.refusals import refusal_of
 from rheology.planted import write_amplitudes, write_moduli
 from viscofric.cli import main
 

@@ -11,19 +11,21 @@ import sys
 import tomllib
 from importlib.resources import files
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
-from click.testing import CliRunner, Result
 
-from cli.refusals import refusal, refusal_of
+from cli.calls import call, refusal, refusal_of, succeed
 from marks import apart
 from viscofric import open_results, report
-from viscofric.cli import main
 from viscofric.cli.commands import NOT_ACCURATE
 from viscofric.cli.run import print_outcome
 from viscofric.notes import Note
 from viscofric.study import execution
 from viscofric.study.results.file import save_results
+
+if TYPE_CHECKING:
+    from click.testing import Result
 
 EXAMPLE = Path(str(files("viscofric"))) / "example"
 STUDY = """
@@ -43,10 +45,6 @@ master_curve_points = 2
 [uncertainty]
 draws = 0
 """
-
-
-def call(*arguments: str | Path) -> Result:
-    return CliRunner().invoke(main, [str(argument) for argument in arguments])
 
 
 def write(folder: Path, *, dma: str | None = None, study: str = STUDY) -> Path:
@@ -106,18 +104,9 @@ def test_bad_data_is_refused_with_its_file(tmp_path: Path, dma: str, code: str) 
     assert str(tmp_path / "dma.csv") in found.sentence
 
 
-@pytest.mark.parametrize(
-    ("good", "bad", "code", "field"),
-    [
-        ('speed = "100 mm/s"', 'sped = "100 mm/s"', "unknown-key", "conditions.sped"),
-        ('"90 degC"', '"400 degC"', "outside-measured", "conditions.temperature"),
-    ],
-)
-@pytest.mark.slow
-def test_bad_run_files_are_refused_with_their_field(tmp_path: Path, good: str, bad: str, code: str, field: str) -> None:
-    assert good in STUDY
-    found = refusal("run", write(tmp_path, study=STUDY.replace(good, bad)))
-    assert found[:3] == (1, code, field)
+def test_bad_run_files_are_refused_with_their_field(tmp_path: Path) -> None:
+    found = refusal("run", write(tmp_path, study=STUDY.replace("speed =", "sped =")))
+    assert found[:3] == (1, "unknown-key", "conditions.sped")
 
 
 @pytest.mark.slow
@@ -184,7 +173,7 @@ def test_missed_accuracy_is_a_warning_and_a_number_and_no_failure(tmp_path: Path
 
 @pytest.mark.slow
 def test_check_of_results_names_what_is_damaged(finished: Path) -> None:
-    assert call("check", "--results", finished).exit_code == 0
+    succeed("check", "--results", finished)
     case = min((finished / "cases").glob("*.json"))
     case.write_text(case.read_text().replace("1", "2", 1))
     result = call("check", "--results", finished)
@@ -340,7 +329,7 @@ def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(executors, "attempt", attempt)
     unfinished = refusal("run", path)
     assert (unfinished.status, unfinished.code) == (1, "not-empty")
-    assert call("run", path, "--resume").exit_code == 0
+    succeed("run", path, "--resume")
     assert refusal("run", path)[:2] == (1, "not-empty")
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
 
 import viscofric as vf
-from viscofric.cli import main
+from cli import calls
 from viscofric.cli.speed_options import chosen_speeds
 from viscofric.rheology.spectra.quality import SpectrumFit
 
@@ -22,8 +22,7 @@ SINGLE = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
 BALL = ("--ball", "9.525 mm", "--load", "25 N", "--accuracy", "0.02")
 
 
-def call(*words: object) -> Result:
-    return CliRunner().invoke(main, ["curve", *map(str, words)])
+succeed = partial(calls.succeed, "curve")
 
 
 @pytest.mark.slow
@@ -37,8 +36,7 @@ def test_table_file_and_json_hold_what_python_predicts(tmp_path: Path) -> None:
         load="25 N",
         accuracy=0.02,
     )
-    done = call(*words, "--out", tmp_path / "curves.csv", "--picture", tmp_path / "curves.svg")
-    assert done.exit_code == 0, done.output
+    done = succeed(*words, "--out", tmp_path / "curves.csv", "--picture", tmp_path / "curves.svg")
     np.testing.assert_array_equal(vf.read_friction_curves(tmp_path / "curves.csv").viscoelastic, expected.viscoelastic)
     assert (tmp_path / "curves.svg").stat().st_size > 0
     table = done.stdout.split("\n\n")[1].splitlines()
@@ -49,8 +47,7 @@ def test_table_file_and_json_hold_what_python_predicts(tmp_path: Path) -> None:
 
 def test_json_shows_inputs_and_points() -> None:
     words = (*SINGLE, "--cylinder", "10 mm", "--load", "100 N/m", "--speed", "1 m/s", "--accuracy", "0.02")
-    done = call(*words, "--temperature", "40 degC", "--json")
-    assert done.exit_code == 0, done.output
+    done = succeed(*words, "--temperature", "40 degC", "--json")
     found = json.loads(done.stdout)
     assert found["format"] == "viscofric friction curves 1"
     assert found["units"]["load"] == "N/m"
@@ -70,8 +67,7 @@ def test_points_at_frequencies_that_were_not_measured_are_marked(tmp_path: Path)
     fit = SpectrumFit(None, None, True, True, (100.0, 2e3))
     vf.write_card(vf.Material(replace(solid, fit=fit)), tmp_path / "rubber.json", format="json")
     words = ("--material", tmp_path / "rubber.json", "--ball", "10 mm", "--load", "1 N", "--accuracy", "0.1")
-    done = call(*words, "--speed", "1 m/s, 10 m/s", "--out", tmp_path / "curves.csv")  # contacts of about 1 mm
-    assert done.exit_code == 0, done.output
+    done = succeed(*words, "--speed", "1 m/s, 10 m/s", "--out", tmp_path / "curves.csv")  # contacts of about 1 mm
     measured, beyond = done.stdout.split("\n\n")[1].splitlines()[1:]
     assert (measured.endswith("*"), beyond.endswith("*")) == (False, True)
     curves = vf.read_friction_curves(tmp_path / "curves.csv")
@@ -81,8 +77,7 @@ def test_points_at_frequencies_that_were_not_measured_are_marked(tmp_path: Path)
 @pytest.mark.slow
 def test_a_rubber_of_sweeps_has_bands_about_its_friction() -> None:
     words = ("--dma", DMA, "--reference", "30 degC", *BALL, "--speed", "100 mm/s", "--temperature", "60 degC")
-    done = call(*words, "--samples", 20, "--synthetic")
-    assert done.exit_code == 0, done.output
+    done = succeed(*words, "--samples", 20, "--synthetic")
     *_, friction, lower, _, upper = done.stdout.split("\n\n")[1].splitlines()[1].split()
     assert float(lower) < float(friction) < float(upper)
     known = vf.solve_steady(
@@ -110,20 +105,18 @@ def test_columns_of_sweeps_are_named(tmp_path: Path) -> None:
     words = [word for one in names.items() for word in ("--column", "=".join(one))] + ["--modulus-unit", "MPa"]
     words += ["--dma", str(strange), "--reference", "40 degC", "--deformation", "tension"]
     contact = (*BALL, "--speed", "0.1 m/s", "--temperature", "40 degC")
-    done = CliRunner().invoke(main, ["solve", *words, *contact, "--json"])
-    assert done.exit_code == 0, done.output
+    done = calls.succeed("solve", *words, *contact, "--json")
     known = vf.solve_steady(
         rubber, vf.Ball("9.525 mm"), speed="0.1 m/s", load="25 N", temperature="40 degC", accuracy=0.02
     ).friction_coefficient
     found = json.loads(done.stdout)["results"]["friction_coefficient"]
     assert found == pytest.approx(known, rel=0.02)  # moduli of three decades
-    refused = CliRunner().invoke(main, ["solve", *RUBBER, "--column", "frequency=v1 (Hz)", *contact])
+    refused = calls.call("solve", *RUBBER, "--column", "frequency=v1 (Hz)", *contact)
     assert refused.exit_code == 2
 
 
 def test_curves_go_into_a_pipe_without_the_table() -> None:
-    done = call(*SINGLE, "--ball", "10 mm", "--load", "1 N", "--speed", "1 m/s", "--accuracy", "0.1", "--out", "-")
-    assert done.exit_code == 0, done.output
+    done = succeed(*SINGLE, "--ball", "10 mm", "--load", "1 N", "--speed", "1 m/s", "--accuracy", "0.1", "--out", "-")
     assert done.stdout.startswith("# viscofric friction curves")
     assert [line[:1] for line in done.stdout.splitlines()] == ["#", "#", "#", "s", "1"]
     assert '"frequencies-unknown"' in done.stdout.splitlines()[2]

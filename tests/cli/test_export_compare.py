@@ -6,15 +6,9 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from cli.refusals import refusal
+from cli.calls import call, refusal, succeed
 from study.sweeps import made_results, made_sweep
-from viscofric.cli import main
-
-
-def call(*words: object) -> Result:
-    return CliRunner().invoke(main, [*map(str, words)])
 
 
 @pytest.fixture(scope="module")
@@ -29,8 +23,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 @pytest.mark.slow
 def test_several_formats_are_written_beside_the_results(pair: tuple[Path, Path]) -> None:
     written = [pair[1] / name for name in ("results.csv", "results.xlsx", "prediction.nc")]
-    done = call("export", pair[1], "--to", "csv", "--to", "excel", "--to", "csv", "--to", "netcdf")
-    assert done.exit_code == 0, done.output
+    done = succeed("export", pair[1], "--to", "csv", "--to", "excel", "--to", "csv", "--to", "netcdf")
     assert [line.split()[1] for line in done.stdout.splitlines()] == list(map(str, written))
     assert all(path.stat().st_size > 0 for path in written)
 

@@ -6,10 +6,9 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
 import viscofric as vf
-from viscofric.cli import main
+from cli.calls import call, succeed
 from viscofric.thermal import FILLED_RUBBER, STEEL
 
 RUBBER = ["--material", "synthetic fluoroelastomer"]
@@ -18,8 +17,7 @@ HEAT = ["--heating", "steel", "--heating-coulomb", "0.4"]
 
 
 def run(*arguments: str) -> str:
-    done = CliRunner().invoke(main, list(arguments))
-    assert done.exit_code == 0, done.output
+    done = succeed(*arguments)
     return done.stdout
 
 
@@ -76,7 +74,7 @@ def test_a_contact_over_time_is_heated() -> None:
     ],
 )
 def test_options_that_do_not_fit_are_refused(options: list[str], option: str) -> None:
-    done = CliRunner().invoke(main, ["solve", *LINE, "--speed", "0.1 m/s", *options])
+    done = call("solve", *LINE, "--speed", "0.1 m/s", *options)
     assert done.exit_code != 0
     assert option in done.output
     assert "Traceback" not in done.output

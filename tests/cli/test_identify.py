@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
 
 import viscofric as vf
-from viscofric.cli import main
+from cli import calls
 from viscofric.notes import note_of
 
 RUBBER = vf.Material.standard_linear_solid("2 MPa", "6 MPa", "10 ms")
@@ -20,8 +20,7 @@ ANCHOR = ("--anchor-modulus", "2.287 MPa", "--anchor-frequency", "60 rad/s", "--
 SPEEDS = np.geomspace(0.02, 2.0, 6)
 
 
-def call(*words: object) -> Result:
-    return CliRunner().invoke(main, ["identify", *map(str, words)], standalone_mode=True)
+succeed = partial(calls.succeed, "identify")
 
 
 def curves(path: Path) -> Path:
@@ -39,11 +38,10 @@ def curves(path: Path) -> Path:
 def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
     """Identify once; return the folder with the files, and the JSON."""
     folder = tmp_path_factory.mktemp("identified")
-    done = call(
+    done = succeed(
         curves(folder / "curves.csv"), "--ball", "10 mm", *ANCHOR, "--modes", 8, "--samples", 20, "--accuracy", 0.1,
         "--out", folder / "rubber.json", "--picture", folder / "modulus.svg", "--json",
     )  # fmt: skip
-    assert done.exit_code == 0, done.output
     return folder, json.loads(done.stdout, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
 
 
@@ -83,8 +81,7 @@ def test_the_rubber_is_read_back_by_the_other_commands(found: tuple[Path, dict[s
     assert fit is not None
     assert fit.from_friction
     assert fit.frequency_range == (reported["identified"]["low"], reported["identified"]["high"])
-    shown = CliRunner().invoke(main, ["material", "show", str(folder / "rubber.json"), "--frequency", "10 rad/s"])
-    assert shown.exit_code == 0, shown.output
+    calls.succeed("material", "show", folder / "rubber.json", "--frequency", "10 rad/s")
     assert (folder / "modulus.svg").stat().st_size > 0
 
 

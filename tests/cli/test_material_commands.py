@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import click
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
 
 import viscofric as vf
-from cli.refusals import refusal
+from cli import calls
+from cli.calls import refusal
 from rheology.planted import write_amplitudes, write_moduli
 from viscofric.cli import main
 from viscofric.cli.output import typed_command
@@ -19,24 +20,22 @@ from viscofric.cli.output import typed_command
 EXAMPLE = Path(vf.__file__).parent / "example" / "dma.csv"
 
 
-def call(*words: object) -> Result:
-    return CliRunner().invoke(main, ["material", *map(str, words)], standalone_mode=True)
+call = partial(calls.call, "material")
+succeed = partial(calls.succeed, "material")
 
 
 @pytest.fixture(scope="module")
 def fitted(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """Make the rubber of the example once; return its folder, and what was printed."""
     folder = tmp_path_factory.mktemp("fitted") / "out"
-    done = call(
+    done = succeed(
         "fit", EXAMPLE, "--reference", "30 degC", "--shift", "best", "--samples", 20, "--card", "abaqus", "-o", folder
     )
-    assert done.exit_code == 0, done.output
     return folder, done.output
 
 
 def test_read_says_what_the_file_holds(tmp_path: Path) -> None:
-    done = call("read", EXAMPLE, "--out", tmp_path / "again.csv")
-    assert done.exit_code == 0, done.output
+    done = succeed("read", EXAMPLE, "--out", tmp_path / "again.csv")
     before, after = vf.read_dma(EXAMPLE), vf.read_dma(tmp_path / "again.csv")
     assert len(after.isotherms) == len(before.isotherms) == 24
     assert f"{len(before.isotherms)} isotherms" in done.stdout
@@ -58,8 +57,7 @@ def test_columns_that_are_not_understood_are_named(tmp_path: Path) -> None:
     assert refused.exit_code == 1
     assert "--column" in refused.output
     words = [word for what, said in COLUMNS.items() for word in ("--column", f"{what}={said}")]
-    done = call("read", path, *words, "--column", "loss_modulus=#4 (MPa)", "--deformation", "bending")
-    assert done.exit_code == 0, done.output
+    done = succeed("read", path, *words, "--column", "loss_modulus=#4 (MPa)", "--deformation", "bending")
     assert "moduli in bending; 2 isotherms" in done.output
     for wrong in ("frequency", "=f (Hz)", "frequency="):
         assert call("read", path, "--column", wrong).exit_code == 2
@@ -111,8 +109,7 @@ def test_the_report_shows_the_command_that_made_it(fitted: tuple[Path, str]) -> 
 @pytest.mark.slow
 def test_show_prints_the_modulus_asked_for(fitted: tuple[Path, str]) -> None:
     folder, _ = fitted
-    done = call("show", folder / "rubber.json", "--temperature", "60 degC", "--frequency", "1 Hz")
-    assert done.exit_code == 0, done.output
+    done = succeed("show", folder / "rubber.json", "--temperature", "60 degC", "--frequency", "1 Hz")
     rubber = vf.read_card(folder / "rubber.json")
     modulus = complex(rubber.complex_modulus(2 * np.pi, "60 degC")) / 1e6
     assert f"{modulus.real:.4g}" in done.output
@@ -122,15 +119,14 @@ def test_show_prints_the_modulus_asked_for(fitted: tuple[Path, str]) -> None:
 @pytest.mark.slow
 def test_convert_there_and_back_loses_nothing(fitted: tuple[Path, str], tmp_path: Path) -> None:
     folder, _ = fitted
-    assert call("convert", folder / "rubber.json", tmp_path / "a.txt", "--format", "comsol").exit_code == 0
-    assert call("convert", tmp_path / "a.txt", tmp_path / "b.json", "--format", "json").exit_code == 0
+    succeed("convert", folder / "rubber.json", tmp_path / "a.txt", "--format", "comsol")
+    succeed("convert", tmp_path / "a.txt", tmp_path / "b.json", "--format", "json")
     before, after = (vf.read_card(path) for path in (folder / "rubber.json", tmp_path / "b.json"))
     np.testing.assert_allclose(after.complex_modulus(1.0), before.complex_modulus(1.0), rtol=1e-12)
 
 
 def test_catalogue_is_listed_with_its_sources() -> None:
-    done = call("list")
-    assert done.exit_code == 0, done.output
+    done = succeed("list")
     for entry in vf.catalogue():
         assert entry.name in done.output
         assert entry.citation in done.output
@@ -139,10 +135,9 @@ def test_catalogue_is_listed_with_its_sources() -> None:
 
 @pytest.mark.slow
 def test_sparse_spectrum_has_no_more_modes_than_asked(tmp_path: Path) -> None:
-    done = call(
+    succeed(
         "fit", EXAMPLE, "--reference", "30 degC", "--spectrum", "sparse", "--modes", 8, "--samples", 0, "-o", tmp_path
     )
-    assert done.exit_code == 0, done.output
     rubber = json.loads((tmp_path / "rubber.json").read_text(encoding="utf-8"))
     assert rubber
     spectrum = vf.read_card(tmp_path / "rubber.json").spectrum
@@ -182,11 +177,10 @@ def test_a_finished_master_curve_makes_the_same_rubber(fitted: tuple[Path, str],
     table = [",".join(row.split(",")[:3]) for row in rows]
     table[0] = "omega (rad/s),E' (Pa),E'' (Pa)"
     (tmp_path / "curve.csv").write_text("\n".join(table), encoding="utf-8")
-    done = call(
+    succeed(
         "fit", tmp_path / "curve.csv", "--master-curve", "--reference", "30 degC", "--name", "again",
         "--shift-factors", folder / "shift_factors.csv", "-o", tmp_path / "out",
     )  # fmt: skip
-    assert done.exit_code == 0, done.output
     after = vf.read_card(tmp_path / "out" / "rubber.json")
     assert after.name == "again"
     # Ten printed digits of the curve; the fit is as smooth as that.
@@ -199,8 +193,7 @@ def test_a_finished_master_curve_makes_the_same_rubber(fitted: tuple[Path, str],
 
 @pytest.mark.slow
 def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
-    done = call("fit", EXAMPLE, "--reference", "30 degC", "--samples", 0, "-o", tmp_path / "out")
-    assert done.exit_code == 0, done.output
+    succeed("fit", EXAMPLE, "--reference", "30 degC", "--samples", 0, "-o", tmp_path / "out")
     assert "Synthetic data" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
 
 
@@ -223,13 +216,11 @@ def test_mistakes_are_refused(words: list[object], code: str, tmp_path: Path, mo
 def test_ramp_prints_peaks_and_makes_a_material(tmp_path: Path) -> None:
     made = vf.synthetic_fluoroelastomer()
     write_moduli(tmp_path / "ramps.csv", made.complex_modulus, range(-15, 91, 2), (1.0, 10.0))
-    done = call("ramp", tmp_path / "ramps.csv")
-    assert done.exit_code == 0, done.output
+    done = succeed("ramp", tmp_path / "ramps.csv")
     assert "tan δ at 1 Hz" in done.output
     record = json.loads(call("ramp", tmp_path / "ramps.csv", "--json").stdout)
     assert len(record["angular_frequency"]) == 2
-    done = call("ramp", tmp_path / "ramps.csv", "--reference", "30 degC", "--synthetic", "-o", tmp_path / "out")
-    assert done.exit_code == 0, done.output
+    done = succeed("ramp", tmp_path / "ramps.csv", "--reference", "30 degC", "--synthetic", "-o", tmp_path / "out")
     assert "Peak of tan δ at 1 Hz" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
     for name in ("rubber.json", "master_curve.csv", "report.html", "figures/ramps.svg"):
         assert (tmp_path / "out" / name).stat().st_size > 0, name
@@ -243,8 +234,7 @@ def test_amplitude_prints_the_linear_range_and_scales_a_material(tmp_path: Path)
     assert record["critical_strain"] == pytest.approx(0.02, rel=0.01)
     rubber = ("--material", "synthetic fluoroelastomer")
     scaled = tmp_path / "scaled.json"
-    done = call("amplitude", path, *rubber, "--strain", 5, "-o", scaled, "--picture", tmp_path / "payne.svg")
-    assert done.exit_code == 0, done.output
+    succeed("amplitude", path, *rubber, "--strain", 5, "-o", scaled, "--picture", tmp_path / "payne.svg")
     assert "approximation" in vf.read_card(scaled).name
     assert (tmp_path / "payne.svg").stat().st_size > 0
     assert call("amplitude", path, "-o", scaled).exit_code == 2
@@ -258,8 +248,7 @@ def test_a_material_is_identified_from_indentation(tmp_path: Path) -> None:
     (tmp_path / "creep.csv").write_text("time (s),load (N),depth (um)\n" + rows, encoding="utf-8")
     said = ("indentation", tmp_path / "creep.csv", "--control", "load", "--ball", "10 mm", "--modes", 8)
     out = ("--samples", 20, "--start", "0 s", "--out", tmp_path / "rubber.json", "--csv", tmp_path / "E.csv", "--json")
-    done = call(*said, "--temperature", "23 degC", *out)
-    assert done.exit_code == 0, done.output
+    done = succeed(*said, "--temperature", "23 degC", *out)
     results = json.loads(done.stdout)
     assert results["notes"] == []
     found = vf.read_card(tmp_path / "rubber.json")
@@ -278,12 +267,10 @@ def test_a_material_is_identified_from_rebounds_and_stiffness(tmp_path: Path) ->
     (tmp_path / "stiffness.csv").write_text(rows, encoding="utf-8")
     common = ("--ball", "10 mm", "--modes", 8, "--samples", 20, "--temperature", "23 degC", "--error", "0.01")
     rebound = ("indentation", tmp_path / "rebound.csv", "--mass", "33 g")
-    done = call(*rebound, *common, "--radius-error", 0.01)
-    assert done.exit_code == 0, done.output
+    done = succeed(*rebound, *common, "--radius-error", 0.01)
     assert "Found error of the radius" in done.output
     stiffness = ("indentation", tmp_path / "stiffness.csv", "--depth", "100 um", "--amplitude", "2 um")
-    done = call(*stiffness, *common, "--picture", tmp_path / "E.svg", "--beside", "synthetic fluoroelastomer")
-    assert done.exit_code == 0, done.output
+    done = succeed(*stiffness, *common, "--picture", tmp_path / "E.svg", "--beside", "synthetic fluoroelastomer")
     assert (tmp_path / "E.svg").stat().st_size > 0
     assert call(*stiffness, *common, "--mass", "33 g").exit_code == 2
     assert call(*rebound, "--ball", "10 mm").exit_code == 2

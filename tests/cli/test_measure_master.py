@@ -2,33 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import re
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from click.testing import CliRunner, Result
 
 import viscofric as vf
+from cli.calls import call, record, refusal, succeed
 from cli.friction_files import COULOMB, LAW, TEMPERATURES, ZERO_FORCE, curves, runs, viscoelastic
-from cli.refusals import refusal
-from viscofric.cli import main
 from viscofric.report.figures import saving
-
-
-def call(*words: object) -> Result:
-    return CliRunner().invoke(main, [*map(str, words)], standalone_mode=True)
-
-
-def record(*words: object) -> dict[str, Any]:
-    done = call(*words, "--json")
-    assert done.exit_code == 0, done.output
-    found: dict[str, Any] = json.loads(done.stdout, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
-    return found
 
 
 def test_measure_gives_what_python_gives(tmp_path: Path) -> None:
@@ -42,8 +27,7 @@ def test_measure_gives_what_python_gives(tmp_path: Path) -> None:
 
 
 def test_measure_prints_each_condition_with_its_friction(tmp_path: Path) -> None:
-    done = call("measure", runs(tmp_path / "runs.csv", noise=0.01))
-    assert done.exit_code == 0, done.output
+    done = succeed("measure", runs(tmp_path / "runs.csv", noise=0.01))
     heading, *rows = done.stdout.split("\n\n")[0].splitlines()
     assert heading.split()[:4] == ["T", "(°C)", "speed", "(mm/s)"]
     assert len(rows) == 6
@@ -80,7 +64,7 @@ def test_what_cannot_be_known_is_null_and_a_question_mark(tmp_path: Path) -> Non
     assert point["coulomb"] == pytest.approx(COULOMB, rel=1e-9)
     assert "consistency" not in point
     assert found["inputs"]["zero"] == 0.3
-    assert call("measure", path, "--zero", "0.3 N").exit_code == 0
+    succeed("measure", path, "--zero", "0.3 N")
 
 
 def test_several_files_make_one_test(tmp_path: Path) -> None:
@@ -93,8 +77,7 @@ def test_several_files_make_one_test(tmp_path: Path) -> None:
 
 def test_separated_curves_are_read_back_as_they_are(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv", noise=0.01)
-    done = call("measure", path, "--out", tmp_path / "curves.csv")
-    assert done.exit_code == 0, done.output
+    done = succeed("measure", path, "--out", tmp_path / "curves.csv")
     assert f"curves   {tmp_path / 'curves.csv'}" in done.stdout
     curves, again = vf.separate(vf.read_mtm(path)), vf.read_friction_curves(tmp_path / "curves.csv")
     np.testing.assert_array_equal(again.viscoelastic, curves.viscoelastic)
@@ -152,8 +135,7 @@ def test_a_picture_calls_made_data_synthetic(
     monkeypatch.setattr(saving, "mark_synthetic", marked.append)
     path = runs(tmp_path / "runs.csv")
     path.write_text(remark + path.read_text(encoding="utf-8").replace("SYNTHETIC", ""), encoding="utf-8")
-    done = call("measure", path, "--picture", tmp_path / "curves.svg", *(["--synthetic"] if option else []))
-    assert done.exit_code == 0, done.output
+    done = succeed("measure", path, "--picture", tmp_path / "curves.svg", *(["--synthetic"] if option else []))
     assert done.stdout.splitlines()[-1] == f"picture  {tmp_path / 'curves.svg'}"
     assert (tmp_path / "curves.svg").stat().st_size > 0
     assert bool(marked) is made_up
@@ -184,8 +166,7 @@ def test_shift_lays_the_modulus_beside(tmp_path: Path) -> None:
     # Planted in both: noise of 1 % decides, so that neither is to be called wrong at one in a thousand.
     assert found["agreement"]["p_value"] > 1e-3
     assert found["agreement"]["slope"] == pytest.approx(1.0, abs=4.0 * found["agreement"]["slope_error"])
-    done = call(*words, "--picture", tmp_path / "alpha.svg")
-    assert done.exit_code == 0, done.output
+    succeed(*words, "--picture", tmp_path / "alpha.svg")
     assert (tmp_path / "alpha.svg").stat().st_size > 0
 
 
@@ -253,7 +234,7 @@ def test_curves_without_overlap_show_no_factor(tmp_path: Path) -> None:
 def test_curves_of_one_temperature_are_shifted_by_given_factors(tmp_path: Path) -> None:
     path = curves(tmp_path / "curves.csv", [363.15])
     assert refusal("master", path)[:2] == (1, "one-temperature")
-    assert call("master", path, "--shift", "synthetic fluoroelastomer").exit_code == 0
+    succeed("master", path, "--shift", "synthetic fluoroelastomer")
 
 
 def test_runs_are_separated_before_they_are_shifted(tmp_path: Path) -> None:
@@ -264,7 +245,7 @@ def test_runs_are_separated_before_they_are_shifted(tmp_path: Path) -> None:
 def test_loads_are_reduced_to_one_with_the_ball(tmp_path: Path) -> None:
     one, other = curves(tmp_path / "one.csv"), curves(tmp_path / "other.csv", load=35.0)
     assert refusal("master", one, other)[:2] == (1, "several-loads")
-    assert call("master", one, other, "--ball", "9.525 mm").exit_code == 0
+    succeed("master", one, other, "--ball", "9.525 mm")
 
 
 @pytest.mark.parametrize(

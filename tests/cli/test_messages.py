@@ -9,12 +9,10 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
+from cli.calls import call, refusal
 from cli.friction_files import curves, runs
-from cli.refusals import refusal
 from study.sweeps import made_results, made_sweep
-from viscofric.cli import main
 from viscofric.cli.new import template_text
 
 SOLID = "--E0 '1 MPa' --E-inf '10 MPa' --tau '1 ms'"
@@ -120,5 +118,5 @@ def test_a_refusal_says(
 )
 def test_output_contains(command: str, phrases: list[str], folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
-    words = CliRunner().invoke(main, shlex.split(command)).output
+    words = call(*shlex.split(command)).output
     assert [phrase for phrase in phrases if phrase not in words] == [], words

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +14,8 @@ import xarray
 from click.testing import CliRunner, Result
 
 import viscofric as vf
-from cli.refusals import refusal
+from cli import calls
+from cli.calls import refusal, succeed
 from viscofric.cli import main, progress
 
 RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "10 ms")
@@ -26,18 +25,7 @@ HIT = (*RUBBER, *BALL, "--mass", "33 g")
 SOLID = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "10 ms")
 
 
-def call(*arguments: object) -> Result:
-    done = CliRunner().invoke(main, [*map(str, arguments)])
-    assert done.exit_code == 0, done.output
-    return done
-
-
-@cache
-def record(*arguments: object) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(
-        call(*arguments, "--json").stdout, parse_constant=lambda name: pytest.fail(f"{name} is no JSON")
-    )
-    return found
+record = cache(calls.record)
 
 
 def lines(done: Result) -> dict[str, str]:
@@ -63,7 +51,7 @@ def test_json_holds_what_python_gives() -> None:
 
 
 def test_words_show_the_end_and_the_energies() -> None:
-    found = lines(call("transient", *PRESS))
+    found = lines(succeed("transient", *PRESS))
     # a³ = (3/4)(1 − ν²) R F J(t) with J = 1e-6 (1 − 0.9 e^{−t/τ}) (Lee and Radok)
     radius = (0.75 * 0.75 * 0.01 * 1e-6 * (1.0 - 0.9 * np.exp(-10.0))) ** (1.0 / 3.0)
     assert float(found["contact radius"].split()[0]) == pytest.approx(1e3 * radius, rel=1e-3)
@@ -80,7 +68,7 @@ def test_a_load_may_rise_and_a_depth_be_held() -> None:
 
 
 def test_the_history_is_said_in_one_line() -> None:
-    words = call("transient", *RUBBER, *BALL, "--load", "1 N", "--load-time", "10 ms", "--dwell", "0.1 s").stdout
+    words = succeed("transient", *RUBBER, *BALL, "--load", "1 N", "--load-time", "10 ms", "--dwell", "0.1 s").stdout
     assert words.splitlines()[1].startswith("110 ms, load 0 N to 1 N, ")
 
 
@@ -111,18 +99,18 @@ def test_tables_and_drawings_are_written(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr("viscofric.report.figures.animation.FRAMES", 2)
     monkeypatch.setattr("viscofric.report.figures.animation._SECONDS", 1.0)
     drawings = [tmp_path / name for name in ("run.svg", "strip.png", "run.gif")]
-    call(
+    succeed(
         "transient", *PRESS, "--times", "1 ms, 0.1 s", "--out", tmp_path / "run.csv", "--picture", drawings[0],
         "--pressures", drawings[1], "--animation", drawings[2],
     )  # fmt: skip
     assert all(path.stat().st_size > 0 for path in drawings)
     table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True)
     assert table["time_s"].tolist() == [1e-3, 0.1]
-    call("transient", *PRESS, "--times", "1 ms, 0.1 s", "-o", tmp_path / "run.nc", "--json")
+    succeed("transient", *PRESS, "--times", "1 ms, 0.1 s", "-o", tmp_path / "run.nc", "--json")
     with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as data:
         assert data["indentation"].attrs["units"] == "m"
         np.testing.assert_allclose(data["indentation"], table["indentation_m"], rtol=1e-14)
-    printed = call("transient", *PRESS, "--times", "1 ms", "--out", "-").stdout.splitlines()
+    printed = succeed("transient", *PRESS, "--times", "1 ms", "--out", "-").stdout.splitlines()
     assert (len(printed), printed[0].split(",")[0]) == (2, "time (s)")
 
 
@@ -162,7 +150,7 @@ def test_a_rough_surface_slides_under_a_pressure_and_goes_on_from_its_state(tmp_
     again = record(*words, "--slide", "20 um", "--resume", tmp_path / "begun.npz")
     assert again["results"]["time"][: len(run.time)] == begun["results"]["time"]
     assert again["results"]["time"][-1] == pytest.approx(3e-3)
-    said = call(*words, "--slide", "10 um")
+    said = succeed(*words, "--slide", "10 um")
     assert "mean pressure" in lines(said)
     assert "Note: " in said.stdout
     assert [note["code"] for note in begun["note_records"]] == ["errors-in-time"]
@@ -193,7 +181,7 @@ def test_a_repeated_history_has_its_periodic_state(tmp_path: Path) -> None:
     cycle = vf.motion.solve_cycle(SOLID, vf.Ball("10 mm"), history, accuracy=0.1)
     found = record(*words)["results"]
     assert (found["loss_stiffness"], found["periods"]) == (cycle.loss_stiffness, cycle.periods)
-    said = lines(call(*words, "--picture", tmp_path / "cycle.svg"))
+    said = lines(succeed(*words, "--picture", tmp_path / "cycle.svg"))
     assert float(said["loss tangent"].split(" ± ")[0]) == pytest.approx(cycle.loss_tangent, rel=0.02)
     assert found["loss_stiffness_error"] == cycle.loss_stiffness_error > 0.0
     assert float(said["energy per cycle"].split()[0]) > 0.0
@@ -262,7 +250,7 @@ def test_one_impact_is_reported_with_its_rebounds(tmp_path: Path) -> None:
     assert [one["restitution"] for one in found["contacts"]] == [one.restitution for one in hit.contacts]
     assert found["results"]["velocity"] == hit.velocity.tolist()
     assert (found["inputs"]["mass"], found["inputs"]["gravity"]) == (0.033, 9.81)
-    done = call(*words, "--picture", tmp_path / "hit.svg", "--out", tmp_path / "hit.nc")
+    done = succeed(*words, "--picture", tmp_path / "hit.svg", "--out", tmp_path / "hit.nc")
     assert done.stdout.count("\nrestitution") == len(hit.contacts)
     assert float(lines(done)["largest indentation"].split()[0]) > 0.0
     assert (tmp_path / "hit.svg").stat().st_size > 0
@@ -276,7 +264,7 @@ def test_several_impacts_are_a_curve(tmp_path: Path) -> None:
     assert found["results"]["speed"] == [0.1, 1.0]
     hit = vf.motion.solve_impact(SOLID, vf.Ball("10 mm"), mass="33 g", speed="0.1 m/s")
     assert found["results"]["restitution"][0] == hit.restitution
-    done = call(*words, "--picture", tmp_path / "curve.svg", "--out", tmp_path / "curve.csv")
+    done = succeed(*words, "--picture", tmp_path / "curve.svg", "--out", tmp_path / "curve.csv")
     assert (tmp_path / "curve.svg").stat().st_size > 0
     table = np.genfromtxt(tmp_path / "curve.csv", delimiter=",", names=True)
     assert table["restitution"].tolist() == found["results"]["restitution"]

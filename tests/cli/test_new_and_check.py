@@ -6,25 +6,19 @@ import json
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
 
-from cli.refusals import refusal
+from cli.calls import call, refusal, succeed
 from viscofric import open_results
-from viscofric.cli import main
 from viscofric.cli.check import duration
 from viscofric.cli.new import SCHEMA, TEMPLATES, template_text
 from viscofric.report.texts.checks import all_checks
 from viscofric.study.results.export import NAMES
 
 
-def call(*arguments: str | Path, given: str | bytes | None = None) -> Result:
-    return CliRunner().invoke(main, [str(argument) for argument in arguments], input=given)
-
-
 @pytest.mark.parametrize("template", TEMPLATES)
 @pytest.mark.slow
 def test_starter_files_and_their_data_are_right(tmp_path: Path, template: str) -> None:
-    assert call("new", tmp_path, "--template", template).exit_code == 0
+    succeed("new", tmp_path, "--template", template)
     result = call("check", tmp_path / "study.toml", "--json")
     assert result.exit_code == 0, result.output
     found = json.loads(result.stdout)
@@ -162,7 +156,7 @@ def test_schema_is_printed_or_written_beside_the_run_file(tmp_path: Path) -> Non
     printed = call("new", "--schema")
     assert printed.exit_code == 0
     assert json.loads(printed.stdout)["title"] == "Run file of viscofric"
-    assert call("new", tmp_path, "--schema").exit_code == 0
+    succeed("new", tmp_path, "--schema")
     assert (tmp_path / SCHEMA).read_text(encoding="utf-8") == printed.stdout
     text = (tmp_path / "study.toml").read_text(encoding="utf-8")
     assert text.startswith(f"#:schema ./{SCHEMA}\n")

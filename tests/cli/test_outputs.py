@@ -13,10 +13,9 @@ from typing import Any
 
 import click
 import pytest
-from click.testing import CliRunner
 
+from cli.calls import call, refusal, succeed
 from cli.friction_files import curves, runs
-from cli.refusals import refusal
 from readers.samples import workbook
 from study.sweeps import made_results
 from viscofric.cli import main, run
@@ -90,7 +89,7 @@ def options(command: click.Command) -> set[str]:
 @pytest.mark.parametrize("name", ALL)
 def test_options_of_keys_offer_what_the_run_file_knows(name: str) -> None:
     keyed = [one for one in ALL[name].params if isinstance(one, KeyOption)]
-    text = "".join(CliRunner().invoke(main, [*name.split(), "--help"]).output.split())
+    text = "".join(call(*name.split(), "--help").output.split())
     for one in keyed:
         about = TABLES[one.key.table].model_json_schema()["properties"][one.key.key]
         known = about.get("enum") or about.get("anyOf", [{}])[0].get("enum", ())
@@ -110,7 +109,7 @@ def strict(text: str) -> Any:
 
 @pytest.mark.parametrize("name", ALL)
 def test_help_has_required_options_first_and_those_without_a_heading_last(name: str) -> None:
-    text = CliRunner().invoke(main, [*name.split(), "--help"]).output
+    text = call(*name.split(), "--help").output
     blocks = [block.splitlines() for block in text.split("\n\n")[1:] if not block.startswith(" ")]
     rows = [[line for line in lines if re.match(r"  \S", line)] for _, *lines in blocks]
     assert all(row.startswith("  -") for section in rows for row in section), rows
@@ -132,7 +131,7 @@ def test_every_command_with_json_is_called_here_or_elsewhere() -> None:
 @pytest.mark.parametrize("name", CALLS)
 def test_json_is_one_object_without_nan(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
-    done = CliRunner().invoke(main, [*CALLS[name], "--json"])
+    done = call(*CALLS[name], "--json")
     assert done.exit_code == (run.SOME_CASES_FAILED if name == "report" else 0), done.output
     assert isinstance(strict(done.stdout), dict)
 
@@ -141,7 +140,7 @@ def test_json_has_the_names_of_to_dataset(folder: Path, monkeypatch: pytest.Monk
     import viscofric as vf
 
     monkeypatch.chdir(folder)
-    shown = strict(CliRunner().invoke(main, [*CALLS["material show"], "--json"]).stdout)
+    shown = strict(call(*CALLS["material show"], "--json").stdout)
     material = vf.catalogue_material("PVB interlayer")
     assert set(material.to_dataset().variables) <= set(shown["spectrum"])
     assert {"angular_frequency", "storage_modulus", "loss_modulus"} <= set(shown["modulus"])
@@ -152,8 +151,7 @@ def test_json_has_the_names_of_to_dataset(folder: Path, monkeypatch: pytest.Monk
 )
 def test_a_table_is_printed_by_out_dash(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
-    done = CliRunner().invoke(main, [*CALLS[name], "--out", "-"])
-    assert done.exit_code == 0, done.output
+    done = succeed(*CALLS[name], "--out", "-")
     rows = [line.split(",") for line in done.stdout.splitlines() if not line.startswith("#")]
     assert len(rows) > 1
     assert len(rows[0]) > 1
@@ -213,7 +211,7 @@ def test_what_cannot_be_written_is_refused_before_the_work(name: str, tmp_path: 
 
 
 def test_a_device_is_not_replaced_by_a_table() -> None:
-    done = CliRunner().invoke(main, ["solve", *SOLID, *BALL, "--out", "/dev/null"])
+    done = call("solve", *SOLID, *BALL, "--out", "/dev/null")
     assert (done.exit_code, Path("/dev/null").is_char_device()) == (2, True)
     with pytest.raises(click.BadParameter, match="device"):
         OUT.convert("/dev/null", None, None)
@@ -227,7 +225,7 @@ def test_the_highest_folder_can_be_named() -> None:
 def test_only_tables_are_printed_in_place_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     for arguments in (["demo"], ["run", "study.toml"], ["material", "fit", "dma.csv"]):
-        assert CliRunner().invoke(main, [*arguments, "--out", "-"]).exit_code == 2
+        assert call(*arguments, "--out", "-").exit_code == 2
     for arguments in (
         ["solve", "--picture", "-"],
         ["transient", "--save-state", "-"],
@@ -236,8 +234,8 @@ def test_only_tables_are_printed_in_place_of_a_file(tmp_path: Path, monkeypatch:
         ["material", "indentation", "creep.csv", "--csv", "-"],
         ["material", "convert", "rubber.json", "-", "--format", "json"],
     ):
-        done = CliRunner().invoke(main, arguments)
+        done = call(*arguments)
         assert (done.exit_code, done.stdout, "give a name" in done.stderr) == (2, "", True), arguments
-    assert CliRunner().invoke(main, ["verify", "--list", "--json"]).exit_code == 2
-    assert CliRunner().invoke(main, ["new", "-", "--json"]).exit_code == 2
+    assert call("verify", "--list", "--json").exit_code == 2
+    assert call("new", "-", "--json").exit_code == 2
     assert not list(tmp_path.iterdir())

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from cli.refusals import refusal
+from cli.calls import call, refusal, succeed
 from viscofric.cli import main
 from viscofric.cli.overview import COMMANDS
 
@@ -28,7 +28,7 @@ def complete(words: str, position: int) -> list[str]:
 
 
 def test_help_fits_a_screen_and_names_every_exit_status() -> None:
-    lines = CliRunner().invoke(main, ["--help"]).output.splitlines()
+    lines = call("--help").output.splitlines()
     assert len(lines) < 24  # the prompt takes the last one
     assert max(map(len, lines)) <= 80
     for status in (0, 1, 2, 3, 4, 130, 143):
@@ -50,8 +50,7 @@ def test_commands_and_options_are_completed() -> None:
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion_script_is_one_that_the_shell_takes(shell: str) -> None:
-    done = CliRunner().invoke(main, ["completion", shell])
-    assert done.exit_code == 0
+    done = succeed("completion", shell)
     assert f"_VISCOFRIC_COMPLETE={shell}_complete" in done.stdout
     if found := shutil.which(shell):
         subprocess.run([found, "-n"], input=done.stdout, text=True, check=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
@@ -14,11 +14,10 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray
-from click.testing import CliRunner, Result
 
 import viscofric as vf
-from cli.refusals import refusal
-from viscofric.cli import main
+from cli import calls
+from cli.calls import refusal
 from viscofric.cli.commands import NOT_ACCURATE
 from viscofric.contact import steady
 from viscofric.report.figures.contact import contact_figure
@@ -29,16 +28,9 @@ RUBBER = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
 BALL = ("--ball", "10 mm", "--speed", "1 m/s", "--load", "1 N")
 
 
-def call(*arguments: object) -> Result:
-    return CliRunner().invoke(main, ["solve", *map(str, arguments)])
-
-
-@cache
-def record(*arguments: object) -> dict[str, Any]:
-    done = call(*arguments, "--json")
-    assert done.exit_code == 0, done.output
-    found: dict[str, Any] = json.loads(done.stdout, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
-    return found
+call = partial(calls.call, "solve")
+succeed = partial(calls.succeed, "solve")
+record = cache(partial(calls.record, "solve"))
 
 
 @cache
@@ -104,8 +96,7 @@ def test_every_number_has_a_unit() -> None:
 
 
 def test_words_show_the_numbers_and_their_errors() -> None:
-    done = call(*RUBBER, *BALL)
-    assert done.exit_code == 0, done.output
+    done = succeed(*RUBBER, *BALL)
     solution = expected()
     lines = dict(line.split("  ", 1) for line in done.stdout.splitlines()[2:] if not line.startswith(" "))
     friction = float(lines["friction coefficient"].split("±")[0])
@@ -122,8 +113,7 @@ def test_words_show_the_numbers_and_their_errors() -> None:
 
 
 def test_a_contact_that_dissipates_nothing_has_no_friction() -> None:
-    done = call(*RUBBER, "--cone", "5 deg", "--speed", "inf", "--indentation", "50 um")
-    assert done.exit_code == 0, done.output
+    succeed(*RUBBER, "--cone", "5 deg", "--speed", "inf", "--indentation", "50 um")
     found = record(*RUBBER, "--cone", "5 deg", "--speed", "-inf", "--indentation", "50 um")
     assert found["inputs"]["speed"] == "infinite"
     assert found["inputs"]["held"] == "indentation"
@@ -143,8 +133,7 @@ def test_the_catalogues_rubber_is_shifted_and_called_synthetic() -> None:
         "--load",
         "25 N",
     )
-    done = call(*arguments, "--temperature", "60 degC", "--accuracy", "0.01", "--tolerance", "1e-6")
-    assert done.exit_code == 0, done.output
+    done = succeed(*arguments, "--temperature", "60 degC", "--accuracy", "0.01", "--tolerance", "1e-6")
     # An independent solution goes from 0.0251 at 20 mm/s to 0.0158 at 200 mm/s.
     friction = float(done.stdout.split("friction coefficient")[1].split("±")[0])
     assert 0.0158 < friction < 0.0251
@@ -234,11 +223,10 @@ def test_derivatives_are_reported_as_slopes_in_logarithms() -> None:
 
 
 def test_of_many_modes_those_that_matter_are_shown() -> None:
-    done = call(
+    done = succeed(
         "--material", "synthetic fluoroelastomer", *BALL[2:4], "--ball", "9.525 mm", "--load", "25 N",
         "--temperature", "60 degC", "--accuracy", "0.02", "--tolerance", "1e-6", "--derivatives",
     )  # fmt: skip
-    assert done.exit_code == 0, done.output
     assert "the most important of 37:" in done.stdout
     head, table = done.stdout.split("d ln μ/d ln τ\n")
     assert len(table.splitlines()) == 5
@@ -300,8 +288,7 @@ def test_a_profile_of_a_cylinder_is_a_cylinder(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_pictures_are_drawn_and_the_same_every_time(tmp_path: Path) -> None:
-    done = call(*RUBBER, *BALL, "--picture", tmp_path / "a.svg")
-    assert done.exit_code == 0, done.output
+    done = succeed(*RUBBER, *BALL, "--picture", tmp_path / "a.svg")
     assert f"picture  {tmp_path / 'a.svg'}" in done.stdout
     title = "Ball of radius 10 mm on standard linear solid"
     save_picture(tmp_path / "b.svg", lambda: contact_figure(expected(), vf.Ball("10 mm"), title), name="contact")
@@ -346,14 +333,13 @@ def test_pictures_show_the_conditions() -> None:
 
 @pytest.mark.slow
 def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
-    done = call(*RUBBER, *BALL, "--json", "-o", tmp_path / "fields.nc")
-    assert done.exit_code == 0, done.output
+    done = succeed(*RUBBER, *BALL, "--json", "-o", tmp_path / "fields.nc")
     assert json.loads(done.stdout)["results"]  # files are named on the other stream
     with xarray.open_dataset(tmp_path / "fields.nc", engine="h5netcdf") as data:
         cell = float(data.x[1] - data.x[0]) * float(data.y[1] - data.y[0])
         assert data.pressure.attrs["units"] == "Pa"
         assert float(data.pressure.sum()) * cell == pytest.approx(1.0, rel=1e-9)  # rounding: the load is given
-    assert call(*RUBBER, *BALL, "-o", tmp_path / "fields.csv").exit_code == 0
+    succeed(*RUBBER, *BALL, "-o", tmp_path / "fields.csv")
     table = np.loadtxt(tmp_path / "fields.csv", delimiter=",", skiprows=1)
     assert table[:, 2].sum() * cell == pytest.approx(1.0, rel=1e-8)  # ten digits
     assert math.isclose(table[:, 3].max(), expected().indentation, rel_tol=1e-2)  # beside the axis by half a cell
@@ -395,7 +381,7 @@ def test_a_result_that_misses_the_accuracy_is_printed_with_a_status_of_its_own(
     module, _, name = function.rpartition(".")
     exact = getattr(import_module(module), name)
     monkeypatch.setattr(function, lambda *given, accuracy, **more: exact(*given, accuracy=0.1, **more))
-    done = CliRunner().invoke(main, [command, *RUBBER, *BALL, "--json"])
+    done = calls.call(command, *RUBBER, *BALL, "--json")
     assert done.exit_code == NOT_ACCURATE, done.output
     assert json.loads(done.stdout)
 

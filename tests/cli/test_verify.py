@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
-from click.testing import CliRunner, Result
-
-from cli.refusals import refusal
-from viscofric.cli import main
+from cli import calls
+from cli.calls import refusal
 from viscofric.cli.verify import _line
 from viscofric.contact.periodic.transfer import SlidingSolid
 from viscofric.errors import ConvergenceError
@@ -21,13 +20,12 @@ if TYPE_CHECKING:
 CHEAP = ("--only", "hertz-cylinder", "--only", "full-contact-wave", "--only", "thin-layers")
 
 
-def call(*arguments: str) -> Result:
-    return CliRunner().invoke(main, ["verify", *arguments])
+call = partial(calls.call, "verify")
+succeed = partial(calls.succeed, "verify")
 
 
 def test_each_check_is_a_line_with_its_worst_number() -> None:
-    done = call(*CHEAP)
-    assert done.exit_code == 0, done.output
+    done = succeed(*CHEAP)
     lines = done.stdout.splitlines()
     assert [line.split()[:2] for line in lines[:-1]] == [
         ["hertz-cylinder", "passed"],
@@ -40,8 +38,7 @@ def test_each_check_is_a_line_with_its_worst_number() -> None:
 
 
 def test_details_show_every_comparison_and_the_reasons() -> None:
-    done = call("--only", "hertz-cylinder", "--details")
-    assert done.exit_code == 0, done.output
+    done = succeed("--only", "hertz-cylinder", "--details")
     assert done.stdout.count("contact width (m)") == 3  # the worst, and both
     assert "bounds: 128 cells" in done.stdout
     assert "Johnson" in done.stdout
@@ -64,8 +61,7 @@ def test_published_numbers_have_their_origin() -> None:
     assert "wang-knothe" in listed.stdout
     assert "obtained: " in listed.stdout
     assert "unstated: " in listed.stdout
-    done = call("--published", "--only", "frontistr-card", "--details")
-    assert done.exit_code == 0, done.output
+    done = succeed("--published", "--only", "frontistr-card", "--details")
     assert "obtained: Run by hand" in done.stdout
     (check,) = json.loads(call("--published", "--only", "frontistr-card", "--json").stdout)["checks"]
     assert {"obtained", "unstated"} <= set(check)
@@ -73,8 +69,7 @@ def test_published_numbers_have_their_origin() -> None:
 
 
 def test_json_holds_everything() -> None:
-    done = call(*CHEAP, "--json")
-    assert done.exit_code == 0, done.output
+    done = succeed(*CHEAP, "--json")
     found = json.loads(done.stdout)
     assert found["passed"] is True
     assert [one["name"] for one in found["checks"]] == list(CHEAP[1::2])
@@ -97,8 +92,7 @@ def test_a_wrong_engine_is_reported_with_status_one(monkeypatch: pytest.MonkeyPa
 
 
 def test_another_backend_is_checked() -> None:
-    done = call("--only", "hertz-cylinder", "--only", "full-contact-wave", "--backend", "array_api_strict", "--json")
-    assert done.exit_code == 0, done.output
+    done = succeed("--only", "hertz-cylinder", "--only", "full-contact-wave", "--backend", "array_api_strict", "--json")
     found = json.loads(done.stdout)
     assert found["backend"] == "array_api_strict"
     assert found["passed"] is True
@@ -106,8 +100,7 @@ def test_another_backend_is_checked() -> None:
 
 
 def test_checks_are_listed_with_their_sources() -> None:
-    done = call("--list")
-    assert done.exit_code == 0, done.output
+    done = succeed("--list")
     for check in CHECKS:
         assert check.name in done.stdout
         assert check.title in done.stdout

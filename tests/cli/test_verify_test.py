@@ -5,14 +5,15 @@ from __future__ import annotations
 import json
 import shutil
 import sys
+from functools import partial
 from importlib.resources import as_file, files
 from typing import TYPE_CHECKING
 
 import pytest
-from click.testing import CliRunner
 
+from cli import calls
 from refusals import refused
-from viscofric.cli import main, run
+from viscofric.cli import run
 from viscofric.errors import StudyError
 from viscofric.notes import note_of
 from viscofric.report import html
@@ -21,7 +22,6 @@ from viscofric.study.friction_test import open_friction_test
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from click.testing import Result
 
 RUN_FILE = """\
 title = "Synthetic test"
@@ -49,8 +49,8 @@ fields = "none"
 """
 
 
-def call(*arguments: str) -> Result:
-    return CliRunner().invoke(main, ["verify", *arguments])
+call = partial(calls.call, "verify")
+succeed = partial(calls.succeed, "verify")
 
 
 @pytest.fixture
@@ -69,8 +69,7 @@ def test_a_test_is_compared_point_by_point_and_synthetic_data_are_marked(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(html, "figure_images", lambda *arguments: {})  # other tests draw
-    done = call("--test", str(folder), "--json")
-    assert done.exit_code == 0, done.output
+    done = succeed("--test", str(folder), "--json")
     found = json.loads(done.stdout)
     assert found["synthetic"] is True
     assert found["licence"] == "MIT"

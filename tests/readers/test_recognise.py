@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
 import viscofric as vf
+from cli.calls import succeed
 from refusals import refused
-from viscofric.cli import main
 from viscofric.errors import DataFileError
 from viscofric.readers.recognise import by_kind, kind_of_test
 
@@ -37,13 +36,11 @@ def written(folder: Path, kind: str, name: str = "") -> Path:
 def test_kinds_are_recognised_and_read(tmp_path: Path, kind: str) -> None:
     path = written(tmp_path, kind, "test.csv")
     assert kind_of_test(path) == kind
-    done = CliRunner().invoke(main, ["material", "read", str(path), "--deformation", "tension", "--json"])
-    assert done.exit_code == 0, done.output
+    done = succeed("material", "read", path, "--deformation", "tension", "--json")
     (found,) = json.loads(done.stdout)["tests"]
     assert (found["test"], found["deformation"]) == (kind, "tension")
     assert found["points"] == len(SAMPLES[kind]) - 1
-    done = CliRunner().invoke(main, ["material", "read", str(path), "--deformation", "tension"])
-    assert done.exit_code == 0, done.output
+    done = succeed("material", "read", path, "--deformation", "tension")
 
 
 def test_files_are_sorted_by_kind(tmp_path: Path) -> None:

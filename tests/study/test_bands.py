@@ -73,13 +73,13 @@ def test_bands_are_those_of_the_python_interface(results: StudyResults) -> None:
 
 
 @pytest.mark.slow
-def test_stored_cases_give_the_same_bands_again(results: StudyResults, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_stored_cases_give_the_same_numbers_again(results: StudyResults, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise AssertionError("a stored case was solved again")
 
     monkeypatch.setattr("viscofric.friction.cases.solving.solve_with_sensitivity", refuse)
     again = run_study(results.folder.parent / "study.toml", resume=True)
-    for name in ("friction_lower", "friction_upper"):
+    for name in ("friction_coefficient", "friction_lower", "friction_upper"):
         for part in ("prediction", "prediction_master"):
             np.testing.assert_array_equal(again.tree[part][name].values, results.tree[part][name].values)
 

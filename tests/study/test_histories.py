@@ -8,11 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
 import viscofric as vf
+from cli.calls import call
 from refusals import refused
-from viscofric.cli import main
 from viscofric.errors import StudyError
 from viscofric.notes import codes
 from viscofric.report.captions import captions
@@ -89,7 +88,7 @@ def test_histories_are_drawn_and_exported(results: vf.study.StudyResults, tmp_pa
     assert "6 of 8" in captions(results.tree)["contacts_over_time"]
     assert results.export("excel", tmp_path / "results.xlsx").stat().st_size > 0
     said = [
-        CliRunner().invoke(main, ["export", str(results.folder), "--to", form, "-o", str(tmp_path / name)]).stderr
+        call("export", results.folder, "--to", form, "-o", tmp_path / name).stderr
         for form, name in (("csv", "a.csv"), ("excel", "a.xlsx"))
     ]
     assert [bool(one) for one in said] == [True, False]  # what a table of the cases leaves out is said

@@ -6,12 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 
 import viscofric as vf
+from cli.calls import call, succeed
 from refusals import refused
 from rheology.planted import write_moduli
-from viscofric.cli import main
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.run_file.material import MaterialTable
@@ -54,8 +53,7 @@ temperature = "10 degC"
 def test_a_run_file_takes_creep_tests(tmp_path):
     written(tmp_path)
     (tmp_path / "study.toml").write_text(STUDY)
-    found = CliRunner().invoke(main, ["check", str(tmp_path / "study.toml"), "--json"])
-    assert found.exit_code == 0, found.output
+    found = succeed("check", tmp_path / "study.toml", "--json")
     assert '"isotherms": 3' in found.output
 
 
@@ -69,8 +67,7 @@ def test_a_material_is_fitted_to_step_tests(tmp_path, monkeypatch, kind):
     arguments += ["--synthetic", "--samples", "20", "-o", str(tmp_path / "out")]
     if kind == "relaxation":  # E(t) states tension
         del arguments[6:8]
-    found = CliRunner().invoke(main, arguments)
-    assert found.exit_code == 0, found.output
+    succeed(*arguments)
     for name in (
         "rubber.json",
         "shift_factors.csv",
@@ -116,9 +113,7 @@ def test_what_belongs_to_sweeps_is_refused(more):
 
 def test_kinds_on_the_command_line_exclude_each_other(tmp_path):
     path = written(tmp_path)
-    found = CliRunner().invoke(
-        main, ["material", "fit", str(path), "--creep", "--relaxation", "--reference", "10 degC"]
-    )
+    found = call("material", "fit", path, "--creep", "--relaxation", "--reference", "10 degC")
     assert found.exit_code == 2
     assert all(option in found.output for option in ("--creep", "--relaxation"))
 
@@ -150,6 +145,6 @@ def test_the_command_takes_creep_beside_sweeps(monkeypatch):
 
     monkeypatch.setattr("viscofric.study.rubber_results.run_material", keep)
     arguments = ["material", "fit", "sweeps.csv", "--with-creep", "a.csv", "--with-creep", "b.csv"]
-    assert CliRunner().invoke(main, [*arguments, "--reference", "10 degC"]).exit_code == 1
+    assert call(*arguments, "--reference", "10 degC").exit_code == 1
     (table,) = tables
     assert (table.dma, table.creep, table.relaxation) == ((Path("sweeps.csv"),), (Path("a.csv"), Path("b.csv")), None)

@@ -13,11 +13,10 @@ import time
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
 import viscofric.web.server as module
+from cli.calls import call, succeed
 from viscofric import load_study
-from viscofric.cli import main
 from web.processes_left import ended, started_by
 from web.served_page import STUDY, started
 
@@ -124,7 +123,7 @@ def test_taken_port_is_replaced_by_a_free_one(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(
         module, "serve", lambda *arguments, on_start, **more: on_start(f"http://127.0.0.1:{free}/", free)
     )
-    done = CliRunner().invoke(main, ["web", "--no-browser", "--port", str(port)])
+    done = call("web", "--no-browser", "--port", port)
     assert len(done.stderr.splitlines()) == 1
     assert str(port) in done.stderr
     assert str(free) in done.stderr
@@ -134,8 +133,7 @@ def test_taken_port_is_replaced_by_a_free_one(monkeypatch: pytest.MonkeyPatch) -
 @pytest.mark.apart
 def test_run_file_is_what_the_page_opens_with(tmp_path: Path) -> None:
     folder = tmp_path / "study"
-    done = CliRunner().invoke(main, ["new", str(folder)])
-    assert done.exit_code == 0
+    succeed("new", folder)
     with started(tmp_path / "t", "--port", "0", str(folder / "study.toml")) as served, served.client() as client:
         study = client.get("/api/start").json()["study"]
         assert study["title"] == load_study(folder / "study.toml").title
@@ -149,18 +147,17 @@ def test_run_file_is_what_the_page_opens_with(tmp_path: Path) -> None:
 
 def test_other_hosts_are_warned_of(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "serve", lambda *arguments, **more: None)
-    done = CliRunner().invoke(main, ["web", "--host", "0.0.0.0", "--no-browser"])
-    assert done.exit_code == 0
+    done = succeed("web", "--host", "0.0.0.0", "--no-browser")
     assert "Warning: " in done.stderr
     assert "0.0.0.0" in done.stderr
-    assert "Warning" not in CliRunner().invoke(main, ["web", "--no-browser"]).output
+    assert "Warning" not in call("web", "--no-browser").output
 
 
 def test_browser_is_opened_unless_it_is_not_wanted(monkeypatch: pytest.MonkeyPatch) -> None:
     wanted: list[bool] = []
     monkeypatch.setattr(module, "serve", lambda *arguments, browser, **more: wanted.append(browser))
     for arguments in (["web"], ["web", "--no-browser"]):
-        assert CliRunner().invoke(main, arguments).exit_code == 0
+        succeed(*arguments)
     assert wanted == [True, False]
 
 
@@ -190,7 +187,7 @@ def test_missing_extra_is_named_in_a_sentence(tmp_path: Path, missing: str) -> N
     ],
 )
 def test_what_cannot_be_served_is_reported_in_a_sentence(arguments: list[str], words: str) -> None:
-    done = CliRunner().invoke(main, ["web", "--no-browser", *arguments])
+    done = call("web", "--no-browser", *arguments)
     assert done.exit_code == 1
     assert words in done.stderr
     assert "page http" not in done.stdout
