@@ -258,8 +258,8 @@ def mark_synthetic(panels: Sequence[Axes]) -> None:
     panels : sequence of matplotlib.axes.Axes
     """
     last = panels[-1]
-    figure = last.get_figure(root=True)
-    if last.get_title() and figure is not None and figure.get_supxlabel():  # small multiples: their titles are above
+    figure = last.figure.figure  # that which holds all subfigures
+    if last.get_title() and figure.get_supxlabel():  # small multiples: their titles are above
         figure.text(0.995, 0.005, "synthetic data", fontsize=9, color=VERMILION, ha="right", va="bottom")
         return
     legend = last.get_legend()
