@@ -155,7 +155,10 @@ def splines(knots: Array, degree: int, at: Array, orders: int = 3) -> Array:
 
     # Beyond the ends the outermost polynomials continue.
     every = BSpline.construct_fast(knots, np.eye(len(knots) - degree - 1), degree)
-    return np.array([every(at, order) for order in range(orders)])
+    found = np.zeros((orders, len(at), len(knots) - degree - 1))
+    for order in range(min(orders, degree + 1)):  # scipy before 1.17 writes beyond its memory for higher ones
+        found[order] = every(at, order)
+    return found
 
 
 def roughness(knots: Array, degree: int) -> Array:
