@@ -19,6 +19,7 @@ from viscofric.contact.free.estimates import (
     FEWEST_GRIDS,
     FRICTION_FLOOR,
     Estimate,
+    friction_estimate,
     least_error,
     measured_fading,
     settled,
@@ -80,21 +81,49 @@ def test_changes_that_fall_fast_on_many_grids_count_less() -> None:
     assert settled(jumping, measured_fading(jumping)).error >= 1e-3
 
 
-def test_least_error_after_no_halving_is_that_of_the_estimate() -> None:
-    values = 1.0 + 4.0 ** -np.arange(7.0)
-    stages: list[Any] = [
+def stages_with(values: np.ndarray, *, dimension: int) -> list[Any]:
+    """Stages whose friction from the pressure has these values, and whose balanced energy is uncertain."""
+    material = SimpleNamespace(compliances=np.ones(1), drag=0.0, edge_coupling=0.0)
+    return [
         SimpleNamespace(
             pressure_friction=value,
             energy_friction=1.0,
             left_out_range=lambda spacing: math.inf,
+            opening=1.0,
             window=SimpleNamespace(spacing=1.0),
-            problem=SimpleNamespace(geometry=SimpleNamespace(scatter=1.0)),
+            operator=SimpleNamespace(shift=0.0, material=material),
+            problem=SimpleNamespace(geometry=SimpleNamespace(scatter=1.0, dimension=dimension)),
         )
         for value in values
     ]
+
+
+def test_least_error_after_no_halving_is_that_of_the_estimate() -> None:
+    values = 1.0 + 4.0 ** -np.arange(7.0)
+    stages = stages_with(values, dimension=1)
     expected = settled(values, measured_fading(values)).error
     assert expected < settled(values).error
     assert least_error(stages, 0) == pytest.approx(expected, rel=1e-12)
+
+
+def test_point_contacts_are_extrapolated_from_the_fourth_grid_on() -> None:
+    """The limit of an error that falls with the square of the cell is exact; a tenth of that error is stated."""
+    values = 1.0 + 0.1 * 4.0 ** -np.arange(4.0)
+    assert friction_estimate(stages_with(values[:3], dimension=2)).value != pytest.approx(1.0, abs=1e-6)
+    value, error = friction_estimate(stages_with(values, dimension=2))
+    assert value == pytest.approx(1.0, abs=1e-15)
+    assert error == pytest.approx(0.1 * settled(values).error, rel=1e-12)
+    assert friction_estimate(stages_with(values, dimension=1)).error >= 0.9 * settled(values).error  # strips: none
+
+
+def test_limits_that_fall_more_slowly_or_disagree_are_not_called_certain() -> None:
+    slow = 1.0 + 0.1 * 2.0 ** -np.arange(4.0)  # with the first power: the limit is off by a third of the change
+    value, error = friction_estimate(stages_with(slow, dimension=2))
+    assert abs(value - 1.0) <= error
+    apart = 1.01 + 0.1 * 4.0 ** -np.arange(4.0)  # the balanced energy is 1 on all grids
+    value, error = friction_estimate(stages_with(apart, dimension=2))
+    assert settled(apart).error > 0.01
+    assert error == pytest.approx(0.01, rel=1e-9)  # the difference of the limits
 
 
 def test_relative_error_of_vanishing_friction_is_finite() -> None:

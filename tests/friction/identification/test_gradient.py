@@ -10,7 +10,7 @@ import pytest
 import viscofric as vf
 from marks import apart, slow
 from viscofric.arrays import Array
-from viscofric.contact.derivatives.adjoint import friction_adjoint, friction_way
+from viscofric.contact.derivatives.adjoint import differentiated, friction_adjoint
 from viscofric.contact.free.nested import find_window, refine
 from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
@@ -72,7 +72,7 @@ def test_adjoint_is_the_gradient_of_the_friction_on_its_cells(seed: int) -> None
     shape = ScaledIndenter(indenter, scale)
     problem = Problem(indenter.geometry, solid(scale, none, contact), shape, control, 1e-13, coarsest=16)
     stages = refine(find_window(problem, problem.first_size), 0.5, 512)
-    way, stage = friction_way(stages), stages[1]
+    way, stage = differentiated(stages), stages[1]
     found = friction_adjoint(stage, way).gradient
     C, E_inf = scale.stiffness * PLANE_STRAIN * spectrum.C, scale.stiffness * PLANE_STRAIN / spectrum.E_inf
     gradient = scale.slope * np.concatenate(

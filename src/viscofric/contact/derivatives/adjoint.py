@@ -23,13 +23,13 @@ Everything here is in the units of the problem.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.free.balance import free_gap, lag, lag_changes, neighbours
-from viscofric.contact.free.estimates import friction_estimate
+from viscofric.contact.free.estimates import Way, friction_way
 from viscofric.contact.influence.moments import correlation, memory_moments
 from viscofric.contact.operators.convolution import bent_share, both_halves, is_even, upper_half
 from viscofric.errors import ConvergenceError
@@ -41,8 +41,6 @@ if TYPE_CHECKING:
     from viscofric.contact.free.stage import Stage
     from viscofric.contact.operators.convolution import ConvolutionOperator
 
-
-Way: TypeAlias = Literal["pressure", "balance"]
 
 # Residual of the adjoint problem, relative to its right-hand side, and how often it is computed again.
 _TOLERANCE = 1e-8
@@ -77,16 +75,14 @@ class Adjoint(NamedTuple):
     by_load: float  # change with the logarithm of the load; zero where the indentation is given
 
 
-def friction_way(stages: list[Stage]) -> Way:
+def differentiated(stages: list[Stage]) -> Way:
     """Return which expression of the friction coefficient is to be differentiated, for nested grids, coarsest first.
 
     That which `viscofric.contact.free.estimates` uses.  Where the gap is evaluated behind the cell centres it is the
     asymmetry of the pressure: for a layer at the leading edge that is thinner than a cell, the balance has its value
     right, by its last share Λ r, but not the change of that share.
     """
-    fine = stages[-1]
-    from_pressure = fine.operator.shift > 0.0 or friction_estimate(stages).value == fine.pressure_friction
-    return "pressure" if from_pressure else "balance"
+    return "pressure" if stages[-1].operator.shift > 0.0 else friction_way(stages)
 
 
 def friction_adjoint(stage: Stage, way: Way) -> Adjoint:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.derivatives.adjoint import Way, friction_way
+from viscofric.contact.derivatives.adjoint import differentiated
 from viscofric.contact.derivatives.moving_cells import Motion, friction_gradient
 from viscofric.datasets import dataset
 from viscofric.showing import Plotted
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array
     from viscofric.contact.derivatives.adjoint import Gradient
+    from viscofric.contact.free.estimates import Way
     from viscofric.contact.free.scale import Scale
     from viscofric.contact.free.stage import Stage
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -139,7 +140,7 @@ def differentiate(
     neither zero nor infinite.  Without `with_error`, the error is infinite, and one adjoint solve on the last grid
     suffices.  Raises ConvergenceError if an adjoint problem is not solved.
     """
-    way, last_grids = friction_way(stages), stages[-3:]
+    way, last_grids = differentiated(stages), stages[-3:]
     motion = Motion.of(last_grids[0])
     grids = last_grids if with_error else last_grids[-1:]
     found = [

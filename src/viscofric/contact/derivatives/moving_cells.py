@@ -27,7 +27,8 @@ from viscofric.contact.free.balance import lag
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.contact.derivatives.adjoint import Gradient, Way
+    from viscofric.contact.derivatives.adjoint import Gradient
+    from viscofric.contact.free.estimates import Way
     from viscofric.contact.free.stage import Stage
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array, Mask
     from viscofric.contact.free.stage import Stage
 
+#: Expression of the friction coefficient: the asymmetry of the pressure, or the balanced energy.
+Way = Literal["pressure", "balance"]
 
 FEWEST_GRIDS = 3  # one change alone may be small by chance
 #: Friction is resolved relative to its own value, but not below this fraction of a0/R.
@@ -29,6 +31,11 @@ _FADING, _SLOW_FADING = 0.45, 0.6
 # third: so much of a change is left of a sequence that falls with the second power of the cell.
 _MEASURED_CHANGES, _PRIOR, _LEAST_FADING = 5, 2.0, 1.0 / 3.0
 
+# The error of the friction of point contacts falls with the square of the cell, in the mean: a third of the last change
+# is left.  The limit of so many grids or more is used; its error is taken as a part of its own last changes, which fall
+# by the factor at the least, and as no less than a part of the error without it.
+_LIMIT_GRIDS, _REMAINDER, _LIMIT_SHARE, _LIMIT_FADING, LEAST_SHARE = 4, 1.0 / 3.0, 0.5, 0.3, 0.1
+
 # Least errors, as parts of the difference between friction from the balanced energy and friction from the pressure: of
 # the former, and of the latter.
 _SHARES = (0.0, 0.5)
@@ -42,8 +49,8 @@ _SHEARED_SHARES, _SHEARED = (1.0, 0.1), 1.0 / 3.0
 # not explain it.  With these numbers the closed form of the line contact lies within the error on all but one of 700
 # grids, at E∞/E0 from 1.1 to 1e4 and v τ/a0 from 1e-6 to 1e6.
 _UNEXPLAINED_SHARE, _PRESSURE_FACTOR = 0.5, 3.0
-# Factor by which the error of friction from the pressure falls per halving of the cells.
-_PRESSURE_ERROR_FALL = 5.0
+# Factors by which the errors of friction from the pressure and of its limit fall per halving of the cells.
+_PRESSURE_ERROR_FALL, _LIMIT_ERROR_FALL = 5.0, 8.0
 
 # The largest pressure is resolved at least this far from the edge (in cells) and with a change of at most this.
 _RESOLVED_CELLS = 3
@@ -72,27 +79,63 @@ def friction_estimate(stages: list[Stage]) -> Estimate:
     """Return the friction coefficient from the quantity that has converged best on the nested grids.
 
     The asymmetry of the pressure converges fastest where the layer at the leading edge is thinner than a cell; the
-    dissipated energy, with what cells leave out of it, nearly everywhere else.
+    dissipated energy, with what cells leave out of it, nearly everywhere else; and the limits of both on four grids or
+    more (see `_limit`) wherever they agree.
     """
+    return _best(stages)[1]
+
+
+def friction_way(stages: list[Stage]) -> Way:
+    """Return which expression `friction_estimate` uses, itself or its limit."""
+    return _best(stages)[0]
+
+
+def _best(stages: list[Stage]) -> tuple[Way, Estimate]:
+    """Return the friction coefficient, and which expression it is of."""
     last = stages[-1]
     if len(stages) < FEWEST_GRIDS:
-        return Estimate(last.energy_friction, math.inf)
+        return "balance", Estimate(last.energy_friction, math.inf)
     if len(last.operator.material.compliances) == 0 and last.operator.material.drag == 0.0:
-        return Estimate(
-            0.0, 0.0
-        )  # an elastic contact dissipates nothing, even if its pressure is asymmetric on the grid
+        # An elastic contact dissipates nothing, even if its pressure is asymmetric on the grid.
+        return "balance", Estimate(0.0, 0.0)
     energy = np.array([stage.energy_friction for stage in stages])
     pressure = np.array([stage.pressure_friction for stage in stages])
     difference = abs(float(pressure[-1] - energy[-1]))
     shares = np.array(_SHIFTED_SHARES if last.operator.shift > 0.0 else _SHARES)
     sheared = min(1.0, abs(last.operator.material.edge_coupling) / _SHEARED)
     shares += sheared * (_SHEARED_SHARES - shares)
-    balanced = settled(energy, measured_fading(energy)).at_least(max(_uncertainty(stages), shares[0] * difference))
+    uncertain = _uncertainty(stages)
+    balanced = settled(energy, measured_fading(energy)).at_least(max(uncertain, shares[0] * difference))
     direct = settled(pressure, measured_fading(pressure)).at_least(shares[1] * difference)
-    best = min(balanced, direct, key=lambda candidate: candidate.error)
+    candidates: list[tuple[Way, Estimate]] = [("balance", balanced), ("pressure", direct)]
+    if len(stages) >= _LIMIT_GRIDS and _has_limit(last):
+        limits = _limit(energy).at_least(uncertain), _limit(pressure)
+        apart = abs(limits[0].value - limits[1].value)
+        candidates += [("balance", limits[0].at_least(apart)), ("pressure", limits[1].at_least(apart))]
+    way, best = min(candidates, key=lambda candidate: candidate[1].error)
     unexplained = difference - balanced.error - _PRESSURE_FACTOR * direct.error  # counts against either
     error = max(best.error, _UNEXPLAINED_SHARE * unexplained)
-    return Estimate(best.value, last.problem.geometry.scatter * error)
+    return way, Estimate(best.value, last.problem.geometry.scatter * error)
+
+
+def _has_limit(stage: Stage) -> bool:
+    """Whether friction falls smoothly enough with the cell for its limit to be known better than any of its values.
+
+    The two edges of a strip have random places within their cells, which the rim of a point contact averages; behind
+    the cell centres and under shear the friction falls with other powers of the cell.
+    """
+    operator = stage.operator
+    return stage.problem.geometry.dimension > 1 and operator.shift == 0.0 and operator.material.edge_coupling == 0.0
+
+
+def _limit(values: Array) -> Estimate:
+    """Return the limit of values on four or more nested grids, coarsest first, that fall with the square of the cell.
+
+    L. F. Richardson, Phil. Trans. R. Soc. A 210 (1911) 307, doi:10.1098/rsta.1911.0009.
+    """
+    limits = values[1:] + _REMAINDER * np.diff(values)
+    error = _LIMIT_SHARE * settled(limits, _LIMIT_FADING).error
+    return Estimate(float(limits[-1]), error).at_least(LEAST_SHARE * settled(values, measured_fading(values)).error)
 
 
 def _uncertainty(stages: list[Stage]) -> float:
@@ -111,12 +154,15 @@ def least_error(stages: list[Stage], halvings: int) -> float:
 
     That of the balanced energy is at least the uncertainty of the energy that cells leave out, which is known
     beforehand: the gap beside the contact opens in proportion to the cell.  That from the pressure falls with the
-    square of the cell, or a little faster by chance.
+    square of the cell, that of its limit with the third power, or a little faster by chance.
     """
     last = stages[-1]
     uncertain = last.left_out_range(last.window.spacing / 2.0**halvings) / 2.0**halvings
     values = np.array([stage.pressure_friction for stage in stages])
     pressure = settled(values, measured_fading(values)).error / _PRESSURE_ERROR_FALL**halvings
+    if _has_limit(last):
+        known = _limit(values).error if len(stages) >= _LIMIT_GRIDS else math.inf
+        pressure = min(pressure * (LEAST_SHARE if math.isinf(known) else 1.0), known / _LIMIT_ERROR_FALL**halvings)
     scale = max(abs(last.energy_friction), FRICTION_FLOOR)
     return last.problem.geometry.scatter * min(uncertain, pressure) / scale
 

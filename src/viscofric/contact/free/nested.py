@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arguments import check_cost
-from viscofric.contact.free.estimates import FEWEST_GRIDS, friction_estimate, least_error
+from viscofric.contact.free.estimates import FEWEST_GRIDS, LEAST_SHARE, friction_estimate, least_error
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.free.proximal import proximal_points
 from viscofric.contact.free.stage import Stage
@@ -141,11 +141,12 @@ class _Goal:
     def _expected_error(self, halvings: int) -> float:
         """Return an optimistic error after a number of further halvings of the cells.
 
-        It falls half as much again as at best in the last two steps.
+        It falls half as much again as at best in the last two steps, and on the fourth grid to what a limit has.
         """
         falls = [before / after for before, after in pairwise(self.errors[-3:])]
         fall = _FALL if len(falls) < 2 else min(_FALL, max(_LEAST_FALL, 1.5 * max(falls)))
-        return float(self.errors[-1] / fall**halvings)
+        share = LEAST_SHARE if len(self.errors) == 1 else 1.0
+        return float(share * self.errors[-1] / fall**halvings)
 
 
 def _start(found: Stage, given: GivenGrid) -> Stage:
