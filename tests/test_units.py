@@ -153,8 +153,9 @@ def test_positive_insists():
 
 
 def test_the_hint_to_write_degrees_comes_with_small_numbers_only():
-    assert kelvin_hint(300.0) == ""
-    assert "write '60 degC'" in kelvin_hint(60.0)
+    assert kelvin_hint(300.0).python == "."
+    assert "write '60 degC'" in kelvin_hint(60.0).python
+    assert kelvin_hint(60.0).shell == kelvin_hint(60.0).page == "."  # texts have their unit there
 
 
 @pytest.mark.parametrize(

@@ -86,6 +86,10 @@ class Stepped:
         """Return this: there is one temperature."""
         return self
 
+    def notes_at(self, temperature: float | None) -> tuple[()]:
+        """Return no note: there is one temperature."""
+        return ()
+
     def compliance(self, angular_frequency: ArrayLike) -> NDArray[np.complex128]:
         """S with iω replaced by (1 − exp(−iωΔt))/Δt."""
         spectrum = self.rubber.spectrum

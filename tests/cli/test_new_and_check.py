@@ -103,7 +103,7 @@ def test_check_says_how_much_is_asked_for(tmp_path: Path) -> None:
     assert found["cases"] == 744
     assert f"cases      {found['cases']} = " in result.stdout
     assert {"csv", "excel"} < set(found["outputs"])
-    assert [one["synthetic"] for one in found["materials"]] == [True, False]
+    assert [one["synthetic"] for one in found["materials"]] == [True, True]  # the catalogue and the file say so
     assert "Note: " in result.stderr
     # Three balls under one nominal pressure are three of one family: a curve for each rubber, far fewer than its cases.
     assert 10 < found["expected"]["solves"] < 200

@@ -168,7 +168,7 @@ def test_predicted_friction_has_hysteresis_and_interface():
     relative = np.hypot(0.05, alone.diagnostics.contact_area_error / alone.contact_area / 1.95996)
     assert both.coulomb_error[0] == pytest.approx(relative * both.coulomb[0])
     assert both.total_error[0] == pytest.approx(np.hypot(both.coulomb_error[0], both.viscoelastic_error[0]))
-    assert {note.code for note in both.notes} == {"interface-law", "interface-share"}
+    assert {note.code for note in both.notes} == {"interface-law", "interface-share", "frequencies-unknown"}
 
 
 def test_the_interface_slips_at_its_own_speed_and_says_where_it_is_extrapolated():

@@ -348,7 +348,7 @@ def test_polystyrene_superposes_and_flows(real_data):
         response_unit="1/Pa",
     )
     assert [len(one) for one in creep.tests] == [6981, 3599, 3599, 3598]
-    assert codes(creep.notes) == {"time-without-unit", "repeats-averaged"}
+    assert codes(creep.notes) == {"time-without-unit", "repeats-averaged", "temperature-given"}
     fit = vf.superpose(creep, "160 degC")
     assert fit.check.holds
     assert fit.quality.joint < 0.02  # decades
