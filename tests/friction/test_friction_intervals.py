@@ -195,6 +195,10 @@ def test_errors_of_one_reading_of_each_configuration_are_noted() -> None:
 
     assert noted(1)
     assert not noted(2)
+    two = traction_runs(viscoelastic=lambda v, T: 0.02, noise=0.01, replicates=1, configurations=FOUR[2:])
+    curves = separate(replace(two, zero_force=np.full(len(two), 0.3)))  # as many unknowns: nothing is left over
+    assert np.all(np.isinf(curves.viscoelastic_error))
+    assert "errors-from-left-over" not in codes(curves.notes)
 
 
 @pytest.mark.slow

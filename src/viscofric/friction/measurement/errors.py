@@ -82,7 +82,8 @@ class BetweenRuns:
         unrepeated = [place for place, number in found if number == _VISCOELASTIC]
         # Exact forces, such as made ones, leave a residual of their rounding.
         rounding = [ROUNDING * np.abs(fit.mean(weights) / [fit.group.load, 1.0, 1.0, 1.0]).sum() for fit in fits]
-        left_over = np.sqrt(variance[:, _VISCOELASTIC]) > rounding
+        error = np.sqrt(variance[:, _VISCOELASTIC])
+        left_over = np.isfinite(error) & (error > rounding)
         once = [place for place, fit in enumerate(fits) if _measured_once(fit) and left_over[place]]
         once = [place for place in once if place not in unrepeated]
         notes = [
