@@ -368,6 +368,22 @@ def test_four_configurations_follow_recorded_zeros_that_the_forces_follow() -> N
     np.testing.assert_array_equal(noisy.viscoelastic, separate(runs).viscoelastic)
 
 
+@pytest.mark.parametrize("replicates", [1, 3])
+@pytest.mark.parametrize("timed", [True, False])
+def test_a_drift_that_recorded_zeros_followed_is_no_drift_of_the_conditions(replicates: int, timed: bool) -> None:
+    """Zeros of conditions one after the other differ by what was recorded, which is taken out already."""
+    speeds = np.geomspace(0.02, 0.2, 6)
+    runs = traction_runs(viscoelastic=lambda v, T: 0.03, replicates=replicates, noise=0.005, speeds=speeds)
+    time = 10.0 * np.arange(len(runs))
+    zero = 0.3 + 2e-3 * time + np.random.default_rng(0).normal(0.0, 0.02, len(runs))
+    drifting = replace(runs, traction_force=runs.traction_force + zero - 0.3, zero_force=zero)
+    curves = separate(replace(drifting, time=time) if timed else drifting)
+    assert "zero-unsteady" in codes(curves.notes)
+    assert not codes(curves.notes) & {"zero-drifts", "zero-wanders"}
+    # 4 readings of 5 mN: 1e-4 of 25 N, four of them.  Between the directions the drift of 20 s is half of 0.04 N, 8e-4.
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=4e-4)
+
+
 def _one_after_the_other(runs: TractionRuns, seconds: float) -> TractionRuns:
     """Order the readings as series: replicate by replicate, in each all conditions of one configuration first."""
     rows = rows_of(runs)

@@ -70,6 +70,7 @@ class Drift:
         # which zeros may differ without any drift.
         fitted = [fit for fit in fits if fit.fits_offset]
         follows = _follows(fitted)
+        fitted = [fit for fit in fitted if np.isfinite(fit.recorded)] if follows else fitted
         uncorrected = cls(follows=follows).weights
         timed = [fit for fit in fitted if np.isfinite(fit.time)]
         repeated = [fit for fit in timed if len(fit.each) > 1]

@@ -159,6 +159,7 @@ class Fit:
     # they are fitted together), of the force and of its corrections
     each: Array
     time: float  # mean time of the readings, s; NaN where it was not recorded
+    recorded: float  # mean of the recorded zero, N; NaN where it is not known
     replicates: int
     together: bool
     fits_offset: bool
@@ -231,6 +232,7 @@ class Fit:
             group=group,
             each=each,
             time=float(_times(runs, group).mean()),
+            recorded=zeros.mean(group),
             replicates=count,
             together=not complete,
             fits_offset=offset,
@@ -253,8 +255,9 @@ class Fit:
         )
 
     def offset(self, weights: Array) -> Array:
-        """Zero of each replicate, N."""
-        return np.asarray(self.each[:, _OFFSET] @ weights)
+        """Zero of each replicate, N; above the recorded one where its changes are followed."""
+        zero = np.asarray(self.each[:, _OFFSET] @ weights)
+        return zero - weights[ZERO_CHANGES] * self.recorded if weights[ZERO_CHANGES] else zero
 
     @property
     def assumes(self) -> bool:
