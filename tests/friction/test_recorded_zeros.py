@@ -466,6 +466,16 @@ def test_wear_is_found_from_replicates_made_at_once() -> None:
     assert note.values["rate"] == pytest.approx(1.0 / 1.5 / 710.0, abs=4 * 2.3e-5)
 
 
+def test_higher_friction_in_the_first_replicate_of_each_configuration_is_no_wear() -> None:
+    """As by running in: taken for wear between configurations, it moved viscoelastic friction by 0.004."""
+    rows = rows_of(_worn(0.0, 1, replicates=3, noise=0.01, speeds=np.geomspace(0.02, 0.2, 6), temperatures=[303.0]))
+    rows[:, 2] += 0.1 * 0.05 * rows[:, 3] * np.sign(rows[:, 0] - rows[:, 1]) * (rows[:, 5] == 1)
+    curves = separate(replace(runs_from(rows), time=10.0 * np.arange(len(rows))))
+    assert "coulomb-drifts" not in codes(curves.notes)
+    # 12 readings of 0.01 N: 1.2e-4 of 25 N, four of them.
+    np.testing.assert_allclose(curves.viscoelastic, 0.03, atol=5e-4)
+
+
 @given(rate=st.floats(-1e-2, 1e-2), replicates=st.integers(3, 5), seed=st.integers(0, 1000))
 @settings(deadline=None, max_examples=20, derandomize=True)
 def test_an_even_drift_of_the_zero_is_taken_out(rate: float, replicates: int, seed: int) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -204,19 +205,37 @@ def _of_coulomb(fits: list[Fit], weights: Array) -> Rate:
     """Return the rate of Coulomb friction over its mean, by lines of one slope."""
     # A run over all speeds is one point, since its speeds may differ alike from those of other runs. Where the
     # replicates of a condition follow each other at once, there are no such runs, and each condition has its own line.
+    # What changes alike at all conditions, such as higher friction in the first replicate of each configuration, is no
+    # wear: the residuals of the configurations do not have its changes from one configuration to the next.
     alike: dict[tuple[float, int], list[Array]] = defaultdict(list)
+    residuals: list[Array] = []
     for fit in fits:
         each, mean = fit.each[:, 2] @ weights, fit.mean(weights)[2]
         if fit.paired and fit.slides and fit.coulomb is None and np.isfinite(fit.time) and np.all(each > 0.0):
             alike[fit.group.temperature, len(each)].append(
                 np.stack([each, fit.time * mean - fit.each[:, 2, WEAR]]) / mean
             )
+            if fit.checks:
+                residuals.append(np.stack([fit.each[:, 3] @ weights, fit.each[:, 3, WEAR]]))
     points: list[Array] = []
     for several in alike.values():
         ends = np.array([one[1][[0, -1]] for one in sorted(several, key=lambda one: one[1].min())])
         at_once = np.all(ends.min(axis=1)[1:] > ends.max(axis=1)[:-1])
         points += several if at_once else [np.mean(several, axis=0)]
-    return _Line.of([tuple(one) for one in points], np.arange(len(points))).rate(ROUNDING) if points else _NONE
+    rate = _Line.of([tuple(one) for one in points], np.arange(len(points))).rate(ROUNDING) if points else _NONE
+    return _NONE if rate.value and residuals and _contradict(np.concatenate(residuals, axis=1), rate) else rate
+
+
+def _contradict(residuals: Array, rate: Rate) -> bool:
+    """Whether residuals and their corrections per unit of a rate (2, n) are those of another rate."""
+    residual, correction = residuals
+    if np.abs(rate.value * correction).max() <= ROUNDING:
+        return False
+    squares, freedom = float(correction @ correction), residual.size - 1
+    other = -float(residual @ correction) / squares
+    error = float(np.sqrt(np.sum((residual + other * correction) ** 2) / freedom / squares))
+    chance = threshold(min(freedom, rate.freedom), CHANCE) * math.hypot(error, rate.error)
+    return abs(rate.value - other) > chance + ROUNDING * abs(rate.value)
 
 
 def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:
