@@ -128,6 +128,11 @@ def test_what_the_speeds_of_a_temperature_share_counts_once_for_each_temperature
     by_master = compare(master, vf.shift_friction(predicted, shift=vf.WLF(10.0, 100.0, 303.15)))
     # the smoothed prediction has 1e-5 of its own
     assert by_master.bias_error == pytest.approx(shared.bias_error, rel=1e-2)
+    exact = replace(measured, viscoelastic_error=np.full(18, 2e-4))  # 1 %, less than is shared, as by the force cell
+    beside = compare(
+        vf.shift_friction(exact, shift=master.shift, level_error=0.04), vf.shift_friction(predicted, shift=master.shift)
+    )
+    assert beside.bias_error == pytest.approx(0.04 / np.sqrt(2.0), rel=1e-2)
 
 
 def test_the_bias_scatters_as_its_standard_error_says() -> None:

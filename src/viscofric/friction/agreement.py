@@ -59,8 +59,8 @@ class Agreement(Plotted):
     bias_error : float
         Standard error of `bias`; s and e are taken as independent from point to point, m as one error of all points,
         the least favourable case, and so is s where Coulomb friction is assumed.  Infinite if any s is.  The part of s
-        that the speeds of a temperature share, as `separate` notes or a master curve holds (``level_error``), is one
-        error of each temperature.
+        that the speeds of a temperature share, as `separate` notes it, is one error of each temperature, and so is the
+        ``level_error`` of a measured master curve, of which s may hold only a part.
     bias_error_at : (k,) array
     share_within_scatter : float or None
         Share of the points where predicted and measured differ by at most the standard deviation over the measured
@@ -230,13 +230,11 @@ def compare(
             code="one-master-curve",
         )
     if isinstance(measured, FrictionMasterCurve) and isinstance(predicted, FrictionMasterCurve):
-        points = measured.curves
-        level = max(measured.level_error, shared_level(points))
+        points, level = measured.curves, measured.level_error
         _insist_on_friction(points)
         pairs = along_reduced_speed(measured, predicted)
     else:
-        points = insist_on_curves(measured, "measured")
-        level = shared_level(points)
+        points, level = insist_on_curves(measured, "measured"), 0.0
         _insist_on_friction(points)
         pairs = point_by_point(points, insist_on_curves(predicted, "predicted"))
     return _agreement(pairs, level, shifted, len(points) - len(pairs.measured))
@@ -258,8 +256,9 @@ def _agreement(pairs: Pairs, level: float, shifted: bool, not_covered: int) -> A
     measured = pairs.measured
     difference = pairs.predicted - measured.viscoelastic
     relative = difference / measured.viscoelastic
-    shared = np.minimum(level * np.abs(measured.viscoelastic), measured.viscoelastic_error)
-    own = np.sqrt(measured.viscoelastic_error**2 - shared**2 + pairs.numerical_error**2)
+    size, error = np.abs(measured.viscoelastic), measured.viscoelastic_error
+    shared = np.maximum(level * size, np.minimum(shared_level(measured) * size, error))
+    own = np.sqrt(np.maximum(error**2 - shared**2, 0.0) + pairs.numerical_error**2)
     material = np.zeros(len(measured)) if pairs.material_error is None else pairs.material_error
     likely = half_widths(measured.viscoelastic_error, error_freedom(measured)[0], WITHIN)
     rest = 2.0 * np.hypot(pairs.numerical_error, material)
