@@ -201,6 +201,15 @@ def test_errors_of_one_reading_of_each_configuration_are_noted() -> None:
     assert "errors-from-left-over" not in codes(curves.notes)
 
 
+@pytest.mark.parametrize("seed", [10, 15, 37])
+def test_residuals_that_speeds_share_are_one_residual(seed: int) -> None:
+    """Runs differ by 4 % at all ten speeds alike, and so do their residuals: ten of 1.5 errors are no ten of them."""
+    speeds = np.geomspace(0.02, 0.2, 10)
+    curves = separate(timed_sweeps(speeds, variation=0.04, runs=5, readings=1, noise=0.003, seed=seed))
+    assert "errors-shared-by-speeds" in codes(curves.notes)
+    assert "residual-in-errors" not in codes(curves.notes)
+
+
 @pytest.mark.slow
 def test_what_configurations_leave_over_is_in_the_errors_where_runs_are_not_repeated() -> None:
     """One run of each configuration, which differ by 4 %: the readings alone say a tenth of it."""

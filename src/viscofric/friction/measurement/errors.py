@@ -60,11 +60,13 @@ class BetweenRuns:
             if sizes[place] > 0.0:
                 alike[fit.paired, fit.by_steps, fit.fits_offset, fit.slides, fit.coulomb is None].append(place)
         common: dict[int, float] = {}
+        shared = False  # whether the speeds of a run share a part of their residuals
         for places in alike.values():
             isotherms = np.array([fits[place].group.temperature for place in places])
             for number in (_VISCOELASTIC, _COULOMB, _CONSISTENCY):
                 some = [scatters[place][number] for place in places]
                 pool = Pool.of(some, sizes[places], isotherms)
+                shared |= number == _CONSISTENCY and pool.common > 0.0
                 for place, one in zip(places, some, strict=True):
                     if number == _VISCOELASTIC and pool.common:
                         level = sizes[place] * np.sqrt(one.factor * pool.common)
@@ -78,7 +80,7 @@ class BetweenRuns:
         found, autocorrelation = of_readings(fits, weights, lacking)
         for at, (some_variance, some_freedom) in found.items():
             variance[at], freedom[at] = some_variance, some_freedom
-        residual = _with_residual(fits, weights, variance, freedom)
+        residual = _with_residual(fits, weights, variance, freedom, shared)
         unrepeated = [place for place, number in found if number == _VISCOELASTIC]
         # Exact forces, such as made ones, leave a residual of their rounding.
         rounding = [ROUNDING * np.abs(fit.mean(weights) / [fit.group.load, 1.0, 1.0, 1.0]).sum() for fit in fits]
@@ -148,7 +150,7 @@ def _common(between: Array, within: Array, speeds: float) -> float:
     return float((large - small) / speeds)
 
 
-def _with_residual(fits: list[Fit], weights: Array, variance: Array, freedom: Array) -> list[int]:
+def _with_residual(fits: list[Fit], weights: Array, variance: Array, freedom: Array, shared: bool) -> list[int]:
     """Add the expected squares of what residuals of the configurations have beyond scatter; return where there are any.
 
     `variance` and `freedom` (k, 4) are changed.
@@ -157,8 +159,8 @@ def _with_residual(fits: list[Fit], weights: Array, variance: Array, freedom: Ar
     # the residual: half of it for even wear in the order of the paper. Replicates measured in one go share it, and do
     # not show it in their scatter. It is taken to be normal with a variance that is a part of that of the scatter, the
     # same at all conditions, and zero unless the residuals are larger than by chance. Their errors, of few degrees of
-    # freedom each, are independent, unless they are those of all conditions together. Degrees of freedom of the sums
-    # are those after Welch and Satterthwaite, infinite for the residual.
+    # freedom each, are independent, unless they are those of all conditions together, or speeds share them, which are
+    # then one. Degrees of freedom of the sums are those after Welch and Satterthwaite, infinite for the residual.
     from scipy.special import chdtrc, fdtrc, ndtri, stdtr
 
     known = np.all((variance[:, 1:] > 0.0) & np.isfinite(variance[:, 1:]), axis=1)
@@ -170,8 +172,9 @@ def _with_residual(fits: list[Fit], weights: Array, variance: Array, freedom: Ar
         return []
     behind = freedom[some, _CONSISTENCY]
     ratio = float(np.mean(squares / own))
-    by_chance = float(fdtrc(len(some), behind.min(), ratio))
-    if all(fits[place].replicates > _ENOUGH for place in some):
+    independent = len({fits[place].group.temperature for place in some}) if shared else len(some)
+    by_chance = float(fdtrc(independent, behind.min(), ratio))
+    if not shared and all(fits[place].replicates > _ENOUGH for place in some):
         # As normal deviates; the tails of Student's distribution would count those far off for too much.
         normal = ndtri(np.maximum(stdtr(behind, -np.sqrt(squares / own)), np.finfo(float).tiny))
         by_chance = float(chdtrc(len(some), np.sum(normal**2)))
