@@ -201,7 +201,7 @@ def test_the_synthetic_fluoroelastomer_survives_every_program(tmp_path):
 
 def test_how_a_spectrum_was_fitted_is_kept(tmp_path):
     series = prony(5).to_retardation()
-    fit = SpectrumFit(0.01, 0.02, True, False, (1e-3, 1e5), ("E0 is extrapolated.",))
+    fit = SpectrumFit(0.01, 0.02, True, False, (1e-3, 1e5), ("E0 is extrapolated.",), gaps=((1.0, 20.0), (1e2, 2e3)))
     material = Material(RetardationSpectrum(series.E0, series.E_inf, series.C, series.tau, fit), None, 0.45)
     for program in FORMATS:
         assert read_card(write_card(material, tmp_path / "card", program, density=1e3)).spectrum.fit == fit
@@ -382,10 +382,10 @@ def changed(tmp_path, change):
         (lambda one: one.update(version=2), ("newer-version",)),
         (lambda one: one.update(format="other"), ("not-a-material",)),
         (lambda one: one.update(colour="black"), ("unknown-field",)),
-        (lambda one: one.pop("spectrum"), ("wrong-choice",)),
+        (lambda one: one.pop("spectrum"), ("wrong-choice", "spectrum")),
         (lambda one: one["spectrum"].pop("tau"), ("missing-fields",)),
         (lambda one: one["spectrum"].update(E0="soft"), ("no-number",)),
-        (lambda one: one["shift"].update(kind="Path"), ("wrong-choice",)),
+        (lambda one: one["shift"].update(kind="Path"), ("wrong-choice", "shift", "Path")),
         (lambda one: one["shift"].update(C3=1.0), ("unknown-field",)),
         (lambda one: one["shift"].pop("C1"), ("missing-fields",)),
         (lambda one: one.update(poisson_ratio=0.9), ("poisson-ratio", "0.5")),

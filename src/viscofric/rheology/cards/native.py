@@ -55,14 +55,14 @@ def plain(value: Any) -> Any:
     raise InputError(f"a material file cannot hold a {type(value).__name__}.", code="wrong-type")
 
 
-def restored(value: Any, allowed: tuple[type, ...]) -> Any:
+def restored(value: Any, allowed: tuple[type, ...], field: str) -> Any:
     """Return the object that `plain` made; InputError if its kind is not `allowed`, or a field of it is unknown."""
     if value is None:
         return None
     names = [one.__name__ for one in allowed]
     kind = value.get("kind") if isinstance(value, dict) else None
     if kind not in names:
-        raise wrong_argument("kind", kind, f"must be one of {', '.join(names)}.", "wrong-choice")
+        raise wrong_argument(f"kind of {field}", kind, f"must be one of {', '.join(names)}.", "wrong-choice")
     one = _kinds()[kind]
     arguments = {name: content for name, content in value.items() if name != "kind"}
     unknown = sorted(set(arguments) - set(inspect.signature(one).parameters))
@@ -71,9 +71,8 @@ def restored(value: Any, allowed: tuple[type, ...]) -> Any:
             f"{kind} has no {', '.join(unknown)}; the file may be of a newer version of viscofric.",
             code="unknown-field",
         )
-    arguments = {name: tuple(content) if _is_row(content) else content for name, content in arguments.items()}
     try:
-        return one(**arguments)
+        return one(**{name: _rows(content) for name, content in arguments.items()})
     except InputError:
         raise
     except (TypeError, ValueError) as error:
@@ -82,14 +81,14 @@ def restored(value: Any, allowed: tuple[type, ...]) -> Any:
         ) from None
 
 
-def _is_row(content: Any) -> bool:
-    """Return whether a value is a row (a tuple of texts or numbers), not a matrix."""
-    return isinstance(content, list) and not any(isinstance(one, list) for one in content)
+def _rows(content: Any) -> Any:
+    """Return lists as tuples, also those in lists."""
+    return tuple(map(_rows, content)) if isinstance(content, list) else content
 
 
 def shift_of(value: Any) -> Any:
     """Return a shift law or table from `plain`."""
-    return restored(value, _SHIFTS)
+    return restored(value, _SHIFTS, "shift")
 
 
 def about(material: Material) -> dict[str, Any]:
@@ -111,14 +110,14 @@ def about(material: Material) -> dict[str, Any]:
 def assembled(spectrum: RetardationSpectrum | ModulusTable, about: dict[str, Any]) -> Material:
     """Return the material of a spectrum and of the values from `about`."""
     if about.get("fit") is not None and isinstance(spectrum, RetardationSpectrum):
-        fit = restored(about["fit"], (SpectrumFit,))
+        fit = restored(about["fit"], (SpectrumFit,), "fit")
         spectrum = RetardationSpectrum(spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, fit)
     return Material(
         spectrum,
         shift_of(about.get("shift")),
         poisson_ratio=about.get("poisson_ratio", 0.5),
         name=str(about.get("name", "")),
-        vertical_shift=restored(about.get("vertical_shift"), _VERTICAL),
+        vertical_shift=restored(about.get("vertical_shift"), _VERTICAL, "vertical_shift"),
         citation=str(about.get("citation", "")),
     )
 
@@ -163,7 +162,7 @@ def from_plain(content: Any) -> Material:
             code="unknown-field",
         )
     spectrum = content.get("spectrum")
-    return assembled(restored(spectrum if isinstance(spectrum, dict) else {}, _SPECTRA), content)
+    return assembled(restored(spectrum if isinstance(spectrum, dict) else {}, _SPECTRA, "spectrum"), content)
 
 
 NAME_JSON = "viscofric JSON"

@@ -54,7 +54,7 @@ def common_shifts(
     """Shift isotherms (ascending in temperature, two points or more each) onto one curve of log E' and of log E''."""
     # E' and E'' have equal weights; the covariance follows from the scatter of each. `joins` of each isotherm with the
     # next are the start of the search. Plateaus at the cold and the hot end, where the slope of the curves is noise,
-    # are left out of the fit; their shifts continue the trend of the others (`gauge.continued`). With vertical shifts
+    # are left out of the fit; their shifts continue the trend of the others (`continued`). With vertical shifts
     # they are kept, since plateaus determine these. Where neighbours disagree by many times the typical misfit,
     # superposition itself fails, and one flexible curve would hide that by moving them apart. There each side gets its
     # own curve, and the two are joined where the two neighbours overlap best, with that join's uncertainty. The same is

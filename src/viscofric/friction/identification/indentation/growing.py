@@ -77,7 +77,7 @@ class _Kernel(NamedTuple):
 
 
 class Functional:
-    """Response of a growing contact to compliances, by its Laplace transform along a contour (`step_misfit`)."""
+    """Response of a growing contact to compliances, by its Laplace transform along a contour (`spectra.misfit`)."""
 
     def __init__(self, contact: Growing, tau: Array) -> None:
         self.contact, self.tau = contact, tau
