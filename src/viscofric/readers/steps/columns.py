@@ -154,14 +154,11 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
             factor, offset = table.conversion(column, _SI[kind])
         return factor * table.numbers_or_missing(place) + offset, column.heading, lacks_unit
     stress, strain = table.place("stress"), table.place("strain")
-    if (stress is None) != (strain is None):
-        lacks, other = ("stress", "strain") if stress is None else ("strain", "stress")
-        problem = f"a column of {other}, but none of {lacks}, this one has {table.headings()}"
-        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, [lacks]), [lacks])
     if stress is None or strain is None:
-        raise table.refused(
-            "missing-columns", f"no column for the {_COLUMN[kind]}; {STEPS.example}, this one has {table.headings()}."
-        )
+        beside = ["stress"] if strain is not None else ["strain"] if stress is not None else []
+        missing = [_COLUMN[kind], *beside]
+        problem = f"no column for {' or '.join(missing)}; {STEPS.example}, this one has {table.headings()}"
+        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, missing[-1:]), missing)
     factor, _ = table.conversion(table.columns[stress], "Pa")
     column = table.columns[strain]
     fraction = STRAIN_FACTORS.get(column.unit.strip())
