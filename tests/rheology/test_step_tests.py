@@ -132,6 +132,20 @@ def test_spectra_come_back(kind, method, error):
     assert spectrum.fit.frequency_range == pytest.approx((1e-3, 1e5 if kind == "creep" else 1e4))
 
 
+@pytest.mark.parametrize(("kind", "reach"), [("creep", 0.1), ("relaxation", 0.01)])
+def test_times_far_apart_leave_a_gap_above_what_the_later_ones_determine(kind, reach):
+    # Processes faster than the later times have ended before these, as those faster than the first time.
+    time = np.concatenate([np.geomspace(1e-2, 3e-2, 5), np.geomspace(1.0, 1e4, 33)])
+    fit = vf.fit_retardation_spectrum(curve(rubber(), kind, time=time)).fit
+    ((first, last),) = fit.gaps
+    assert (first, last) == pytest.approx((reach / 1.0, 1.0 / 3e-2), rel=1e-12)
+    # The early times span half a decade, less than such a test needs beyond its longest time.
+    assert fit.frequency_range == pytest.approx((1e-4, last), rel=1e-12)
+    assert fit.covers([0.9 * first, 2.0 * first, last]).tolist() == [True, False, True]
+    whole = vf.fit_retardation_spectrum(curve(rubber(), kind, time=np.geomspace(1e-2, 1e4, 49))).fit
+    assert (whole.gaps, whole.frequency_range[1]) == ((), pytest.approx(reach / 1e-2, rel=1e-12))
+
+
 def test_a_flowing_creep_compliance_has_no_spectrum_for_contacts():
     flowing = curve(rubber(), "creep")
     liquid = vf.readers.StepMasterCurve(

@@ -13,9 +13,9 @@ from viscofric.arrays import Array
 from viscofric.data import MasterCurve
 from viscofric.errors import LiquidError
 from viscofric.notes import Note, note_of
-from viscofric.rheology.spectra.misfit import STIFFEST, Misfit, Modes, frequencies_of, rates_of
+from viscofric.rheology.spectra.misfit import STIFFEST, Misfit, Modes, frequencies_of, gaps_of
 from viscofric.rheology.spectra.mode_fits import nonnegative_modes
-from viscofric.rheology.spectra.quality import SpectrumFit, gaps_between
+from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.step_tests import StepMasterCurve
@@ -116,7 +116,7 @@ def judged(
         E0_missed=low.E0_missed,
         E_inf_missed=high.E_inf_missed,
         rms_step=first("rms_step"),
-        gaps=gaps_between(np.concatenate([rates_of(curve) for curve in curves])),
+        gaps=gaps_of(curves),
     )
     return replace(spectrum, fit=fit)
 

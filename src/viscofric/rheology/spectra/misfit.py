@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from viscofric.arrays import Array, ComplexArray, Mask
 from viscofric.data import MasterCurve
+from viscofric.rheology.spectra.quality import gaps_between
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.step_tests import StepMasterCurve
 
@@ -352,8 +353,24 @@ def rates_of(curve: MasterCurve | StepMasterCurve) -> Array:
 def frequencies_of(curve: MasterCurve | StepMasterCurve) -> tuple[float, float]:
     """Return the lowest and the highest angular frequency that a curve determines, rad/s."""
     rates = rates_of(curve)
-    reach = REACH[curve.kind] if isinstance(curve, StepMasterCurve) else 1.0
-    return float(rates[0]), max(float(reach * rates[-1]), float(rates[0]))
+    above = [last for _, last in gaps_between(rates)]
+    return float(rates[0]), max(_reach(curve) * float(rates[-1]), float(rates[0]), *above)
+
+
+def gaps_of(curves: Sequence[MasterCurve | StepMasterCurve]) -> tuple[tuple[float, float], ...]:
+    """Return the gaps, rad/s, between angular frequencies that curves at one temperature determine together."""
+    rates = [rates_of(curve) for curve in curves]
+    found, lowest = [], min(float(own[0]) for own in rates)
+    for first, last in gaps_between(np.concatenate(rates)):
+        below = [np.max(own[own <= first], initial=0.0) for own in rates]
+        ends = [_reach(curve) * float(end) for curve, end in zip(curves, below, strict=True)]
+        found.append((max(lowest, *ends), last))
+        lowest = last
+    return tuple(found)
+
+
+def _reach(curve: MasterCurve | StepMasterCurve) -> float:
+    return REACH[curve.kind] if isinstance(curve, StepMasterCurve) else 1.0
 
 
 def moduli_of(curve: MasterCurve | StepMasterCurve) -> Array:

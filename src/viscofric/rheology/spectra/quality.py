@@ -73,7 +73,8 @@ class SpectrumFit(Shown):
         spectrum was fitted to one.
     gaps : tuple of (float, float)
         Parts of `frequency_range`, wider than 1.1 decades, in which nothing was measured, rad/s: between isotherms that
-        do not overlap, joined by a given shift.  The spectrum interpolates there.
+        do not overlap, joined by a given shift.  The spectrum interpolates there.  Step tests before one count as
+        those at the upper end of `frequency_range`.
     """
 
     rms_storage: float | None
@@ -101,6 +102,7 @@ class SpectrumFit(Shown):
             ("of the loss modulus", self.rms_loss, "decades"),
             ("of step tests", self.rms_step, "decades"),
             ("measured", self.frequency_range, "rad/s"),
+            *(("not measured", gap, "rad/s") for gap in self.gaps),
             ("E0 extrapolated", self.E0_extrapolated),
             ("E_inf extrapolated", self.E_inf_extrapolated),
             ("notes", self.notes),

@@ -247,6 +247,7 @@ class MaterialSamples(Plotted, Items["Material"]):
         return (
             ("samples", len(self)),
             ("measured", self.frequency_range, "rad/s"),
+            *(("not measured", gap, "rad/s") for gap in self.gaps),
             ("E0", self.E0, "Pa"),
             ("E_inf", self.E_inf, "Pa"),
         )
