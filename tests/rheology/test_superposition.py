@@ -336,6 +336,8 @@ def test_too_little_to_superpose_is_refused():
     with refused("too-few-isotherms", SuperpositionError) as caught:
         vf.superpose(measured([20.0]), "20 degC")
     assert caught.value.note.remedy is not None  # one sweep is a master curve
+    with refused("too-few-isotherms", SuperpositionError):
+        vf.superpose(vf.IsothermalSweeps(()), "20 degC")
     with refused("too-few-frequencies", SuperpositionError):
         vf.superpose(measured([20.0, 30.0], points=1), "20 degC")
     with refused("poisson-ratio"):

@@ -191,7 +191,7 @@ def usable(isotherms: Sequence[Isotherm | StepTest]) -> None:
         raise SuperpositionError(
             f"{len(isotherms)} isotherm cannot be superposed; at least two are needed.",
             code="too-few-isotherms",
-            remedy=_ONE_SWEEP if isinstance(isotherms[0], Isotherm) else None,
+            remedy=_ONE_SWEEP if any(isinstance(one, Isotherm) for one in isotherms) else None,
         )
     for isotherm in isotherms:
         if len(isotherm) < 2:
