@@ -168,6 +168,14 @@ def test_a_known_modulus_is_the_same_from_a_material_and_from_its_samples() -> N
     assert np.linalg.norm(whitening @ np.tile([0.05, -0.05], 9)) > 10.0
     _, alone = known_part(RUBBER, (0.1, 10.0), 0.02, 300.0)
     np.testing.assert_allclose(alone, np.eye(18) / 0.02)
+    # In a gap of the measurement they are known from no measurement.
+    gaps = ((0.5, 5.0),)
+    fitted = replace(SPECTRUM, fit=vf.rheology.SpectrumFit(0.01, 0.01, False, False, (0.1, 10.0), gaps=gaps))
+    for prior in (replace(samples, gaps=gaps), vf.Material(fitted, RUBBER.shift)):
+        (storage, _), whitening = known_part(prior, None, 0.02, 300.0)
+        known = np.exp(storage.log_frequency)
+        assert (len(known), whitening.shape) == (5, (10, 10))
+        assert not np.any((known > 0.5) & (known < 5.0))
 
 
 def test_evidence_of_a_linear_problem_is_its_marginal_likelihood() -> None:

@@ -13,6 +13,7 @@ from viscofric.data import MasterCurve
 from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.identification.anchors import ModulusAnchor
 from viscofric.rheology.material import Material
+from viscofric.rheology.spectra.quality import covers
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.units import Quantity
 from viscofric.units import angular_frequency as frequency_of
@@ -94,16 +95,19 @@ def known_part(prior: Known, band: tuple[Quantity, Quantity] | None, error: floa
     if isinstance(prior, Material):
         materials: tuple[Material, ...] = (prior,)
         fit = getattr(prior.at(), "fit", None)
-        own = None if fit is None else fit.frequency_range
+        own, gaps = (None, ()) if fit is None else (fit.frequency_range, fit.gaps)
     elif isinstance(prior, MaterialSamples):
         materials = prior.materials
-        own = prior.frequency_range
+        own, gaps = prior.frequency_range, prior.gaps
     else:
         kind = type(prior).__name__
         raise InputError(f"prior must be a Material, MaterialSamples or a MasterCurve, not {kind}.", code="wrong-type")
     low, high = _checked(own if band is None else band)
     count = max(2, round(PER_DECADE * np.log10(high / low)) + 1)
     frequency = np.geomspace(low, high, count)
+    if band is None:
+        frequency = frequency[covers((low, high), frequency, gaps)]
+        count = len(frequency)
     E = np.array([material.complex_modulus(frequency) for material in materials])
     rows = np.log(np.concatenate([E.real, E.imag], axis=1))
     if len(materials) > 1:

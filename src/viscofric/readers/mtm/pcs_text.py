@@ -183,7 +183,7 @@ def _kinds_of_rows(row: Integers, signal: Integers) -> Iterator[str]:
 
 
 def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
-    def told(off: Mask, code: str, what: str, used: str = "") -> Iterator[Note]:
+    def contradiction(off: Mask, code: str, what: str, used: str = "") -> Iterator[Note]:
         if off.any():
             values = {"rows": int(off.sum()), "first": rows.first(off)}
             said = f"In {values['rows']} rows the printed {what}, the first being {values['first']}{used}."
@@ -194,18 +194,18 @@ def _disagreements(rows: Rows, load: Array) -> Iterator[str]:
     two = np.isnan(third) & np.isnan(fourth)
     off = two & (np.abs(force - 0.5 * (first - second)) > _FORCE_AGREES)
     used = "; readings are those of TF1 and TF2"
-    yield from told(off, "force-contradicts", "Traction Force is not half of TF1 - TF2", used)
+    yield from contradiction(off, "force-contradicts", "Traction Force is not half of TF1 - TF2", used)
     loaded = np.where(load > 0.0, load, np.nan)
     allowed = _COEFFICIENT_AGREES + (_FORCE_AGREES + 1e-3 * np.abs(coefficient)) / loaded
     off = np.abs(np.abs(force) / loaded - coefficient) > allowed
-    yield from told(off, "coefficient-contradicts", "Traction Coeff is not the Traction Force over the load")
+    yield from contradiction(off, "coefficient-contradicts", "Traction Coeff is not the Traction Force over the load")
     disc = rows.stacked("disc speed 1", "disc speed 2")
     ball = rows.stacked("ball speed 1", "ball speed 2")
     slip = np.abs(disc - ball)
     slip = np.where(np.isnan(slip[1]), slip[0], np.abs(0.5 * (disc[0] - ball[0] - disc[1] + ball[1])))
     off = two & (np.abs(slip - np.abs(rows.columns["sliding speed"])) > _SPEED_AGREES + _SPEEDS_AGREE * np.abs(disc[0]))
     used = "; readings are those of disc and ball"
-    yield from told(
+    yield from contradiction(
         off, "sliding-speed-contradicts", "Sliding Speed is not the difference of disc and ball speed", used
     )
 
