@@ -83,6 +83,15 @@ def test_doubtful_rows_are_marked_and_counted_in_the_headline(tree: xr.DataTree)
     assert "extrapolated beyond the measured frequencies in 1 of 21" in remark
 
 
+def test_numerical_errors_that_can_be_seen_are_in_the_headline(tree: xr.DataTree) -> None:
+    assert "numerical error" not in key_numbers(tree)[0].remark
+    friction = tree["prediction"]["friction_coefficient"].values.flat[2]
+    change(tree, "prediction", "friction_error", 2, 0.03 * friction)
+    assert "numerical error up to 3.0\N{NO-BREAK SPACE}%" in key_numbers(tree)[0].remark
+    change(tree, "prediction", "friction_coefficient", 2, 0.0)
+    assert "numerical error as large as friction" in key_numbers(tree)[0].remark
+
+
 def test_measured_point_without_a_prediction_keeps_its_row(tree: xr.DataTree) -> None:
     change(tree, "measurement", "predicted", 0, np.nan)
     change(tree, "measurement", "predicted_error", 0, np.nan)

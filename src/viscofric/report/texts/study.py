@@ -298,7 +298,9 @@ def _caveat(tree: DataTree, prediction: Dataset) -> str:
     friction = values(prediction, "friction_coefficient")
     error = shown_error(friction, values(prediction, "friction_error"))
     if np.isfinite(error).any():
-        said += f"; numerical error up to {percent(float(np.nanmax(error / np.abs(friction))))}"
+        size = np.abs(friction)
+        most = "as large as friction" if (error >= size).any() else f"up to {percent(np.nanmax(error / size))}"
+        said += f"; numerical error {most}"
     if beyond:
         said += f"; extrapolated beyond the measured frequencies in {beyond} of {of} cases"
     return said
