@@ -206,6 +206,30 @@ def test_a_file_of_a_figure_is_light_or_dark_as_the_page(drawing: Tab) -> None:
         assert b"fill: " + paper in download.value.path().read_bytes()
 
 
+def test_the_title_of_a_file_stands_above_all_rows_of_its_legend(drawing: Tab) -> None:
+    long = _FIGURE.replace("'drawn'", "'titled'").replace(
+        "page.units.show(temperature, 'temperature')", "'a'.repeat(90)"
+    )
+    drawing.value(long)
+    figure = drawing.page.locator("#figure-titled")
+    figure.locator(".main-svg").first.wait_for()
+    with drawing.page.expect_download() as download:
+        figure.get_by_role("button", name="SVG").click()
+    file = drawing.page.context.new_page()
+    file.set_content(download.value.path().read_text(encoding="utf-8"))
+    boxes = file.evaluate(
+        """Array.from(document.querySelectorAll('text'), (one) => {
+          const { top, bottom } = one.getBoundingClientRect();
+          return [one.textContent, [top, bottom]];
+        })"""
+    )
+    file.close()
+    (title,) = [rows for text, rows in boxes if text == "Two curves"]
+    names = [rows for text, rows in boxes if set(text) == {"a"}]
+    assert names[0][1] <= names[1][0]  # two rows
+    assert 0.0 <= title[0] < title[1] <= names[0][0]
+
+
 def test_figures_follow_light_dark_and_units(drawing: Tab) -> None:
     drawing.value(_FIGURE.replace("'drawn'", "'again'"))
     drawing.page.wait_for_selector("#figure-again .main-svg")

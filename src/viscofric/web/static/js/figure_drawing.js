@@ -85,7 +85,8 @@ export function layoutOf(spec, dark, forFile) {
     note(spec.synthetic && "synthetic data", 11, hue("vermilion", dark), said),
     note(spec.origin, 10, look.quiet, foot),
   ];
-  const title = { text: `<b>${spec.title}</b>`, font: { size: 16 }, x: 0.02, xanchor: "left", y: 0.97, yanchor: "top" };
+  const title = { text: `<b>${spec.title}</b>`, font: { size: 16 } };
+  const showlegend = named.length > 1 && !barOf(spec, dark);
   return {
     ...{ paper_bgcolor: look.paper, plot_bgcolor: look.paper, autosize: !forFile },
     font: {
@@ -94,11 +95,14 @@ export function layoutOf(spec, dark, forFile) {
       color: look.ink,
     },
     margin: { l: 56, r: 20, t: forFile ? 60 : 12, b: forFile ? 84 : 48, pad: 0 },
-    title: forFile ? title : undefined,
+    title: forFile && !showlegend ? { ...title, x: 0.02, xanchor: "left", y: 0.97, yanchor: "top" } : undefined,
     hovermode: "closest",
     hoverlabel: { bgcolor: look.hover, bordercolor: look.quiet, font: { color: look.ink, size: 12 } },
-    showlegend: named.length > 1 && !barOf(spec, dark),
-    legend: { ...above, orientation: "h", font: { size: 12 }, bgcolor: "rgba(0,0,0,0)" },
+    showlegend,
+    legend: {
+      ...{ ...above, orientation: "h", font: { size: 12 }, bgcolor: "rgba(0,0,0,0)" },
+      title: forFile ? { ...title, side: "top" } : undefined, // above the rows, however many there are
+    },
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",
     xaxis: plotlyAxis(spec, "x", look),
     yaxis: plotlyAxis(spec, "y", look),
