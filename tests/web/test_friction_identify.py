@@ -68,6 +68,10 @@ def test_temperatures_of_the_study_that_the_identified_material_lacks_are_told(i
     assert identified["temperature"] == {"given": ["40 degC", "60 degC"], "kept": ["40 degC"]}  # measured up to 52 °C
 
 
+def test_a_material_whose_magnitude_is_that_of_a_synthetic_one_is_synthetic(identified: dict[str, Any]) -> None:
+    assert identified["from_synthetic"]  # the file with the friction does not say so
+
+
 def test_progress_runs_from_begin_to_end(identified: dict[str, Any], heard: list[dict[str, Any]]) -> None:
     assert identified["sentences"]
     shares = [message["done"] / message["total"] for message in heard if message["total"] > 1]

@@ -50,8 +50,9 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         raise JobError(
             Note("missing", "is missing; give the indenter of the test, such as a ball.", "indenter"), "indenter"
         )
-    wants_rubber = options.beside or options.shift == "rubber" or (options.anchor and options.anchor.of == "rubber")
-    rubber = made_rubber(study, context).material if wants_rubber else None
+    leans = options.shift == "rubber" or (options.anchor is not None and options.anchor.of == "rubber")
+    made = made_rubber(study, context) if options.beside or leans else None
+    rubber = None if made is None else made.material
     accuracy = checked_part(solver=(SolverTable, study.get("solver", {}))).solver.accuracy
     chosen: dict[str, Any] = {"accuracy": options.accuracy or accuracy, "samples": options.samples}
     if options.shift == "rubber":
@@ -80,8 +81,13 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         **chosen,
     )
     reply = _reply(found, curves, rubber if options.beside else None, anchor, context)
-    numbers: dict[str, Any] = plain(reply | {"temperature": _temperatures(study, found.material, context)})
     made_up = measured(study, context).synthetic
+    of_rubber = made is not None and (made.synthetic or study.get("data_origin") == "synthetic")
+    about = {
+        "temperature": _temperatures(study, found.material, context),
+        "from_synthetic": made_up or (leans and of_rubber),
+    }
+    numbers: dict[str, Any] = plain(reply | about)
     view = identified_view(
         numbers, plain(measured_points(curves)), synthetic=made_up or (None if options.beside else False)
     )

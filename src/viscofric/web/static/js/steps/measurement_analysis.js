@@ -75,12 +75,12 @@ function identifyOptions() {
 const identify = ofMeasured("identify", identifyOptions, { manual: true });
 
 /** Make the identified rubber that of the page. */
-async function take({ download, temperature }) {
+async function take({ download, temperature, from_synthetic }) {
   const response = await fetch(downloadUrl(download));
   const [name] = await uploadFiles([new File([await response.blob()], download)]);
   const given = JSON.stringify(state.get("conditions.temperature"));
   const beyond = temperature && given === JSON.stringify(temperature.given);
-  const data_origin = measured.shown?.synthetic ? "synthetic" : undefined;
+  const data_origin = from_synthetic ? "synthetic" : undefined;
   state.change({ material: { file: name }, data_origin, ...(beyond && { "conditions.temperature": temperature.kept }) });
   const where = beyond ? ` Temperatures without its shift factors are left out; ${temperature.kept.join(", ")} are kept.` : "";
   announce(`The page now uses the identified material.${where}`);
