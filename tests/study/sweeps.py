@@ -119,7 +119,13 @@ def made_results(
                 "/spectrum": dataset(
                     "mode",
                     {"retardation_time": ([1e-3, 1.0], "s", ""), "creep_coefficient": ([1e-7, 2e-7], "1/Pa", "")},
-                    attributes={"E0": 3e6, "statements": '["One.", "Another."]', "constants": '{"C1": 8.0}'},
+                    attributes={
+                        "E0": 3e6,
+                        "error": np.nan,
+                        "range": np.array([1.5, 2.5]),
+                        "statements": '["One.", "Another."]',
+                        "constants": '{"C1": 8.0}',
+                    },
                 )
             }
         ]

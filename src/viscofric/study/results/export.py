@@ -9,9 +9,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, Literal, get_args
 
-import numpy as np
-
-from viscofric.datasets import Dataset, DataTree
+from viscofric.datasets import Dataset, DataTree, plain
 from viscofric.errors import InputError, check_choice
 from viscofric.files import file_path, write_atomically
 from viscofric.notes import from_json, notes_in
@@ -62,7 +60,7 @@ def workbook(tree: DataTree, cases: Dataset) -> bytes:
         others = list(tables(tree))
         for name, dataset in [("prediction", cases), *others]:
             made.table(name, dataset)
-        made.listing("values", [("table", "name", "value"), *_values(others)])
+        made.listing("values", [("table", "name", "value (numbers in SI units)"), *_values(others)])
         made.listing("variables", [("name", "unit", "meaning"), *made.meaning])
         attributes = tree.attrs
         book.set_properties(
@@ -143,12 +141,12 @@ class _Made:
 
 
 def _values(named: Iterable[tuple[str, Dataset]]) -> Iterator[tuple[str, str, Any]]:
-    """Yield the attributes of tables: numbers and texts, each sentence of a list by itself; no other JSON."""
+    """Yield the known attributes of tables: numbers and texts, each of a list by itself; no other JSON."""
     for table, dataset in named:
         for name, value in dataset.attrs.items():
-            held = from_json(value)
+            held = plain(from_json(value), None)
             for one in held if isinstance(held, list) else [held]:
-                if isinstance(one, str | int | float | np.number) and str(one):
+                if isinstance(one, str | int | float) and str(one):
                     yield table, str(name), one
 
 
