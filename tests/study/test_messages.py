@@ -9,6 +9,8 @@ import pytest
 from study.wrong_run_files import NO_TOML, WRONG, Wrong
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.cases.surfaces import step_of
+from viscofric.notes import Note
+from viscofric.study.contacts import nothing_solved
 from viscofric.study.run_file.study import parse_study
 
 
@@ -46,3 +48,9 @@ def test_preparation_of_a_surface(words: str, message: str) -> None:
     with pytest.raises(InputError) as caught:
         step_of(words)
     assert str(caught.value) == message
+
+
+def test_a_study_without_any_solution_says_why_the_first_case_failed() -> None:
+    reason = Note("beyond-indenter", "the contact is wider than the ball; reduce the load.").at("60 °C, 20 mm/s")
+    expected = "No case could be solved; the first one failed: 60 °C, 20 mm/s: the contact is wider than the ball; "
+    assert str(nothing_solved(reason)) == f"{expected}reduce the load."

@@ -149,7 +149,7 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
 
 def nothing_solved(first: Note) -> StudyError:
     """Return the error of a study of which no case could be solved."""
-    return StudyError(first.at("no case could be solved; the first one failed").coded("nothing-solved"))
+    return StudyError(first.at("No case could be solved; the first one failed").coded("nothing-solved"))
 
 
 def missed_accuracy(part: Solved, study: Study) -> tuple[Mask, list[Note]]:

@@ -82,7 +82,7 @@ async function take({ download, temperature, from_synthetic }) {
   const beyond = temperature && given === JSON.stringify(temperature.given);
   const data_origin = from_synthetic ? "synthetic" : undefined;
   state.change({ material: { file: name }, data_origin, ...(beyond && { "conditions.temperature": temperature.kept }) });
-  const where = beyond ? ` Temperatures without its shift factors are left out; ${temperature.kept.join(", ")} are kept.` : "";
+  const where = beyond ? ` Temperatures without its shift factors are left out; the study now has ${temperature.kept.join(", ")}.` : "";
   announce(`The page now uses the identified material.${where}`);
 }
 
