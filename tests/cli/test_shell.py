@@ -46,6 +46,7 @@ def test_commands_and_options_are_completed() -> None:
     assert complete("viscofric material s", 2) == ["show"]
     assert complete("viscofric master --pict", 2) == ["--picture"]
     assert complete("viscofric completion ", 2) == ["bash", "zsh", "fish"]
+    assert complete("viscofric transient --before ", 3) == ["untouched", "at rest", "sliding"]
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

@@ -6,11 +6,14 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from viscofric.notes import Note
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 #: Table of a run file -> its module, if that has another name.
 _HOMES = {"impact": "history", "solver": "settings"}
@@ -50,6 +53,10 @@ class Key(click.ParamType[Any]):
     def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
         """Return the choices, or the kind of the value."""
         return self._kind.get_metavar(param, ctx) or self._kind.name.upper()
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Return the choices that begin so."""
+        return self._kind.shell_complete(ctx, param, incomplete)
 
 
 class KeyOption(click.Option):
