@@ -68,6 +68,7 @@ def test_a_contact_over_time_is_heated() -> None:
     [
         (["--heating-coulomb", "0.4"], "--heating-coulomb"),
         (["--heating", "steel", "--heating-track", "23 mm"], "--heating-track"),
+        (["--heating", "steel", "--heating-track", "23,0"], "--heating-track"),
         (["--heating", "stele"], "--heating"),
         (["--heating", "steel", "--heating-rubber", "0.3 W/m/K"], "--heating-rubber"),
         ([*HEAT, "--heating-track", "23 mm,inf"], "passes"),  # of a line contact

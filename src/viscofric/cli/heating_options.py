@@ -73,12 +73,15 @@ def chosen_heating(parameters: dict[str, Any]) -> Heating | None:
 
 
 def _track(text: str) -> dict[str, Any]:
+    from viscofric.units import positive
+
     radius, _, passes = text.partition(",")
     try:
         count = math.inf if passes.strip().lower() in ("inf", "∞") else int(passes)
     except ValueError:
         words = f"--heating-track {text!r}: give a radius and a number of passes, such as '23 mm,500' or '23 mm,inf'."
         raise click.UsageError(words) from None
+    positive(radius, "m", "track_radius")
     return {"track_radius": radius, "passes": count} if count else {}
 
 
