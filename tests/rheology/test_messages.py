@@ -209,7 +209,7 @@ SAID = [
     (
         lambda: vf.write_card(SOLID, "card", "comsol", modulus_unit="MPa"),
         "not-of-format",
-        ("modulus_unit = 'MPa': comsol has no such choice; leave modulus_unit out (it is for abaqus, ansys, ls-dyna)."),
+        ("modulus_unit = 'MPa': comsol has no such choice; leave it out (it is for abaqus, ansys, ls-dyna)."),
     ),
     (
         lambda: vf.write_card(vf.Material(TABLE), "card", "abaqus"),

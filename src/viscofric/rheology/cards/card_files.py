@@ -152,7 +152,7 @@ def write_card(
     for name, value in (given | {"material_id": material_id}).items():
         usual, formats = _OF_FORMATS[name]
         if value != usual and format not in formats:
-            said = f"{format} has no such choice; leave {name} out (it is for {', '.join(formats)})."
+            said = f"{format} has no such choice; leave it out (it is for {', '.join(formats)})."
             raise wrong_argument(name, value, said, "not-of-format")
     notes: list[Note] = []
     if law is not None:

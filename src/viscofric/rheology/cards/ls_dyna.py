@@ -57,7 +57,8 @@ def write(material: Material, writing: Writing) -> str:
         raise InputError(Note("no-density", f"{NAME} needs a density, such as ", remedy=advice))
     if writing.temperature_unit != "K" and isinstance(law, Arrhenius):
         raise InputError(
-            f"{NAME} counts temperatures of an Arrhenius law in K; leave temperature_unit out.", code="temperature-unit"
+            f"{NAME} counts temperatures of an Arrhenius law in K; write the card in K, the default.",
+            code="temperature-unit",
         )
     sentences = ["Long format, fields of 20 characters."]
     reference, A, B = 0.0, 0.0, 0.0
@@ -72,7 +73,7 @@ def write(material: Material, writing: Writing) -> str:
         reference, A = law.reference, law.activation_energy / GAS_CONSTANT
     if law is not None and reference <= 0.0:
         raise InputError(
-            f"TREF = {reference:g}: {NAME} needs it above zero; leave temperature_unit out, for K.", code="not-positive"
+            f"TREF = {reference:g}: {NAME} needs it above zero; write the card in K, the default.", code="not-positive"
         )
     lines = ["*KEYWORD", *contents.comments("$", *sentences), "*MAT_GENERAL_VISCOELASTIC_TITLE+"]
     title = material.name.encode("ascii", "replace").decode() or "rubber"
