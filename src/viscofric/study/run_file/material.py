@@ -10,7 +10,6 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.errors import InputError
-from viscofric.rheology.ramps.superpose import assumed_of
 from viscofric.study.run_file.tables import (
     VALUE,
     Count,
@@ -65,6 +64,8 @@ def _unit_of_modulus(value: str) -> str:
 
 
 def _assumption(value: str) -> str:
+    from viscofric.rheology.ramps.superpose import assumed_of  # spares help the import
+
     assumed_of(value, 300.0)
     return value
 

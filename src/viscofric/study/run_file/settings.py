@@ -8,7 +8,6 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.notes import Note
-from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
 from viscofric.study.run_file.tables import BIGGEST_SEED, MOST_POINTS, VALUE, Count, Number, Problem, Table, with_unit
 from viscofric.units import positive
 
@@ -64,6 +63,8 @@ class SolverTable(Table):
 
 
 def _enough(value: int) -> int:
+    from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES  # spares help the import
+
     if 0 < value < FEWEST_SAMPLES:
         raise ValueError(f"{value} is too few; give {FEWEST_SAMPLES} or more, or 0 for no bands")
     return value
