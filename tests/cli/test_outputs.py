@@ -96,6 +96,8 @@ def test_options_of_keys_offer_what_the_run_file_knows(name: str) -> None:
         choices = "" if one.is_flag else "|".join(known)
         assert choices.replace(" ", "") in text, one.name
         assert one.help, one.name
+        assert one.help.count("default: ") <= 1, one.name
+        assert f"e.g. '{about.get('default')}'" not in one.help, one.name
 
 
 def strict(text: str) -> Any:

@@ -213,7 +213,9 @@ elastic_options = together(
     ),
     heading="Elastic indenter",
 )
-accuracy_option = key("solver.accuracy", type=float, default=1e-3)
+accuracy_option = key(
+    "solver.accuracy", type=float, default=1e-3, show_default=True, help="Target relative error of the friction."
+)
 contact_options = together(
     direction_option,
     elastic_options,

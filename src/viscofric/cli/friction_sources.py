@@ -42,7 +42,11 @@ def _steps(ctx: click.Context, param: click.Parameter, value: str | None) -> lis
 
 separation_options = together(
     column_options("'disc_speed=V1 (mm/s)'", table="measurement."),
-    key("measurement.zero", metavar="FORCE"),
+    key(
+        "measurement.zero",
+        metavar="FORCE",
+        help="Zero offset of the force cell, e.g. '0.1 N' [default: found from reversed motion, or as recorded].",
+    ),
     key("measurement.zero_error", metavar="FORCE", help="Standard error of --zero."),
     key("measurement.coulomb", metavar="NUMBER|constant", type=str, callback=_number_or_word),
     key("measurement.coulomb_error", metavar="NUMBER", help="Standard error of --coulomb."),

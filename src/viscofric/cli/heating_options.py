@@ -24,7 +24,13 @@ _BODIES = (
         "'steel' or 'PTFE' (typical handbook values), '46 W/m/K, 7810 kg/m^3, 475 J/kg/K', or with its diffusivity "
         "'46 W/m/K, 12 mm^2/s'.",
     ),
-    key("heating.rubber", "--heating-rubber", metavar="BODY"),
+    key(
+        "heating.rubber",
+        "--heating-rubber",
+        metavar="BODY",
+        help="The same of the rubber [default: 'filled rubber', typical handbook values: 0.28 W/m/K, 1150 kg/m^3, "
+        "1700 J/kg/K].",
+    ),
     key(
         "heating.coulomb",
         "--heating-coulomb",

@@ -44,7 +44,12 @@ Examples:
 @together(
     key("impact.mass", metavar="M", required=True, type=str),
     speed_options("Speed at the first touch"),
-    key("impact.gravity", metavar="G", type=str),
+    key(
+        "impact.gravity",
+        metavar="G",
+        type=str,
+        help="Acceleration towards the material, e.g. '9.81 m/s^2' [default: none].",
+    ),
     click.option(
         "--rebounds",
         type=click.IntRange(1, 1000),

@@ -72,7 +72,8 @@ class KeyOption(click.Option):
             about = self.key.about
             words, default = str(about["description"]).removesuffix("."), about.get("default")
             words = self.condition + words[0].lower() + words[1:] if self.condition else words
-            self.help = words + (f", e.g. '{about['examples'][0]}'." if "examples" in about else ".")
+            example = next(iter(about.get("examples", ())), default)
+            self.help = words + ("." if example == default else f", e.g. '{example}'.")
             if default and isinstance(default, (int, float, str)):
                 self.help += f" [default: {default if isinstance(default, str) else format(default, '.4g')}]"
         return super().get_help_record(ctx)

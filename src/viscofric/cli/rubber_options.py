@@ -73,7 +73,12 @@ rubber_options = together(
         metavar="FILE",
         help="Alternative: DMA sweeps to fit; repeat for several files of one set.",
     ),
-    key("material.reference_temperature", "--reference", metavar="T", condition=_WITH_DMA),
+    key(
+        "material.reference_temperature",
+        "--reference",
+        metavar="T",
+        help="With --dma: reference temperature, within the sweeps, e.g. '30 degC'.",
+    ),
     key("material.deformation", condition=_WITH_DMA),
     key("material.modulus_unit", metavar="UNIT", condition=_WITH_DMA),
     column_options("'frequency=f in Hz'", condition=_WITH_DMA),

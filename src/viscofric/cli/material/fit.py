@@ -35,7 +35,13 @@ _BESIDE = ("with_creep", "with_relaxation")
 
 @as_command("fit")
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
-@key("material.reference_temperature", "--reference", metavar="T", required=True)
+@key(
+    "material.reference_temperature",
+    "--reference",
+    metavar="T",
+    required=True,
+    help="Reference temperature of the master curve, e.g. '20 degC'.",
+)
 @reading_options
 @key("material.name", help="Name of the material, for reports and cards.")
 @click.option("--creep", is_flag=True, help="FILES are creep tests, J(t) at several temperatures, instead of sweeps.")
