@@ -19,13 +19,11 @@ if TYPE_CHECKING:
 _HOMES = {"impact": "history", "solver": "settings"}
 
 
-class Key(click.ParamType[Any]):
+class Key(click.types.StringParamType):
     """A key of a run file, such as ``material.shift_by``, as the type of an option.
 
     Its table is imported when a value or the help needs it: that takes longer than all else of a command's start.
     """
-
-    name = "text"
 
     def __init__(self, place: str) -> None:
         self.table, _, self.key = place.partition(".")
