@@ -41,7 +41,7 @@ def write_netcdf(data: Dataset | DataTree, target: Path) -> None:
             path = Path(temporary) / target.name
             with h5py.File(path, "w", track_order=True) as file:
                 file.attrs["_NCProperties"] = f"version=2,h5py={h5py.__version__},hdf5={h5py.version.hdf5_version}"
-                _write_group(file, tree, {}, count())
+                _write_group(file, tree, count())
             with path.open("rb+") as file:
                 os.fsync(file.fileno())
             path.replace(target)
@@ -50,8 +50,8 @@ def write_netcdf(data: Dataset | DataTree, target: Path) -> None:
         raise not_written(target, error) from error
 
 
-def _write_group(group: h5py.Group, node: DataTree, above: Mapping[str, h5py.Dataset], numbers: Iterator[int]) -> None:
-    """Write a node of a tree and all below it, given the dimensions of the nodes above and numbers for its own."""
+def _write_group(group: h5py.Group, node: DataTree, numbers: Iterator[int]) -> None:
+    """Write a node of a tree and all below it, each with dimensions of its own, given numbers for these."""
     import h5py
     from xarray.conventions import encode_cf_variable, encode_dataset_coordinates
 
@@ -66,10 +66,8 @@ def _write_group(group: h5py.Group, node: DataTree, above: Mapping[str, h5py.Dat
             values, dtype = values.astype(object), h5py.string_dtype()
         written[name] = _create(group, name, values, dtype)
         _write_attributes(written[name], encoded.attrs)
-    scales = dict(above)
+    scales = {}
     for name, length in ((str(name), length) for name, length in data.sizes.items()):
-        if name in above:
-            continue
         scale, title = written.get(name), name
         if scale is None:
             scale, title = _create(group, name, np.zeros(length), ">f4"), f"{_NO_VARIABLE}{length:10}"
@@ -81,7 +79,7 @@ def _write_group(group: h5py.Group, node: DataTree, above: Mapping[str, h5py.Dat
             for axis, dimension in enumerate(variable.dims):
                 written[name].dims[axis].attach_scale(scales[dimension])
     for name, child in node.children.items():
-        _write_group(group.create_group(name, track_order=True), child, scales, numbers)
+        _write_group(group.create_group(name, track_order=True), child, numbers)
 
 
 def _create(group: h5py.Group, name: str, values: np.ndarray, dtype: Any) -> h5py.Dataset:
@@ -114,7 +112,7 @@ def read_netcdf(file: h5py.File) -> DataTree:
                 continue
             else:
                 dimensions = (name,)
-            values = item.asstr()[()] if h5py.check_string_dtype(item.dtype) else item[()]
+            values = np.asarray(item.asstr()[()], dtype=str) if h5py.check_string_dtype(item.dtype) else item[()]
             variables[name] = (dimensions, values, _read_attributes(item))
         groups[group.name] = xarray.decode_cf(xarray.Dataset(variables, attrs=_read_attributes(group)))
         for item in group.values():
