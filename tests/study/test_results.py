@@ -77,6 +77,7 @@ def test_files_are_those_of_xarray_and_read_as_xarray_reads_them(of_all_kinds: x
                 list(node.variables) for node in of_all_kinds.subtree
             ]
     with h5py.File(ours) as file:
+        assert file["child/mode"].id.get_storage_size() == 0  # a dimension without coordinates has no numbers
         assert file["child/empty/nothing"].maxshape == (None, 2)  # netCDF has no others without length
 
 

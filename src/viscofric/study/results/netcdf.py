@@ -64,13 +64,13 @@ def _write_group(group: h5py.Group, node: DataTree, numbers: Iterator[int]) -> N
         values, dtype = encoded.values, encoded.dtype
         if dtype.kind in "OUT":
             values, dtype = values.astype(object), h5py.string_dtype()
-        written[name] = _create(group, name, values, dtype)
+        written[name] = _create(group, name, values.shape, dtype, values)
         _write_attributes(written[name], encoded.attrs)
     scales = {}
     for name, length in ((str(name), length) for name, length in data.sizes.items()):
         scale, title = written.get(name), name
         if scale is None:
-            scale, title = _create(group, name, np.zeros(length), ">f4"), f"{_NO_VARIABLE}{length:10}"
+            scale, title = _create(group, name, (length,), ">f4"), f"{_NO_VARIABLE}{length:10}"
         scale.make_scale(title)
         scale.attrs["_Netcdf4Dimid"] = np.int32(next(numbers))
         scales[name] = scale
@@ -82,10 +82,10 @@ def _write_group(group: h5py.Group, node: DataTree, numbers: Iterator[int]) -> N
         _write_group(group.create_group(name, track_order=True), child, numbers)
 
 
-def _create(group: h5py.Group, name: str, values: np.ndarray, dtype: Any) -> h5py.Dataset:
+def _create(group: h5py.Group, name: str, shape: tuple[int, ...], dtype: Any, values: Any = None) -> h5py.Dataset:
     """Create a variable in a group; dimensions without length are unlimited in netCDF."""
-    unlimited = {} if values.size else {"maxshape": tuple(length or None for length in values.shape)}
-    return group.create_dataset(name, values.shape, dtype, values, track_order=True, **unlimited)
+    unlimited = {} if all(shape) else {"maxshape": tuple(length or None for length in shape)}
+    return group.create_dataset(name, shape, dtype, values, track_order=True, **unlimited)
 
 
 def _write_attributes(place: h5py.HLObject, attributes: Mapping[str, Any]) -> None:
