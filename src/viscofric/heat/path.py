@@ -150,8 +150,7 @@ def _moments(x: Array) -> tuple[Array, Array, Array]:
     power = 0.25 / np.maximum(x, _WIDE) ** 2
 
     def series(n: int) -> Array:
-        terms = [math.factorial(n + 2 * k) / math.factorial(k) * (-power) ** k for k in range(5)]
-        return np.asarray(np.sum(terms, axis=0))
+        return np.asarray(np.polyval([math.factorial(n + 2 * k) / math.factorial(k) for k in range(4, -1, -1)], -power))
 
     wide = x > _WIDE
     return tuple(np.where(wide, series(n), one) for n, one in ((0, zeroth), (1, first), (3, third)))  # type: ignore[return-value]
