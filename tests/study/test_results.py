@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -14,6 +15,7 @@ import xarray
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+import hostile
 import viscofric as vf
 from refusals import refused
 from study.sweeps import made_outcomes, made_results, made_sweep
@@ -214,3 +216,12 @@ def test_results_that_cannot_be_written_are_reported(tmp_path: Path) -> None:
             save_results(made.tree, tmp_path / "made")
     finally:
         (tmp_path / "made").chmod(0o700)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names of files")
+def test_a_run_file_whose_name_is_no_text_has_results(tmp_path: Path) -> None:
+    path = tmp_path / os.fsdecode(b"a\xff.toml")
+    path.write_text(hostile.STUDY + "[solver]\naccuracy = 0.1\n[outputs]\nfields = 'none'\n", encoding="utf-8")
+    vf.run_study(path)
+    assert vf.open_results(path.with_suffix(".results")).dataset.attrs["study_file"] == r"a\udcff.toml"
