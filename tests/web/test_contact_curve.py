@@ -160,7 +160,9 @@ def test_surfaces_whose_grid_is_too_coarse_are_marked(desk: Desk) -> None:
     relative = np.array(answer["error"]) / answer["friction"]
     assert missed == (relative > 1e-3).tolist()
     assert any(missed)
-    assert "accuracy-missed" in {one["code"] for one in answer["warning_records"]}
+    (note,) = [one for one in answer["warning_records"] if one["code"] == "accuracy-missed"]
+    assert note["values"]["cases"] == missed.count(True)
+    assert note["values"]["error"] == pytest.approx(relative.max(), rel=1e-3)  # of digits that the page has
     assert answer["lower"] is None
     assert answer["notes"] != []  # why there is no band
     assert set(SURFACE_NUMBERS) >= {"contact_area_fraction", "mean_gap"}

@@ -133,7 +133,7 @@ def _at_one_temperature(material: Material, kelvins: list[float]) -> Material:
 
 
 def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
-    """Draw the rubber as other sweeps of it might have given it."""
+    """Return bootstrap samples of a material that was fitted to sweeps; None if none are requested."""
     if count == 0:
         return None
     from viscofric.study.study_rubber import draw_rubber

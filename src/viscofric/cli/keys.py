@@ -31,7 +31,8 @@ class Key(click.types.StringParamType):
     @cached_property
     def about(self) -> dict[str, Any]:
         """The key in the JSON schema of its table."""
-        home = import_module(f"viscofric.study.run_file.{_HOMES.get(self.table, self.table)}")  # all take a second
+        # One module: importing all tables takes a second.
+        home = import_module(f"viscofric.study.run_file.{_HOMES.get(self.table, self.table)}")
         table = getattr(home, f"{self.table.capitalize()}Table")
         found: dict[str, Any] = table.model_json_schema()["properties"][self.key]
         return {**found, **found.get("anyOf", [{}])[0]}

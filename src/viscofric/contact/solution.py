@@ -208,8 +208,8 @@ class ContactSolution(Plotted):
     temperature : float or None
         K, as given.
     friction_coefficient : float
-        μ = F_t/F_N, with the sign of the speed: of the two below, and of their limits for smaller and smaller cells,
-        the one that the nested grids know best.
+        μ = F_t/F_N, with the sign of the speed: of the two below, and of their limits for ever smaller cells, the one
+        with the smallest error.
     pressure_friction_coefficient : float
         From the asymmetry of the pressure on the indenter's slope, on the finest grid.
     energy_friction_coefficient : float

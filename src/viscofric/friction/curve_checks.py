@@ -96,6 +96,7 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
         "The standard errors of friction scatter from one speed to the next like those of "
         f"{seen + 1.0:.0f} replicates, a number that was not given: it is assumed, and each error is averaged with its "
         "neighbours; give the replicates, or degrees of freedom.",
+        values={"replicates": round(seen + 1.0)},
     )
     return np.where(wanted, seen, freedom), (note,)
 

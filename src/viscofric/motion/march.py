@@ -300,7 +300,7 @@ class _March(Generic[State]):
     def _try(
         self, pair: Pair[State], times: Sequence[float]
     ) -> tuple[Pair[State], tuple[State, State, State, Instant, Instant]]:
-        """Step from the first time to the last: the coarse chain at once, the fine one by that in between too."""
+        """Step from the first time to the last: the coarse chain in one step, the fine one in two."""
         # Also returns the states of the fine chain, and the instants of its last step; see `Mover.rate_change`.
         first, middle, last = (self._instant(time) for time in times)
         halfway = self._step(pair.fine, first, middle)

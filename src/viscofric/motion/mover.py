@@ -138,7 +138,7 @@ class Mover(Protocol[State]):
         return 0.0
 
     def rate_change(self, first: State, middle: State, last: State, start: Instant, end: Instant) -> float:
-        """Return the change of friction in a step as the last one, minus that in it, if points touch or leave at rest.
+        """Return how much more friction changes in another step like the last one, if points touch or leave at rest.
 
         The states are those at the ends of the last two steps, of one length; the last one has this start and end.
         """

@@ -250,7 +250,7 @@ class PeriodicMover(Mover[PeriodicState]):
     def rate_change(
         self, first: PeriodicState, middle: PeriodicState, last: PeriodicState, start: Instant, end: Instant
     ) -> float:
-        """Return the change of friction in a step as the last one, minus that in it, if points touch or leave at rest.
+        """Return how much more friction changes in another step like the last one, if points touch or leave at rest.
 
         A point that touches or leaves late in a step hardly changes the friction yet, but alters the rates at which all
         pressures change.

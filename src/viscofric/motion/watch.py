@@ -38,7 +38,7 @@ class Watch:
         return cls(mover, schedule.start, 2.0 * np.pi / (schedule.end - schedule.start))
 
     def __getattr__(self, name: str) -> Any:
-        """Return what the mover has; where that is a function, it takes states of this one."""
+        """Return an attribute of the mover; a method takes watched states as well."""
         found = getattr(self.mover, name)
         if not callable(found):
             return found

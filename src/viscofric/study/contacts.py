@@ -19,6 +19,7 @@ from viscofric.study.cases.sweep import Sweep, place, place_in
 from viscofric.study.measurement import Measurement
 from viscofric.study.run_file.study import Study
 from viscofric.study.study_rubber import StudyRubber
+from viscofric.units import plain
 
 # Margin beyond the speeds of the cases, so that rounding leaves no point outside the master curve.
 _ROUNDING = 1e-6
@@ -164,5 +165,8 @@ def missed_accuracy(part: Solved, study: Study) -> tuple[Mask, list[Note]]:
     known = beyond & (friction != 0.0)
     worst = float(np.max(error[known] / np.abs(friction[known]), initial=0.0))
     why = "" if study.indenter else ": the spacing of the surface's points is too large"
-    said = f"In {beyond.sum()} of {beyond.size} cases the estimated numerical error of friction, {worst:.2%} at most, "
-    return beyond, [Note("accuracy-missed", f"{said}exceeds the requested accuracy, {accuracy:.2%}{why}.")]
+    most = f", {plain(100.0 * worst, 3)} % at most," if worst else ""
+    count, asked = int(beyond.sum()), f"the requested accuracy, {plain(100.0 * accuracy, 3)} %"
+    said = f"In {count} of {beyond.size} cases the estimated numerical error of friction{most} exceeds {asked}{why}."
+    values = {"cases": count, "of": beyond.size, "error": worst, "accuracy": accuracy}
+    return beyond, [Note("accuracy-missed", said, values=values)]

@@ -64,7 +64,7 @@ class StudyRubber:
 
     @property
     def notes(self) -> list[Note]:
-        """What is to be said of the material, its bands, and what is not known of its measurement."""
+        """Notes on the material and its bands, and on what is unknown of its measurement."""
         said = (*self.rubber.notes, *self.bands.notes, *unknown_frequencies(self.material))
         return list(map(note_of, said))
 

@@ -161,6 +161,7 @@ def _kinds_of_rows(row: Integers, signal: Integers) -> Iterator[str]:
             "both-forces",
             f"{pairs} rows hold TF1 and TF2, each a reading of its own with the ball and disc speeds of its number; "
             "their time is that of the row.",
+            values={"rows": pairs},
         )
     if np.any((signal >= 2) & (signal < len(SIGNALS))):
         yield Note(
@@ -173,12 +174,14 @@ def _kinds_of_rows(row: Integers, signal: Integers) -> Iterator[str]:
             "zero-assumed",
             f"{single} rows hold only a Traction Force and are one reading each; the export does not state whether the "
             "zero traction force is still in it, and it is assumed to be.",
+            values={"rows": single},
         )
     odd = int(np.sum(readings % 2 == 1)) - single
     if odd:
         yield Note(
             "odd-readings",
             f"{odd} rows hold an odd number of TF1 to TF4, so that not every reading has one with the slip reversed.",
+            values={"rows": odd},
         )
 
 

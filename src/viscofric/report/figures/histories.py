@@ -15,7 +15,7 @@ from viscofric.report.results import group
 from viscofric.report.sweeps import SAMPLE, axis_of, band_of_samples, best_estimate
 from viscofric.units import celsius
 
-#: More lines cannot be told apart.
+#: More lines cannot be distinguished.
 MOST_LINES = 6
 _ALONG = "instant"
 #: Relative change of a load that is constant up to rounding and the solver's tolerance.
@@ -23,7 +23,7 @@ _CONSTANT = 1e-3
 
 
 class _Line(NamedTuple):
-    """One case: what tells it apart, in words, and its results, also with samples of the material."""
+    """One case: what distinguishes it, in words, and its results, also with samples of the material."""
 
     words: str
     best: Dataset

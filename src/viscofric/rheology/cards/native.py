@@ -72,7 +72,7 @@ def restored(value: Any, allowed: tuple[type, ...], field: str) -> Any:
             code="unknown-field",
         )
     try:
-        return one(**{name: _rows(content) for name, content in arguments.items()})
+        return one(**{name: _as_tuples(content) for name, content in arguments.items()})
     except InputError:
         raise
     except (TypeError, ValueError) as error:
@@ -81,9 +81,9 @@ def restored(value: Any, allowed: tuple[type, ...], field: str) -> Any:
         ) from None
 
 
-def _rows(content: Any) -> Any:
+def _as_tuples(content: Any) -> Any:
     """Return lists as tuples, also those in lists."""
-    return tuple(map(_rows, content)) if isinstance(content, list) else content
+    return tuple(map(_as_tuples, content)) if isinstance(content, list) else content
 
 
 def shift_of(value: Any) -> Any:

@@ -34,8 +34,8 @@ LARGEST_SCATTER = 0.03
 DROPS = (0.05, 0.1)
 #: Fall below the smallest amplitude that widens linear ranges by more than a sixth: a fifth of the smaller drop.
 LARGEST_FALL_BEFORE = 0.2 * DROPS[0]
-#: Weights of correlations of neighbours before: none is 29 times as likely as all others together.  A dozen amplitudes
-#: tell little of them: where all are equally likely, errors of sweeps without correlation are twice as large.
+#: Prior weights of the correlation of neighbours: zero is 29 times as likely as all other values together.  A dozen
+#: amplitudes determine it poorly: with equal weights, errors of sweeps without correlation would be twice as large.
 _SELDOM_CORRELATED = np.concatenate([[29.0 * EQUALLY_LIKELY[1:].sum()], EQUALLY_LIKELY[1:]])
 
 

@@ -42,7 +42,7 @@ from viscofric.rheology.superposition.shift_problem import inverse_curvature
 POINTS_PER_KNOT = 2
 #: Correlations of neighbours that are tried, at equal distances of artanh …
 CORRELATIONS = np.tanh(np.linspace(0.0, 2.0, 13))
-#: … and their weights before, equally likely, by the trapezoidal rule.
+#: … and their prior weights, equally likely, by the trapezoidal rule.
 EQUALLY_LIKELY = np.array([0.5, *np.ones(11), 0.5])
 
 
@@ -54,13 +54,13 @@ class CorrelatedSmoother(Smoother):
     alike: Array  # (m,), correlation of the errors of neighbouring points
 
     @classmethod
-    def along(cls, frequency: Array, moduli: Array, same: Mask, before: Array = EQUALLY_LIKELY) -> CorrelatedSmoother:
+    def along(cls, frequency: Array, moduli: Array, same: Mask, prior: Array = EQUALLY_LIKELY) -> CorrelatedSmoother:
         """Place knots for points, ramp by ramp, and choose smoothing and correlation of each quantity."""
         knots, degree = knots_for(frequency, POINTS_PER_KNOT)
         penalty = roughness(knots, degree)
         basis = splines(knots, degree, frequency)[0]
         criteria = np.array([_likelihood(basis, penalty, moduli, same, alike)[2] for alike in CORRELATIONS])
-        alike = np.array([expected_correlation(one, before) for one in criteria.T])
+        alike = np.array([expected_correlation(one, prior) for one in criteria.T])
         chosen = [
             _likelihood(basis, penalty, moduli[:, [number]], same, float(one)) for number, one in enumerate(alike)
         ]
@@ -94,16 +94,16 @@ def _likelihood(basis: Array, penalty: Array, moduli: Array, same: Mask, alike: 
     return smoothing, scatter, criterion + np.count_nonzero(same) * np.log1p(-(alike**2))
 
 
-def expected_correlation(criterion: Array, before: Array) -> float:
-    """Return the correlation, given −2 log of the likelihood at `CORRELATIONS`, and their weights before."""
+def expected_correlation(criterion: Array, prior: Array) -> float:
+    """Return the correlation, given −2 log of the likelihood at `CORRELATIONS`, and their prior weights."""
     # The variance of fitted parameters grows by (1 + ρ)/(1 − ρ), so ρ is chosen by the mean of this factor over the
     # likelihood: for 250 points with ρ = 0.7, the most likely ρ is 0.68, which made standard errors 4 % too small.
-    weight = before * np.exp(0.5 * (criterion.min() - criterion))
+    weight = prior * np.exp(0.5 * (criterion.min() - criterion))
     growth = float(np.average((1.0 + CORRELATIONS) / (1.0 - CORRELATIONS), weights=weight))
     return (growth - 1.0) / (growth + 1.0)
 
 
-def correlation(design: Array, residual: Array, before: Array) -> float:
+def correlation(design: Array, residual: Array, prior: Array) -> float:
     """Return the correlation of neighbours in m series of n residuals (m, n) of least squares, (m, n, p) its design.
 
     Each series has its own variance; the likelihood is restricted to what no p parameters fit.
@@ -118,7 +118,7 @@ def correlation(design: Array, residual: Array, before: Array) -> float:
             left = left - orthogonal[:, used] @ (orthogonal[:, used].T @ left)
             likelihood = (len(left) - used.sum()) * np.log(np.sum(left**2) + np.finfo(float).tiny)
             criteria[place] += likelihood + 2.0 * np.sum(np.log(sizes[used])) + len(same) * np.log1p(-(alike**2))
-    return expected_correlation(criteria, before)
+    return expected_correlation(criteria, prior)
 
 
 #: Singular values of a design below this part of the largest are rounding of its differences.

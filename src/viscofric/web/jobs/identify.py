@@ -137,7 +137,7 @@ def _reply(
         "anchor": at,
         "factors": None if factors is None or factors.sizes["temperature"] < 2 else record(factors, _DIGITS),
         "known": None if rubber is None else _known(rubber, found),
-        "fit": _fit(found, curves),
+        "fit": _fit(found),
         "family": [
             {name: getattr(fit, name) for name in ("factor", "modulus", "rms", "penalty")} for fit in found.family
         ],
@@ -156,7 +156,7 @@ def _known(rubber: Material, found: IdentifiedMaterial) -> dict[str, Any]:
     return {"name": rubber.name, **record(rubber.spectrum.modulus_dataset(found.frequencies), _DIGITS)}
 
 
-def _fit(found: IdentifiedMaterial, curves: FrictionCurves) -> list[dict[str, Any]]:
+def _fit(found: IdentifiedMaterial) -> list[dict[str, Any]]:
     """Return how well the identified rubber meets the friction, by temperature."""
     fit = found.friction
     # ln μ is what is fitted, so that a residual times its error is a relative difference.
