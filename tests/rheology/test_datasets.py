@@ -144,6 +144,7 @@ def test_bands_over_frequency() -> None:
     assert "90 %" in data.storage_modulus_lower.attrs["long_name"]
     ends = samples.to_dataset([0.9, 1.0, 1e4, 1.1e4])
     assert ends.within_measured_frequencies.values.tolist() == [0.0, 1.0, 1.0, 0.0]
+    assert samples.to_dataset([-1.0, -1.1e4]).within_measured_frequencies.values.tolist() == [1.0, 0.0]
 
 
 def test_bands_beyond_the_measured_frequencies_have_a_note() -> None:

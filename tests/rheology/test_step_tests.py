@@ -293,7 +293,9 @@ def test_tests_of_other_materials_do_not_superpose():
     )
     fit = vf.superpose(vf.readers.StepTests(bent[:5], "creep"), bent[2].temperature)
     assert not fit.check.holds
-    assert fit.check.sentences[0].code in ("superposition-fails", "superposition-roughly")
+    note = fit.check.sentences[0]
+    assert note.code in ("superposition-fails", "superposition-roughly")
+    assert note.values == {"figure_of_merit": fit.check.figure_of_merit, "vertical_shift": False}
     assert reference
 
 

@@ -278,7 +278,7 @@ def _frequencies(tree: DataTree) -> Iterator[Check]:
     if outside:
         words = (
             f"In {several(counts)}, {meaning} lies outside the {kind} range{measured}; friction there depends on the "
-            "extrapolated spectrum. These cases are marked in the tables."
+            f"extrapolated {'or interpolated ' if gaps else ''}spectrum. These cases are marked in the tables."
         )
     else:
         words = f"In all cases {meaning} lies within the {kind} range{measured}."

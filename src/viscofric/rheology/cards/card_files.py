@@ -130,7 +130,7 @@ def write_card(
     Raises
     ------
     InputError
-        If the format is unknown or cannot hold the material.
+        If the format is unknown, or cannot hold the material or a choice.
     DataFileError
         If the file cannot be written.
 

@@ -217,11 +217,12 @@ def _doubts(sweep: AmplitudeSweep, law: KrausLaw, scatter: Array) -> list[Note]:
     for mark, one in zip(("'", "''"), scatter, strict=True):
         if one > LARGEST_SCATTER:
             said = f"Kraus's law misses {letter}{mark} by {one:.2g} decades (rms); it describes it roughly only."
-            notes.append(Note("kraus-misfit", said))
+            notes.append(Note("kraus-misfit", said, values={"modulus": f"{letter}{mark}", "scatter": float(one)}))
     fall = sweep.storage_modulus.max() / sweep.storage_modulus[-1]
     if fall < 1.1:
-        said = f"{letter}' falls by {100.0 * (1.0 - 1.0 / fall):.0f} % only: the sweep does not determine the law."
-        notes.append(Note("hardly-nonlinear", said))
+        part = float(1.0 - 1.0 / fall)
+        said = f"{letter}' falls by {100.0 * part:.0f} % only: the sweep does not determine the law."
+        notes.append(Note("hardly-nonlinear", said, values={"fall": part}))
         return notes
     first = float(sweep.strain_amplitude[0])
     before = 1.0 - float(law.complex_modulus(first).real) / law.storage_linear

@@ -200,7 +200,8 @@ class StepSuperposition(Superposed[StepMasterCurve, StepTest]):
             "roughly": f"Superposition holds only roughly: {apart}.",
             "fails": f"Superposition does not hold: {apart}.",
         }[verdict]
-        note = Note(f"superposition-{verdict.replace(' ', '-')}", said)
+        values = {"figure_of_merit": float(figure), "vertical_shift": vertical is not None}
+        note = Note(f"superposition-{verdict.replace(' ', '-')}", said, values=values)
         return StepCheck(distances, figure, self.quality.joint, verdict, (note,), temperatures)
 
 

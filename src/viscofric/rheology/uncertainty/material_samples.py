@@ -346,12 +346,12 @@ class MaterialSamples(Plotted, Items["Material"]):
         xarray.Dataset
             ``storage_modulus_lower``, ``storage_modulus_upper``, ``loss_modulus_lower`` and ``loss_modulus_upper`` (Pa)
             along ``angular_frequency`` (rad/s), and ``within_measured_frequencies``, 0 where the limits belong to an
-            extrapolated spectrum.
+            extrapolated spectrum, or one interpolated in a gap.
         """
         omega = np.ravel(in_si(angular_frequency, "rad/s", "angular_frequency"))
         level = share(level, "level", example=0.95)
         band = self.modulus_band(omega, temperature, level)
-        reduced = omega * 10.0 ** self._log10_alpha(temperature)
+        reduced = np.abs(omega) * 10.0 ** self._log10_alpha(temperature)
         within = covers(self.frequency_range, reduced, self.gaps).astype(float)
         columns = {"within_measured_frequencies": (within, "1", "whether the frequency was measured")}
         for part, take in {"storage": np.real, "loss": np.imag}.items():
