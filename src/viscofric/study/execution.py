@@ -127,7 +127,7 @@ def run_study(
         for one in singles:
             damaged += run_plan(one, store, executor, _as_stage(progress, one.STAGE))
         tree = tree_of(contacts, _damage(damaged, finished_only), singles, interface)
-        name = path.name.encode(errors="backslashreplace").decode()  # names of files may be no text
+        name = path.name.encode(errors="backslashreplace").decode()  # a file name may hold bytes that are no text
         tree.attrs |= {"study_file": name, "study_text": text, "input_hashes": hashes, **provenance()}
         save_results(tree, folder)
         results = StudyResults(tree, folder)

@@ -64,7 +64,7 @@ def _unit_of_modulus(value: str) -> str:
 
 
 def _assumption(value: str) -> str:
-    from viscofric.rheology.ramps.superpose import assumed_of  # spares help the import
+    from viscofric.rheology.ramps.superpose import assumed_of  # help does not need it
 
     assumed_of(value, 300.0)
     return value

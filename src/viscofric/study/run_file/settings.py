@@ -63,7 +63,7 @@ class SolverTable(Table):
 
 
 def _enough(value: int) -> int:
-    from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES  # spares help the import
+    from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES  # help does not need it
 
     if 0 < value < FEWEST_SAMPLES:
         raise ValueError(f"{value} is too few; give {FEWEST_SAMPLES} or more, or 0 for no bands")
