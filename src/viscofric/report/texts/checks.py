@@ -203,7 +203,8 @@ def _contact(tree: DataTree) -> Iterator[Check]:
             energy <= limit * (1.0 + 1e-9),
             "Friction is calculated twice: from the contact pressure, and from the energy dissipated in the material. "
             f"The two differ by {percent(energy)} at most (good if ≤ {percent(limit)}, {_ENERGY_BALANCE:g} times "
-            "the requested accuracy). What is reported is as accurate as either or more; it must reach the accuracy.",
+            "the requested accuracy). The reported value is at least as accurate as the better one, and must reach the "
+            "accuracy.",
             energy,
             limit,
         )
