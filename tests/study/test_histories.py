@@ -256,7 +256,7 @@ def test_samples_of_the_material_are_solved_over_time_and_fall(tmp_path: Path) -
     (axes,) = fallen.axes
     np.testing.assert_allclose(axes.lines[0].get_ydata(), rebounds[0])
     said = captions(tree)
-    assert "95 %" in said["contacts_over_time"]
+    assert "range" in said["contacts_over_time"]  # two samples beside the best estimate make no 95 %
     assert "4 g" in said["impacts"]
 
 
