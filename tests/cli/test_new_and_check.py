@@ -14,6 +14,16 @@ from viscofric.cli.new import SCHEMA, TEMPLATES, template_text
 from viscofric.report.texts.checks import all_checks
 from viscofric.study.results.export import NAMES
 
+#: A run file up to the keys of its surface.
+ROUGH = """[material]
+catalogue = "synthetic fluoroelastomer"
+[conditions]
+pressure = "50 kPa"
+speed = "1 mm/s"
+temperature = "30 degC"
+[surface]
+"""
+
 
 @pytest.mark.parametrize("template", TEMPLATES)
 @pytest.mark.slow
@@ -37,16 +47,8 @@ def test_starter_files_and_their_data_are_right(tmp_path: Path, template: str) -
 def test_a_surface_is_checked_for_points_in_its_shortest_wave(tmp_path: Path) -> None:
     surface = {"hurst": 0.8, "rms_height": "2 um", "shortest": "20 um", "rolloff": "100 um", "points": 64, "seed": 1}
     lines = [f"{name} = {json.dumps(value)}" for name, value in surface.items()]
-    text = """[material]
-catalogue = "synthetic fluoroelastomer"
-[conditions]
-pressure = "50 kPa"
-speed = "1 mm/s"
-temperature = "30 degC"
-[surface]
-"""
     for spacing, few in (("5 um", True), ("2.5 um", False)):
-        given = text + "\n".join([*lines, f'spacing = "{spacing}"'])
+        given = ROUGH + "\n".join([*lines, f'spacing = "{spacing}"'])
         found = json.loads(call("check", "-", "--json", given=given).stdout)["surface"]
         assert found["points"] == [64, 64]
         assert found["rms_height"] == pytest.approx(2e-6)  # exact by its definition
@@ -57,18 +59,8 @@ temperature = "30 degC"
 def test_a_scan_without_a_unit_is_noted_with_its_steps(tmp_path: Path) -> None:
     rows = [",".join(f"{1.0 + (i * j) % 5}" if i != j else "" for j in range(8)) for i in range(8)]
     (tmp_path / "scan.csv").write_text("\n".join(rows))
-    text = """[material]
-catalogue = "synthetic fluoroelastomer"
-[conditions]
-pressure = "50 kPa"
-speed = "1 mm/s"
-temperature = "30 degC"
-[surface]
-file = "scan.csv"
-spacing = "1 mm"
-prepare = ["fill", "window"]
-"""
-    (tmp_path / "study.toml").write_text(text)
+    scan = 'file = "scan.csv"\nspacing = "1 mm"\nprepare = ["fill", "window"]\n'
+    (tmp_path / "study.toml").write_text(ROUGH + scan)
     found = json.loads(call("check", tmp_path / "study.toml", "--json").stdout)
     assert {"unit-assumed", "implausible-heights", "filled"} <= {one["code"] for one in found["note_records"]}
 

@@ -160,9 +160,10 @@ def least_error(stages: list[Stage], halvings: int) -> float:
     uncertain = last.left_out_range(last.window.spacing / 2.0**halvings) / 2.0**halvings
     values = np.array([stage.pressure_friction for stage in stages])
     pressure = settled(values, measured_fading(values)).error / _PRESSURE_ERROR_FALL**halvings
-    if _has_limit(last):
-        known = _limit(values).error if len(stages) >= _LIMIT_GRIDS else math.inf
-        pressure = min(pressure * (LEAST_SHARE if math.isinf(known) else 1.0), known / _LIMIT_ERROR_FALL**halvings)
+    if _has_limit(last) and len(stages) < _LIMIT_GRIDS:
+        pressure *= LEAST_SHARE
+    elif _has_limit(last):
+        pressure = min(pressure, _limit(values).error / _LIMIT_ERROR_FALL**halvings)
     scale = max(abs(last.energy_friction), FRICTION_FLOOR)
     return last.problem.geometry.scatter * min(uncertain, pressure) / scale
 
