@@ -5,18 +5,17 @@ h5netcdf looks up each data set of HDF5 some thirty times; here h5py creates or 
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Iterator, Mapping
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from uuid import uuid4
 
 import numpy as np
 
 from viscofric.datasets import Dataset, DataTree
-from viscofric.errors import DataFileError, not_written
-from viscofric.files import sync_folder
+from viscofric.errors import DataFileError
+from viscofric.files import write_atomically
 
 if TYPE_CHECKING:
     import h5py
@@ -28,26 +27,20 @@ _LINKS = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_NCProperties", 
 
 
 def write_netcdf(data: Dataset | DataTree, target: Path) -> None:
-    """Write a data set or a tree of them, whole or not at all: beside the target, then moved to it."""
+    """Write a data set or a tree of them, whole or not at all."""
     import h5py
     import xarray
 
     if target.is_dir():
         raise DataFileError(target, "is a folder; give the name of a file.", code="is-folder")
     tree = xarray.DataTree(data) if isinstance(data, xarray.Dataset) else data
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=target.parent, prefix=f".{target.name}.") as temporary:
-            path = Path(temporary) / target.name
-            with h5py.File(path, "w", track_order=True) as file:
-                file.attrs["_NCProperties"] = f"version=2,h5py={h5py.__version__},hdf5={h5py.version.hdf5_version}"
-                _write_group(file, tree, count())
-            with path.open("rb+") as file:
-                os.fsync(file.fileno())
-            path.replace(target)
-            sync_folder(target.parent)
-    except (OSError, RuntimeError) as error:  # RuntimeError: HDF5, where it closes a file on a full disk
-        raise not_written(target, error) from error
+    # In memory, where names must differ while files are open at once.
+    with h5py.File(uuid4().hex, "w", driver="core", backing_store=False, track_order=True) as file:
+        file.attrs["_NCProperties"] = f"version=2,h5py={h5py.__version__},hdf5={h5py.version.hdf5_version}"
+        _write_group(file, tree, count())
+        file.flush()
+        content = file.id.get_file_image()
+    write_atomically(target, content)
 
 
 def _write_group(group: h5py.Group, node: DataTree, numbers: Iterator[int]) -> None:
