@@ -115,6 +115,23 @@ def test_columns_of_sweeps_are_named(tmp_path: Path) -> None:
     assert refused.exit_code == 2
 
 
+@pytest.mark.slow
+def test_sweeps_whose_moduli_contradict_each_other_are_doubted_before_friction(tmp_path: Path) -> None:
+    rubber, rows = vf.synthetic_fluoroelastomer(), []
+    for celsius in (20, 30, 40):
+        for hertz in (0.1, 0.3, 1, 3, 10, 30, 100):
+            E = rubber.complex_modulus(2.0 * np.pi * hertz, celsius + 273.15)
+            rows.append([celsius, hertz, E.real / 1e6, E.imag / 1e6])
+    doubted = {}
+    for name, order in (("right", (0, 1, 2, 3)), ("swapped", (0, 1, 3, 2))):
+        path = tmp_path / f"{name}.csv"
+        lines = [",".join(f"{row[place]:.6g}" for place in order) for row in rows]
+        path.write_text("\n".join(["T (°C),f (Hz),E' (MPa),E'' (MPa)", *lines]), encoding="utf-8")
+        words = ("--dma", str(path), "--reference", "30 degC", *BALL, "--speed", "0.1 m/s")
+        doubted[name] = "Warning: Storage against loss modulus" in calls.succeed("curve", *words).stderr
+    assert doubted == {"right": False, "swapped": True}
+
+
 def test_curves_go_into_a_pipe_without_the_table() -> None:
     done = succeed(*SINGLE, "--ball", "10 mm", "--load", "1 N", "--speed", "1 m/s", "--accuracy", "0.1", "--out", "-")
     assert done.stdout.startswith("# viscofric friction curves")

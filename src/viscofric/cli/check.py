@@ -12,6 +12,7 @@ import click
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
 from viscofric.cli.output import json_option, print_json
+from viscofric.cli.rubber_options import print_checks_of
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -70,6 +71,8 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
     for word, line in _lines(found, record, study):
         click.echo(f"{word:10} {line}")
     print_notes(found.notes, "run_file")
+    for rubber in found.rubbers:
+        print_checks_of(rubber)
 
 
 def _check_results(folder: Path, as_json: bool) -> None:

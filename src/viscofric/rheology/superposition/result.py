@@ -126,7 +126,13 @@ class Superposed(Plotted, Generic[Curve, Tested]):
             ("reference", self.shift_factors.reference, "°C"),
             ("log10 α", self.shift_factors.log10_values),
             ("overlap misfit", self.quality.joint, "decades"),
+            ("superposition", self.check.verdict),
         )
+
+    @property
+    def check(self) -> Judged:
+        """Whether superposition holds."""
+        raise NotImplementedError
 
     def _attributes(self) -> dict[str, Any]:
         """Return what data sets say of the overlap."""
@@ -322,6 +328,7 @@ class Superposition(Superposed[MasterCurve, Isotherm]):
         return (
             ("isotherms", len(self.isotherms)),
             *super()._shown(),
+            ("E' and E''", "consistent" if self.check.consistent else "inconsistent (Kramers–Kronig)"),
             ("vertical shift", None if self.vertical_shift is None else type(self.vertical_shift).__name__),
             ("notes", self.notes),
         )
