@@ -83,15 +83,26 @@ def insist_on_short_text(data: bytes, path: str | PathLike[str]) -> None:
         raise DataFileError(path, f"{problem}numpy.save, as a file (.npy) of up to {binary:.0f} MB.", code="too-large")
 
 
+#: Code pages of Windows in East Asia, and words of headings whose bytes no western text has.
+_EASTERN = {
+    "gb18030": ("温度", "频率", "模量", "速度", "摩擦"),
+    "cp932": ("温度", "周波数", "弾性率", "速度", "摩擦"),
+    "big5": ("溫度", "頻率"),
+    "cp949": ("온도", "주파수"),
+}
+
+
 def decoded(data: bytes, path: str | PathLike[str]) -> str:
-    """Return bytes as text (UTF-16 with its mark, UTF-8, else Windows-1252); binary ones are a `DataFileError`."""
+    """Return bytes as text (UTF-16 with its mark, UTF-8, else as Windows has it); binary ones are a `DataFileError`."""
     try:
         # some instruments end their UTF-16 with half a character
         wide = data.startswith((b"\xff\xfe", b"\xfe\xff"))
         text = data[: len(data) & ~1].decode("utf-16") if wide else data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        # Instrument software under Windows; five bytes of its code page are undefined.
-        text = data.decode("cp1252", errors="replace")
+        # Instrument software under Windows; bytes of its code pages are undefined.
+        words = ((page, word) for page, some in _EASTERN.items() for word in some)
+        page = next((page for page, word in words if word.encode(page) in data), "cp1252")
+        text = data.decode(page, errors="replace")
     # Text has no control characters except tabs and ends of lines; workbooks and images have many.
     if _CONTROL.search(text):
         raise DataFileError(path, "is a binary file; a text table is needed (export it as CSV).", code="binary")

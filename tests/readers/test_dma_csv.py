@@ -746,6 +746,65 @@ def test_words_that_may_tell_specimens_apart_are_named(tmp_path):
         assert "unused-columns" not in codes(read_dma(write(tmp_path, f"{HEADER},sample", *rows)).notes)
 
 
+def test_specimens_at_the_same_temperature_and_frequency_are_not_averaged(tmp_path):
+    both = [f"{row},{word}" for word in ("A", "B") for row in ROWS]
+    with pytest.raises(vf.DataFileError) as caught:
+        read_dma(write(tmp_path, f"{HEADER},Specimen No.", *both))
+    assert caught.value.code == "several-specimens"
+    repeated = read_dma(write(tmp_path, f"{HEADER},Specimen No.", *(f"{row},A" for row in ROWS * 2)))
+    assert "averaged" in codes(repeated.notes)
+
+
+@pytest.mark.parametrize(
+    ("headings", "kind"),
+    [
+        ("J' (1/GPa),J'' (1/GPa)", "shear"),
+        ("D' (1/GPa),D'' (1/GPa)", "tension"),
+        ("D'' (1/GPa),tan δ", "tension"),
+        ("storage compliance (1/GPa),loss factor (%)", "tension"),
+    ],
+)
+def test_compliances_are_read_as_the_moduli_of_their_inverse(tmp_path, headings, kind):
+    rows = []
+    for row in ROWS:
+        T, f, storage, loss = map(float, row.split(","))
+        J = 1e3 / complex(storage, loss)  # 1/GPa
+        of = {"J'": J.real, "D'": J.real, "storage compliance": J.real, "J''": -J.imag, "D''": -J.imag}
+        of |= {"tan δ": loss / storage, "loss factor": 100 * loss / storage}
+        rows.append(",".join([repr(T), repr(f), *(repr(of[one.split(" (")[0]]) for one in headings.split(","))]))
+    sweeps = vf.read_dma(
+        write(tmp_path, f"T (°C),f (Hz),{headings}", *rows),
+        deformation="tension" if headings.startswith("storage") else None,
+    )
+    assert sweeps.deformation == kind
+    assert "moduli-computed" in codes(sweeps.notes)
+    assert_is_the_table(sweeps)
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "T (deg. C),F (Hz),Module élastique E' (MPa),Module visqueux E'' (MPa)",
+        "温度（℃）,频率（Ｈｚ）,E'（MPa）,E''（MPa）",
+    ],
+)
+def test_symbols_behind_names_and_wide_brackets_are_read(tmp_path, header):
+    assert_is_the_table(read_dma(write(tmp_path, header, *ROWS)))
+
+
+@pytest.mark.parametrize("page", ["gb18030", "cp932"])
+def test_headings_in_code_pages_of_east_asia_are_read(tmp_path, page):
+    path = tmp_path / "table.csv"
+    frequency = {"gb18030": "频率", "cp932": "周波数"}[page]
+    path.write_bytes("\n".join([f"温度 (K),{frequency} (Hz),E' (MPa),E'' (MPa)", *_in_kelvin()]).encode(page))
+    assert_is_the_table(read_dma(path))
+
+
+def _in_kelvin():
+    cells = (row.split(",", 1) for row in ROWS)
+    return [f"{float(celsius) + 273.15},{rest}" for celsius, rest in cells]
+
+
 def test_two_columns_of_strain_amplitude_are_named(tmp_path):
     sweeps = read_dma(write(tmp_path, f"{HEADER},strain (%),dynamic strain (%)", *(f"{row},1,2" for row in ROWS)))
     assert sweeps.isotherms[0].strain_amplitude == pytest.approx([0.02, 0.02])  # not the static one

@@ -22,7 +22,7 @@ _UNIT = (
 _SEPARATED = re.compile(
     rf"^(?P<name>.*?[^\s/_,])(?:(?:\s+in\s+|_in_|\s*,\s*|_|\s+)(?P<unit>{_UNIT})"
     r"|(?:\s+in\s+|_in_|\s*,\s*|_)(?P<letter>[CKFNsm])"
-    r"|(?:\s+in\s+|\s*,\s*)(?P<rarer>[ckd]N|daN|kgf|kp|gf|lbf|kg|g|mm?/min|km/h))$"
+    r"|(?:\s+in\s+|\s*,\s*)(?P<rarer>[ckd]N|daN|kgf|kp|gf|lbf|kg|g|mm?/min|km/h|°|deg|rad|-))$"
 )
 _LETTER = re.compile(r"^(?P<name>.*temp[^\s_]*|T)[\s_]+(?P<unit>[ckf])$", re.IGNORECASE)
 #: "log10(aT)", "tan(δ)", "a(T)", "compliance J(t)": brackets that hold an argument, not a unit.
@@ -46,6 +46,8 @@ _PLACE = re.compile(r"#\s*(?P<number>\d{1,4})")
 CONSTANT = re.compile(r"=\s*(?P<number>[+−-]?(\d+[.,]?\d*|[.,]\d+)([eE][+−-]?\d+)?)\s*(?P<unit>.*)")
 #: "1,000": a thousand or one.
 _THOUSANDS = re.compile(r"[+−-]?\d{1,3},\d{3}")
+#: Letters and marks of Chinese and Japanese text, as wide as its characters: "（℃）", "（ＭＰａ）".
+_FULL_WIDTH = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)}
 #: A longer heading is not parsed.
 _LONGEST_HEADING = 200
 #: A column of means, such as "E' mean", is one of the quantity where there is no other.
@@ -165,7 +167,12 @@ class Vocabulary:
         plain = unicodedata.normalize("NFC", name)
         lower = plain.lower()
         spellings = (plain, *(one for one in (lower, _MARKS.sub("", lower)) if len(one) > 1))
-        return next((what for one in spellings if (what := self._meaning.get(one))), "")
+        found = next((what for one in spellings if (what := self._meaning.get(one))), "")
+        words, _, symbol = plain.rpartition(" ")
+        if found or not words:
+            return found
+        what = self.quantity(words)  # "storage modulus E'", where both say the same
+        return what if what and what == self.quantity(symbol) else ""
 
     def column(self, text: str) -> Column:
         """Return the column under a heading, with the quantity that it names, or of which it names the logarithm."""
@@ -391,7 +398,7 @@ def heading(text: str) -> Column:
     text = " ".join(text.split())
     if len(text) > _LONGEST_HEADING:
         return Column(text, text, "")
-    plain = re.sub("[º˚]", "°", with_primes(text))
+    plain = re.sub("[º˚]", "°", with_primes(text.translate(_FULL_WIDTH)))
     name, unit = plain, ""
     for pattern in () if _FUNCTION.fullmatch(plain) else (_BRACKETED, _SEPARATED, _SLASHED, _LETTER):
         match = pattern.match(plain)

@@ -149,7 +149,7 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     # A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, ``mPa`` is not.
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
     if unit == "K":
-        text = _TEMPERATURE_UNITS.get(re.sub(r"[°º˚\s]", "", text.replace("℃", "C")).lower(), text)
+        text = _TEMPERATURE_UNITS.get(re.sub(r"[°º˚.\s]", "", text.replace("℃", "C")).lower(), text)
     if unit == "rad":
         text = _ANGLES.get(text.strip().lower(), "an unknown unit")
     if unit == "N" and text.strip() in MASSES:

@@ -11,6 +11,7 @@ from viscofric.arrays import Array, Indices, Mask
 from viscofric.data import Isotherm
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
+from viscofric.readers.dma.names import COMPLIANCES, MODULI
 from viscofric.readers.dma.readings import AS_AMPLITUDES, Points, Sorted, at
 from viscofric.readers.table import Table
 from viscofric.units import CELSIUS_ZERO, shown_celsius, shown_number
@@ -152,7 +153,7 @@ def doubts(table: Table, places: dict[str, int], temperature: Array, storage_mod
     outside = ~solid & (storage_modulus > 0.0)
     if np.any(outside):
         row = int(np.argmax(outside))
-        place = next(places[m] for m in ("storage modulus", "loss modulus", "complex modulus") if m in places)
+        place = next(places[m] for m in (*MODULI, *COMPLIANCES) if m in places)
         notes.append(
             Note(
                 "implausible-modulus",

@@ -13,7 +13,14 @@ from viscofric.data import Deformation
 from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, setting
 from viscofric.readers.header_rows import is_number
-from viscofric.readers.headings import FREQUENCY_IN_NAME, TEMPERATURE_IN_NAME, Vocabulary, heading, with_primes
+from viscofric.readers.headings import (
+    FREQUENCY_IN_NAME,
+    TEMPERATURE_IN_NAME,
+    Column,
+    Vocabulary,
+    heading,
+    with_primes,
+)
 from viscofric.readers.source import Source, to_rad_per_second
 from viscofric.readers.table import Table
 from viscofric.units import CELSIUS_ZERO
@@ -35,7 +42,7 @@ SET_TEMPERATURE = frozenset(
     | {"solltemperatur", "température de consigne", "temperatura programada", "temperatura impostata"}
 )
 FREQUENCY = frozenset(
-    {"f", "freq", "freq.", "frequency", "frequenz", "prüffrequenz", "messfrequenz", "fréquence", "frecuencia"}
+    {"f", "F", "freq", "freq.", "frequency", "frequenz", "prüffrequenz", "messfrequenz", "fréquence", "frecuencia"}
     | {"frequenza", "frequência", "frequentie", "frekvens", "frekvence", "częstotliwość", "частота", "频率", "周波数"}
 )
 ANGULAR_FREQUENCY = frozenset(
@@ -54,35 +61,42 @@ ISOTHERM = frozenset({"isotherm", "isotherm temperature", "temperature of the is
 STORAGE_MODULUS = frozenset(
     {"E'", "G'", "e'", "g'", "e stor", "g stor", "e storage", "g storage", "estor", "gstor"}
     | {sort + name for sort in _SORTS for name in ("storage", "storage modulus", "storage mod.")}
-    | {"storage modulus e'", "storage modulus g'", "speichermodul e'", "speichermodul g'", "elastic modulus e'"}
-    | {"young modulus e'", "young's modulus e'", "module d'young e'", "module d'élasticité e'"}
+    | {"elastic modulus e'", "young modulus e'", "young's modulus e'", "module d'young e'", "module d'élasticité e'"}
     | {"speichermodul", "speicherschubmodul", "zugspeichermodul", "e-speichermodul", "g-speichermodul"}
     | {"module de conservation", "module conservation", "module de stockage", "module élastique"}
     | {"module de conservation en cisaillement", "módulo de almacenamiento", "módulo elástico", "modulo conservativo"}
     | {"modulo di conservazione", "modulo di accumulo", "módulo de armazenamento", "opslagmodulus", "lagringsmodul"}
     | {"shear modulus (elastic component)"}
-    | {"moduł zachowawczy", "модуль накопления", "储能模量", "貯蔵弾性率"}
+    | {"moduł zachowawczy", "модуль накопления", "储能模量", "储存模量", "貯蔵弾性率"}
 )
 LOSS_MODULUS = frozenset(
     {"E''", "G''", "e''", "g''", "e loss", "g loss", "eloss", "gloss"}
     | {sort + name for sort in _SORTS for name in ("loss", "loss modulus", "loss mod.")}
-    | {"loss modulus e''", "loss modulus g''", "verlustmodul e''", "verlustmodul g''"}
     | {"verlustmodul", "verlustschubmodul", "zugverlustmodul", "e-verlustmodul", "g-verlustmodul"}
     | {"module de perte", "module perte", "module de dissipation", "module visqueux", "module de perte en cisaillement"}
     | {"módulo de pérdida", "módulo de pérdidas", "módulo viscoso", "modulo dissipativo", "modulo di perdita"}
     | {"shear modulus (viscous component)"}
     | {"módulo de perda", "verliesmodulus", "förlustmodul", "moduł stratności", "модуль потерь"}
-    | {"损耗模量", "損失弾性率"}
+    | {"损耗模量", "损失模量", "損失弾性率"}
 )
 COMPLEX_MODULUS = frozenset(
     {"|E*|", "|G*|", "E*", "G*", "|e*|", "|g*|", "e*", "g*"}
     | {"shear modulus (complex component)"}
     | {"complex modulus", "dynamic modulus", "absolute modulus", "komplexer modul", "module complexe"}
-    | {"módulo complejo", "modulo complesso", "módulo complexo"}
+    | {"módulo complejo", "modulo complesso", "módulo complexo", "复数模量", "复模量", "複素弾性率"}
+)
+STORAGE_COMPLIANCE = frozenset(
+    {"J'", "D'", "j'", "d'", "storage compliance", "shear storage compliance", "tensile storage compliance"}
+    | {"speichernachgiebigkeit", "speicherkomplianz", "complaisance de conservation", "储能柔量"}
+)
+LOSS_COMPLIANCE = frozenset(
+    {"J''", "D''", "j''", "d''", "loss compliance", "shear loss compliance", "tensile loss compliance"}
+    | {"verlustnachgiebigkeit", "verlustkomplianz", "complaisance de perte", "损耗柔量"}
 )
 LOSS_TANGENT = frozenset(
     {"tan δ", "tan delta", "tan d", "loss factor"}
     | {"loss tangent", "damping factor", "verlustfaktor", "facteur de perte", "facteur d'amortissement"}
+    | {"tangente delta", "tangens delta", "损耗因子", "损耗角正切", "損失正接"}
     | {"factor de pérdida", "fattore di perdita", "fator de perda", "verliesfactor", "förlustfaktor"}
 )
 PHASE_ANGLE = frozenset(
@@ -94,8 +108,6 @@ PHASE_ANGLE = frozenset(
         "loss angle",
         "phase shift",
         "phase lag",
-        "phase angle δ",
-        "phase angle delta",
     }
     | {"phasenwinkel", "verlustwinkel", "phasenverschiebung", "angle de phase", "angle de perte", "déphasage"}
     | {"ángulo de fase", "angolo di fase", "ângulo de fase", "fasehoek", "位相角", "相位角"}
@@ -139,6 +151,8 @@ STEP = frozenset(
 
 #: Any two of these, or one with tan δ or the phase angle, make a point.
 MODULI = ("storage modulus", "loss modulus", "complex modulus")
+#: Both, or one with tan δ or the phase angle, make a point where there are no moduli.
+COMPLIANCES = ("storage compliance", "loss compliance")
 #: The words of DMA tables: name of a quantity in errors -> names of its columns.
 DMA = Vocabulary(
     "a DMA table",
@@ -148,6 +162,8 @@ DMA = Vocabulary(
         "storage modulus": STORAGE_MODULUS,
         "loss modulus": LOSS_MODULUS,
         "complex modulus": COMPLEX_MODULUS,
+        "storage compliance": STORAGE_COMPLIANCE,
+        "loss compliance": LOSS_COMPLIANCE,
         "tan delta": LOSS_TANGENT,
         "phase angle": PHASE_ANGLE,
         "angular frequency": ANGULAR_FREQUENCY,
@@ -160,7 +176,7 @@ DMA = Vocabulary(
     },
     needed=(
         ("frequency", "angular frequency", "reduced frequency", "reduced angular frequency"),
-        ("storage modulus", "loss modulus", "complex modulus"),
+        (*MODULI, *COMPLIANCES),
     ),
     example="a DMA table has e.g. 'temperature (degC)', 'frequency (Hz)', 'storage modulus (MPa)', "
     "'loss modulus (MPa)'",
@@ -331,9 +347,21 @@ NOT_SAID = Note(
     remedy=setting("material.deformation", "Measured in", "'tension' or 'shear'") + ".",
 )
 
+_SPECIMEN = re.compile(
+    r"(sample|specimen|material|compound|probe|probekörper|prüfkörper|mischung|échantillon|éprouvette|mélange|muestra|probeta"
+    r"|campione|provino|amostra|样品|试样|試料)([\s_-]*(names?|id|no\.?|nr\.?|n°|number|name|nummer|code|#))?",
+    re.IGNORECASE,
+)
+
+
+def is_specimen(column: Column) -> bool:
+    """Return whether a column names the specimen of each row."""
+    return bool(_SPECIMEN.fullmatch(column.name))
+
+
 _SHEAR_WORDS = r"shear|schub|scher|cisaillement|cizall|cortante|taglio|cisalh|сдвиг"
-_SHEAR = re.compile(rf"\|?g['*\s]|g-|gstor|gloss|.*(\bg['*]|{_SHEAR_WORDS})")
-_TENSION = re.compile(r"\|?e['*\s]|e-|estor|eloss|.*(\be['*]|tensi|young|zug|traction|tracción|trazione|tração)")
+_SHEAR = re.compile(rf"\|?g['*\s]|j'|g-|gstor|gloss|.*(\bg['*]|{_SHEAR_WORDS})")
+_TENSION = re.compile(r"\|?e['*\s]|d'|e-|estor|eloss|.*(\be['*]|tensi|young|zug|traction|tracción|trazione|tração)")
 _SHEARED = re.compile(_SHEAR_WORDS)
 
 # Instruments give every modulus the same name, so the sample holder decides between E and G.  Plates shear in rotation;

@@ -13,8 +13,9 @@ from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma import names
-from viscofric.readers.dma.checks import doubts, insist_on_agreement
+from viscofric.readers.dma.checks import HELD_FREQUENCY, doubts, insist_on_agreement
 from viscofric.readers.dma.names import (
+    COMPLIANCES,
     MODULI,
     Said,
     deformation_of,
@@ -57,21 +58,24 @@ def read(source: Source) -> Readings:
 def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     """Return the places of the columns by quantity."""
     # Reduced frequencies have priority over measured ones in a master curve; `is_reduced` distinguishes the two.
-    wanted = ("temperature", *MODULI, "tan delta")
+    stated = MODULI if any(map(table.has, MODULI)) else COMPLIANCES
+    wanted = ("temperature", *stated, "tan delta")
     found = {what: table.place(what) for what in wanted}
     found["frequency"] = _frequency_place(table, master_curve=master_curve)
     if found["temperature"] is None:
         found["temperature"] = table.place("isotherm" if master_curve else "set temperature")
     places = {what: place for what, place in found.items() if place is not None}
     tangent = places.get("tan delta")
-    if tangent is not None and table.columns[tangent].unit.lower() not in MISSING | {"1"}:  # a tangent has no unit
+    if tangent is not None and table.columns[tangent].unit.lower() not in MISSING | {"1", "%"}:  # a tangent has no unit
         del places["tan delta"]
-    if "tan delta" not in places and not {"storage modulus", "loss modulus"} <= places.keys():
+    if "tan delta" not in places and not {*stated[:2]} <= places.keys():
         angle = table.place("phase angle")
         places |= {} if angle is None else {"phase angle": angle}
     missing = [] if "frequency" in places else ["frequency"]
-    if not places.keys() & {"tan delta", "phase angle"} or not places.keys() & {*MODULI}:
-        missing += [modulus for modulus in MODULI[:2] if modulus not in places]
+    if not places.keys() & {*stated}:
+        missing += MODULI[:2]
+    elif not places.keys() & {"tan delta", "phase angle"}:
+        missing += [one for one in stated[:2] if one not in places]
     if missing and "temperature" not in places and not master_curve:
         missing.insert(0, "temperature")
     if missing:
@@ -140,6 +144,8 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
     """Return storage and loss modulus, Pa, as printed or from tan δ, with notes on what was computed."""
     # With E'' = E' tan δ and |E*|² = E'² + E''², one modulus and tan δ, or the angle δ, give the others exactly;
     # redundant columns must agree, else `DataFileError` is raised.
+    if not places.keys() & {*MODULI}:
+        return _of_compliances(table, places, notes)
     values = {what: _modulus(table, places[what], source, notes) for what in MODULI if what in places}
     if "storage modulus" in values and "loss modulus" in values:
         storage, loss = values["storage modulus"], values["loss modulus"]
@@ -159,10 +165,32 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
     return storage, storage * tangent
 
 
+def _of_compliances(table: Table, places: dict[str, int], notes: list[str]) -> tuple[Array, Array]:
+    """Return storage and loss modulus, Pa, of the compliance J' − iJ'' = 1/(G' + iG''), or of one part and tan δ."""
+    found = [_compliance(table, places[what]) if what in places else None for what in COMPLIANCES]
+    storage, loss = found
+    tangent = loss / storage if storage is not None and loss is not None else _tangent(table, places)
+    tangent = np.where(tangent == 0.0, np.nan, tangent)
+    if storage is not None and loss is not None:
+        insist_on_agreement(table.path, storage, loss, _printed_tangent(table, places), None)
+    if storage is None:
+        assert loss is not None
+        storage = loss / tangent
+    notes.append(Note("moduli-computed", "Storage and loss moduli were computed from the compliances."))
+    modulus = 1.0 / (np.where(storage == 0.0, np.nan, storage) * (1.0 + tangent**2))
+    return modulus, modulus * tangent
+
+
+def _compliance(table: Table, place: int) -> Array:
+    factor, _ = table.conversion(table.columns[place], "1/Pa")
+    values = factor * table.numbers_or_missing(place)
+    return np.where(values == 0.0, np.nan, values)
+
+
 def _tangent(table: Table, places: dict[str, int]) -> Array:
     """Return tan δ as printed, or from the angle δ."""
     if "tan delta" in places:
-        return table.numbers_or_missing(places["tan delta"])
+        return _fraction(table, places["tan delta"])
     place = places["phase angle"]
     factor, _ = table.conversion(table.columns[place], "rad")
     angle = factor * table.numbers_or_missing(place)
@@ -175,9 +203,15 @@ def _tangent(table: Table, places: dict[str, int]) -> Array:
 def _printed_tangent(table: Table, places: dict[str, int]) -> Array | None:
     """Return tan δ next to both moduli, None if its column holds no numbers: it is not needed."""
     try:
-        return table.numbers_or_missing(places["tan delta"]) if "tan delta" in places else None
+        return _fraction(table, places["tan delta"]) if "tan delta" in places else None
     except DataFileError:
         return None
+
+
+def _fraction(table: Table, place: int) -> Array:
+    """Return numbers without a unit, or in per cent."""
+    factor = 0.01 if table.columns[place].unit.strip() == "%" else 1.0
+    return factor * table.numbers_or_missing(place)
 
 
 def lacks_unit(table: Table, places: dict[str, int], source: Source) -> bool:
@@ -205,7 +239,8 @@ def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Arra
 def deformation(tables: Sequence[Table], tools: Tools | None = None) -> Said:
     """Return tension or shear and the words that state it; moduli of both kinds are a `DataFileError`."""
     # `tools` are label and value of the sample holder, if it is not named above the tables.
-    moduli = [column for what in MODULI for table in tables for column in table.columns if column.quantity == what]
+    named = (*MODULI, *COMPLIANCES)
+    moduli = [column for what in named for table in tables for column in table.columns if column.quantity == what]
     if {"tension", "shear"} <= {deformation_of(column.name) for column in moduli}:
         problem = "one modulus is tensile (E) by its heading, the other shear (G); correct the wrong heading."
         raise DataFileError(tables[0].path, problem, code="deformation-contradicts")
@@ -249,6 +284,7 @@ def read_points(
     storage, loss = moduli(table, places, source, notes)
     temperature = _temperature(table, places, source, name, frequency, notes)
     if not exported:
+        _insist_on_one_specimen(table, temperature, frequency)
         _insist_on_most(table, places, "frequency", frequency)
         _insist_on_most(table, places, "storage modulus", storage)
     kind, said_by = deformation([table], tools)
@@ -344,6 +380,24 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
         return
     table.numbers(place)  # raises for the first cell that is empty or not a number
     table.insist(good, place, "above zero")
+
+
+def _insist_on_one_specimen(table: Table, temperature: Array, angular: Array) -> None:
+    """Refuse a table whose column of specimens tells apart what would be averaged."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        kelvins, places = np.round(temperature), np.round(np.log(angular) / HELD_FREQUENCY)
+    known = np.flatnonzero(np.isfinite(kelvins + places))
+    for column in (place for place, one in enumerate(table.columns) if not one.quantity and names.is_specimen(one)):
+        seen: dict[tuple[float, float], str] = {}
+        for row in known:
+            label = table.rows[row][column].strip()
+            other = seen.setdefault((kelvins[row], places[row]), label)
+            if label and other and label != other:
+                problem = (
+                    f"column {table.columns[column].heading!r} holds {other!r} and {label!r} at one temperature and "
+                    "frequency; keep the rows of one specimen, or remove this column to average them."
+                )
+                raise DataFileError(table.path, problem, int(table.lines[row]), code="several-specimens")
 
 
 def _note_unread(table: Table, notes: list[str]) -> None:
