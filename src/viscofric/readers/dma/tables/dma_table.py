@@ -165,6 +165,7 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
     return storage, storage * tangent
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def _of_compliances(table: Table, places: dict[str, int], notes: list[str]) -> tuple[Array, Array]:
     """Return storage and loss modulus, Pa, of the compliance J' − iJ'' = 1/(G' + iG''), or of one part and tan δ."""
     found = [_compliance(table, places[what]) if what in places else None for what in COMPLIANCES]
@@ -177,7 +178,7 @@ def _of_compliances(table: Table, places: dict[str, int], notes: list[str]) -> t
         assert loss is not None
         storage = loss / tangent
     notes.append(Note("moduli-computed", "Storage and loss moduli were computed from the compliances."))
-    modulus = 1.0 / (np.where(storage == 0.0, np.nan, storage) * (1.0 + tangent**2))
+    modulus = 1.0 / (storage * (1.0 + tangent**2))
     return modulus, modulus * tangent
 
 
