@@ -107,7 +107,7 @@ def test_tables_and_drawings_are_written(tmp_path: Path, monkeypatch: pytest.Mon
     table = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True)
     assert table["time_s"].tolist() == [1e-3, 0.1]
     succeed("transient", *PRESS, "--times", "1 ms, 0.1 s", "-o", tmp_path / "run.nc", "--json")
-    with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as data:
+    with xarray.open_dataset(tmp_path / "run.nc", engine="netcdf4") as data:
         assert data["indentation"].attrs["units"] == "m"
         np.testing.assert_allclose(data["indentation"], table["indentation_m"], rtol=1e-14)
     printed = succeed("transient", *PRESS, "--times", "1 ms", "--out", "-").stdout.splitlines()
@@ -254,7 +254,7 @@ def test_one_impact_is_reported_with_its_rebounds(tmp_path: Path) -> None:
     assert done.stdout.count("\nrestitution") == len(hit.contacts)
     assert float(lines(done)["largest indentation"].split()[0]) > 0.0
     assert (tmp_path / "hit.svg").stat().st_size > 0
-    with xarray.open_dataset(tmp_path / "hit.nc", engine="h5netcdf") as data:
+    with xarray.open_dataset(tmp_path / "hit.nc", engine="netcdf4") as data:
         assert data.attrs["contacts"] == len(hit.contacts)
 
 

@@ -335,7 +335,7 @@ def test_pictures_show_the_conditions() -> None:
 def test_fields_are_written_with_their_units(tmp_path: Path) -> None:
     done = succeed(*RUBBER, *BALL, "--json", "-o", tmp_path / "fields.nc")
     assert json.loads(done.stdout)["results"]  # files are named on the other stream
-    with xarray.open_dataset(tmp_path / "fields.nc", engine="h5netcdf") as data:
+    with xarray.open_dataset(tmp_path / "fields.nc", engine="netcdf4") as data:
         cell = float(data.x[1] - data.x[0]) * float(data.y[1] - data.y[0])
         assert data.pressure.attrs["units"] == "Pa"
         assert float(data.pressure.sum()) * cell == pytest.approx(1.0, rel=1e-9)  # rounding: the load is given

@@ -156,8 +156,8 @@ def test_figures_that_the_results_lack_are_left_out(tree: xr.DataTree, tmp_path:
 def test_figures_survive_the_round_trip_through_a_file(tree: xr.DataTree, tmp_path: Path) -> None:
     import xarray as xr
 
-    tree.to_netcdf(tmp_path / "results.nc", engine="h5netcdf")
-    with xr.open_datatree(tmp_path / "results.nc", engine="h5netcdf") as stored:
+    tree.to_netcdf(tmp_path / "results.nc", engine="netcdf4")
+    with xr.open_datatree(tmp_path / "results.nc", engine="netcdf4") as stored:
         again = stored.load()
     assert drawing.figure_images(again, ("svg",)) == drawing.figure_images(tree, ("svg",))
 

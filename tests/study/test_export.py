@@ -114,7 +114,7 @@ def test_labelled_cases_come_back_from_another_format(tmp_path: Path) -> None:
     results = made(tmp_path, made_sweep(materials=("NBR", "EPDM"), together=False), failed=[3])
     for _ in range(2):  # the second time in place of the first
         path = results.export("netcdf")
-    with xarray.open_dataset(path, engine="h5netcdf") as found:
+    with xarray.open_dataset(path, engine="netcdf4") as found:
         xarray.testing.assert_equal(found.load(), results.dataset)
         assert found.attrs["viscofric_version"] == results.tree.attrs["viscofric_version"]
         assert found["max_pressure"].attrs["units"] == "Pa"

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from types import SimpleNamespace
 
-import h5py
 import numpy as np
 import pytest
 import xarray
@@ -23,9 +24,12 @@ from viscofric.errors import DataFileError
 from viscofric.report.texts.study import grouped_failures
 from viscofric.study.cases.sweep import place, place_in
 from viscofric.study.contacts import Solved
-from viscofric.study.results.file import save_results
+from viscofric.study.results.file import DIGEST, save_results
 from viscofric.study.results.netcdf import read_netcdf, write_netcdf
 from viscofric.study.results.results import input_hashes
+
+#: Which an earlier version wrote, through h5py.
+STORED = Path(__file__).parents[1] / "data" / "stored" / "results" / "results.nc"
 
 
 @pytest.mark.slow
@@ -47,7 +51,9 @@ def test_what_is_stored_is_what_is_read(tmp_path: Path) -> None:
 def of_all_kinds() -> xarray.DataTree:
     """Return a tree with every kind of variable, dimension and attribute that netCDF knows and results have."""
     attributes = {"one": "ω", "lines": ["a", "b"], "none": [], "number": 0.5, "range": np.array([1.0, 2.0])}
-    root = xarray.Dataset({"curve": (("point", "speed"), np.arange(6.0).reshape(2, 3))}, {"speed": [1.0, 2.0, 4.0]})
+    root = xarray.Dataset(
+        {"curve": (("point", "speed"), np.arange(6.0).reshape(2, 3))}, {"speed": [1.0, 2.0, 4.0]}, {"title": "all"}
+    )
     child = xarray.Dataset(
         {
             "inherited": ("speed", [1, 2, 3], {"units": "m"}),
@@ -63,24 +69,51 @@ def of_all_kinds() -> xarray.DataTree:
 
 
 @pytest.mark.slow
-def test_files_are_those_of_xarray_and_read_as_xarray_reads_them(of_all_kinds: xarray.DataTree, tmp_path: Path) -> None:
-    ours, theirs = tmp_path / "ours.nc", tmp_path / "theirs.nc"
-    write_netcdf(of_all_kinds, ours)
-    of_all_kinds.to_netcdf(theirs, engine="h5netcdf")
-    with xarray.open_datatree(theirs, engine="h5netcdf") as expected:
-        for path in (ours, theirs):
-            with h5py.File(path) as file:
-                found = read_netcdf(file)
-            xarray.testing.assert_identical(found, expected.load())
-            assert [node.dataset.dtypes for node in found.subtree] == [node.dataset.dtypes for node in expected.subtree]
-        with xarray.open_datatree(ours, engine="h5netcdf") as found:
-            xarray.testing.assert_identical(found.load(), expected)
-            assert [list(node.variables) for node in found.subtree] == [
-                list(node.variables) for node in of_all_kinds.subtree
-            ]
-    with h5py.File(ours) as file:
-        assert file["child/mode"].id.get_storage_size() == 0  # a dimension without coordinates has no numbers
-        assert file["child/empty/nothing"].maxshape == (None, 2)  # netCDF has no others without length
+def test_every_kind_of_data_is_read_as_it_was_written(of_all_kinds: xarray.DataTree, tmp_path: Path) -> None:
+    (tmp_path / "größe #1").mkdir()
+    path = tmp_path / "größe #1" / "all.nc"
+    write_netcdf(of_all_kinds, path)
+    found = read_netcdf(path.read_bytes(), "title")
+    assert found is not None
+    xarray.testing.assert_identical(found, of_all_kinds)
+    for node in of_all_kinds.subtree:
+        of_group, expected = found[node.path].to_dataset(inherit=False), node.to_dataset(inherit=False)
+        assert list(found[node.path].children) == list(node.children)
+        assert list(of_group.variables) == list(expected.variables)
+        assert list(of_group.attrs) == list(expected.attrs)
+        assert [one.dtype.kind for one in of_group.variables.values()] == [
+            one.dtype.kind for one in expected.variables.values()
+        ]
+    assert read_netcdf(path.read_bytes(), "another") is None
+    assert read_netcdf(STORED.read_bytes(), DIGEST) is not None
+
+
+def test_files_are_written_and_read_in_several_threads(of_all_kinds: xarray.DataTree, tmp_path: Path) -> None:
+    def there_and_back(number: int) -> xarray.DataTree | None:
+        write_netcdf(of_all_kinds, tmp_path / f"{number}.nc")
+        return read_netcdf((tmp_path / f"{number}.nc").read_bytes(), "title")
+
+    with ThreadPoolExecutor(4) as threads:
+        assert all(of_all_kinds.identical(found) for found in threads.map(there_and_back, range(12)))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows limits no sizes of files")
+def test_a_full_disk_for_temporary_files_is_reported(of_all_kinds: xarray.DataTree, tmp_path: Path) -> None:
+    path = tmp_path / "all.nc"
+    write_netcdf(of_all_kinds, path)
+    before = path.read_bytes()
+    import resource
+
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limits[1]))
+        with refused("not-written", DataFileError):
+            write_netcdf(of_all_kinds, path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, ignored)
+    assert path.read_bytes() == before
 
 
 @pytest.mark.slow
@@ -116,7 +149,7 @@ def test_what_is_no_results_file_is_reported(tmp_path: Path, content: bytes, cod
 
 
 def test_a_netcdf_file_of_others_is_reported(tmp_path: Path) -> None:
-    xarray.Dataset({"a": 1.0}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
+    xarray.Dataset({"a": 1.0}).to_netcdf(tmp_path / "other.nc", engine="netcdf4")
     with refused("not-results", DataFileError):
         vf.open_results(tmp_path / "other.nc")
 

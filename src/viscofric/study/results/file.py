@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 from pathlib import Path
 
 import numpy as np
 
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import DataFileError, InputError
-from viscofric.files import file_path, insist_on_true_size
+from viscofric.files import file_path
 from viscofric.study.results.netcdf import read_netcdf, write_netcdf
 
 RESULTS_FILE = "results.nc"
@@ -37,7 +36,6 @@ _ABOUT = (
 #: Attribute of the root with the digest of everything else.
 DIGEST = "content_sha256"
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
-_CUT = re.compile(r"truncated file: eof = (\d+),.*stored_eof = (\d+)")
 
 
 def cases_of(tree: DataTree, folder: Path) -> Dataset:
@@ -61,8 +59,6 @@ def rubbers_of(tree: DataTree) -> dict[str, DataTree]:
 
 def open_tree(path: str | Path) -> tuple[DataTree, Path]:
     """Return the tree of results and their folder; see `open_results`."""
-    import h5py
-
     file = file_path(path)
     if file.is_dir():
         file = file / RESULTS_FILE
@@ -77,11 +73,9 @@ def open_tree(path: str | Path) -> tuple[DataTree, Path]:
     if not file.is_file():
         raise DataFileError(file, f"no such results file; {_where_they_are(file.parent)}", code="no-results")
     try:
-        insist_on_true_size(file)
-        with h5py.File(file) as opened:
-            tree = read_netcdf(opened) if "viscofric_version" in opened.attrs else None
+        tree = read_netcdf(file.read_bytes(), "viscofric_version")
         found = None if tree is None else digest(tree)
-    except Exception as error:  # h5py raises many kinds, and the file is more informative
+    except Exception as error:  # the libraries raise many kinds, and the file is more informative
         raise what_is_wrong(file, error) from error
     if tree is None:
         raise DataFileError(file, "is a netCDF file, but not one of results of viscofric.", code="not-results")
@@ -152,12 +146,11 @@ def what_is_wrong(path: Path, error: Exception) -> DataFileError:
         )
     if not start:
         why = "it is empty; writing or copying it was cut short."
-    elif (cut := _CUT.search(str(error))) is not None:
-        why = f"it has only {cut[1]} of its {cut[2]} bytes."
     elif len(start) < len(_SIGNATURE):
         why = f"it has only {len(start)} bytes."
     else:
-        why = f"it cannot be read as netCDF ({' '.join(str(error).split()) or type(error).__name__})."
+        words = getattr(error, "strerror", None) or " ".join(str(error).split()) or type(error).__name__
+        why = f"it is incomplete, or its bytes have changed ({words})."
     return DataFileError(path, f"is damaged: {why}{what_helps(path)}", code="damaged")
 
 
