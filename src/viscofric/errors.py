@@ -210,7 +210,7 @@ def not_needed(path: object, name: str, code: str, problem: str, after: str = ""
 
 def not_written(path: object, error: Exception) -> DataFileError:
     """Return the error of a file that cannot be written: the disk is full, the folder read-only, or removed."""
-    number = getattr(error, "errno", None)  # h5py puts the reason into a long text
+    number = getattr(error, "errno", None)
     why = os.strerror(number) if number else error
     return DataFileError(path, f"cannot be written ({why}).", code="not-written")
 
