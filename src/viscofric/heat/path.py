@@ -98,34 +98,40 @@ def _responses(passage: Passage, body: ThermalProperties) -> Array:
     sizes = passage.size, passage.size if passage.loss_size is None else passage.loss_size
     for last in (np.flatnonzero(np.diff(passage.time) > 0.0) + 1).tolist():
         face, wide = (0.5 * float(size[last - 1] + size[last]) for size in sizes)
-        for row in range(last, count):
-            if face > 0.0:
-                found[:, row, last] = _response(passage, body, row, last, face)[[0, 1, 1, 2]]
-            if wide > face:
-                found[2:, row, last] = _response(passage, body, row, last, wide)[1:]
+        if face > 0.0:
+            found[:, last:, last] = _response(passage, body, last, face)[[0, 1, 1, 2]]
+        if wide > face:
+            found[2:, last:, last] = _response(passage, body, last, wide)[1:]
     return found
 
 
-def _response(passage: Passage, body: ThermalProperties, row: int, last: int, radius: float) -> Array:
+def _response(passage: Passage, body: ThermalProperties, last: int, radius: float) -> Array:
+    """Return what heat of the interval that ends at the time `last` does at this time and each later one, (3, rows)."""
     time, places = passage.time, passage.position
-    start, end = math.sqrt(time[row] - time[last - 1]), math.sqrt(time[row] - time[last])
+    start, end = np.sqrt(time[last:] - time[last - 1]), np.sqrt(time[last:] - time[last])
     length = float(time[last] - time[last - 1])
     whole = length / (start + end)  # their difference, of intervals as short as rounding, too
     way = places[last] - places[last - 1]
     parts = min(_PARTS, 1 + math.ceil(math.hypot(*way) / (_STEP * radius)))
     # Parts by the path, and by the time in which heat spreads over the contact, which M changes with.
     spreading = radius / math.sqrt(body.diffusivity) * _SPREADING
-    inside = (spreading[(spreading > end) & (spreading < start)] - end) / whole
-    edges = np.sort(np.append(np.linspace(0.0, 1.0, parts + 1), inside))
-    place, weight = gauss(_NODES, edges)
-    root = end + whole * place  # √t, in which 1/√t has no pole
-    share = (1.0 - place) * whole * (start + root) / length
-    away = places[row] - places[last - 1] - share[:, None] * way
+    inside = np.clip((spreading - end[:, None]) / whole[:, None], 0.0, 1.0)
+    even = np.broadcast_to(np.linspace(0.0, 1.0, parts + 1), (len(end), parts + 1))
+    edges = np.sort(np.concatenate([even, inside], axis=1), axis=1)
+    row, part = np.nonzero(np.diff(edges) > 0.0)
+    node, weight = gauss(_NODES)
+    width = (edges[row, part + 1] - edges[row, part])[:, None]
+    place = (edges[row, part][:, None] + width * node).ravel()
+    at = np.repeat(row, _NODES)
+    root = end[at] + whole[at] * place  # √t, in which 1/√t has no pole
+    share = (1.0 - place) * whole[at] * (start[at] + root) / length
+    away = places[last + at] - places[last - 1] - share[:, None] * way
     spread = body.diffusivity * root**2 / radius**2
     scale = body.volume_heat * math.sqrt(math.pi * body.diffusivity) * radius ** _POWER[passage.shape]
-    each = 2.0 * whole * weight * density(np.hypot(*away.T) / radius, spread, passage.shape)
+    each = 2.0 * whole[at] * (width * weight).ravel() * density(np.hypot(*away.T) / radius, spread, passage.shape)
     each /= scale * length
-    return np.asarray(between_depths(spread, passage.shape) @ each)
+    first = np.searchsorted(at, np.arange(len(end)))
+    return np.add.reduceat(between_depths(spread, passage.shape) * each, first, axis=1)
 
 
 def between_depths(spread: Array, shape: str) -> Array:
