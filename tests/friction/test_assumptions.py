@@ -317,6 +317,10 @@ def test_coulomb_friction_that_changes_the_pressure_is_reported(
         change = 1.25 * beta * (1.0 - poisson_ratio**2) * stress / np.array(modulus)
         # The mean of S over the waves of the pressure differs from that at v/a by 3 % here.
         assert check.value == pytest.approx(float(np.max(change / np.abs(rubbed.viscoelastic))), rel=0.05)
+
+
+def test_without_coulomb_friction_the_pressure_has_none_to_change_it() -> None:
+    rubber = replace(RUBBER, poisson_ratio=0.49)
     assert "uncoupled" not in checks(rubber, BALL, curves(), contact_radius="2 mm")
 
 
