@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from friction.planning.made_up_contacts import BALL, SLS, case_of, made_up
+from marks import apart
 from viscofric.contact.free.scale import Scale
 from viscofric.friction.cases.indenter_case import LOGARITHMIC, node_of
 from viscofric.friction.cases.interpolation import FRICTION, Node
@@ -49,7 +50,7 @@ def random_modes(random: np.random.Generator) -> list[tuple[float, float]]:
     return [(random.uniform(-8.0, 8.0), random.uniform(0.05, 1.0)) for _ in range(random.integers(1, 9))]
 
 
-@pytest.mark.parametrize("accuracy", [1e-2, 1e-3, pytest.param(1e-4, marks=pytest.mark.apart)])
+@pytest.mark.parametrize("accuracy", [1e-2, *apart(1e-3, 1e-4)])
 def test_claimed_errors_hold(accuracy: float) -> None:
     random, held = np.random.default_rng(0), []
     for _ in range(15):
