@@ -182,3 +182,20 @@ def test_a_lower_tolerance_has_its_memory_in_double_precision():
     mover.tighten()
     assert mover.begin().memory.dtype == np.complex128
     assert mover.floor(mover.scales) == pytest.approx(0.1 * np.array(before))
+
+
+@pytest.mark.apart
+def test_friction_of_ridges_at_rest_is_within_its_error_when_both_chains_touch_a_point_too_late():
+    """A point that had left is touched again: no difference shows a common delay until the first chain touches."""
+    chance, waves = np.random.default_rng(13), np.arange(1, 24)
+    chance.choice(4)
+    size = waves ** (-chance.uniform(0.5, 1.0) - 0.5)
+    angle = 2.0 * np.pi * np.outer(waves, np.arange(96) / 96)
+    z = (size * chance.normal(size=23)) @ np.cos(angle) + (size * chance.normal(size=23)) @ np.sin(angle)
+    surface = vf.contact.PeriodicSurface(1e-6 / z.std() * (z - z.mean()), 1e-3 / 96)
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="41.58 MPa", tau=2.07417e-3)
+    pressure = [47.34660587, 99.55567399, 15.34573728, 30.0]
+    history = vf.motion.History([0.0, 3.89828e-3, 1.318243e-2, 1.386e-2], pressure=pressure, before="at rest")
+    one = vf.motion.solve_transient(rubber, surface, history)
+    two = vf.motion.solve_transient(rubber, surface, history, accuracy=3e-4, times=one.time)
+    assert np.all(np.abs(one.friction_force - two.friction_force) <= one.errors.friction_force)

@@ -139,6 +139,14 @@ def floor_of(floor: Scales, instant: Instant) -> Errors:
     return Errors(0.0 if given else load, depth if given else 0.0, friction, energy)
 
 
+def errors_of_steps(spread: Difference) -> Errors:
+    """Return the errors by steps, from the difference of the chains."""
+    each = spread.load, spread.depth, math.hypot(spread.along, spread.across), max(spread.work, spread.dissipated)
+    steps = Errors(*(part * one for part, one in zip(_OF_STEPS, each, strict=True)))
+    # Those of points that touch or leave within a step are of first order, and cancel in the friction only by chance.
+    return steps._replace(friction=max(steps.friction, spread.points))
+
+
 def moment_of(
     pair: Pair[State],
     instant: Instant,
@@ -154,10 +162,7 @@ def moment_of(
     coarse, fine = pair
     left_out = tuple(early * one for one in fine.seen.left_out)
     off = difference(pair)
-    each = spread.load, spread.depth, math.hypot(spread.along, spread.across), max(spread.work, spread.dissipated)
-    steps = Errors(*(part * one for part, one in zip(_OF_STEPS, each, strict=True)))
-    # Those of points that touch or leave within a step are of first order, and cancel in the friction only by chance.
-    steps = steps._replace(friction=max(steps.friction, spread.points))
+    steps = errors_of_steps(spread)
     errors = Errors(*(sum(parts) for parts in zip(steps, left_out, floor, strict=True)))
     slopes = _OF_STEPS.friction * math.hypot(spread.slopes_along, spread.slopes_across) + left_out[2] + floor.friction
     # Sums over all steps are smooth enough to be extrapolated.

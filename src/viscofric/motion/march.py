@@ -30,6 +30,7 @@ from viscofric.motion.chains import (
     Reached,
     Track,
     difference,
+    errors_of_steps,
     faded,
     field_of,
     floor_of,
@@ -104,6 +105,7 @@ class _March(Generic[State]):
     progress: Callable[[float, float], object] | None
     extrapolate: bool
     moments: list[Moment[State]] = field(default_factory=list)
+    _apart: float | None = None  # time from which on the chains touch different points, since the kink, s
     taken: int = 0
     rejected: int = 0
     _stored: float = 0.0  # before the start
@@ -334,6 +336,7 @@ class _March(Generic[State]):
         instant = self._instant(reached)
         self.mover.accept(tried.fine.state, instant)
         pair = self._seen(tried, rate_change)
+        self._hold_before(pair, instant, reached)
         worst = max(map(abs, over_scales(difference(pair), self._scales))) / 3.0
         if worst > self.accuracy and not self._limited:
             raise _TooLargeError(worst / self.accuracy)
@@ -359,6 +362,27 @@ class _March(Generic[State]):
         points = max(self.mover.pointwise_difference(pair.coarse.state, pair.fine.state), rate_change)
         self._scales, self._spread = self._with(pair), faded(self._spread, pair, points)
         return pair
+
+    def _hold_before(self, pair: Pair[State], instant: Instant, reached: float) -> None:
+        """Let the error of friction at rest hold earlier, if one chain touches a point that the other does not."""
+        # The contact itself may have touched it before both chains, by about the time between them: until one of them
+        # touches, no difference shows that.
+        coarse, fine = (link.seen.area for link in pair)
+        if coarse == fine or self._spread.points == 0.0:
+            self._apart = None
+            return
+        if self._apart is None:
+            self._apart = self._at.since if self._at.since < reached else 0.0
+        if not np.array_equal(instant.position, self.schedule.at(self._kink).position):
+            return
+        first = self._kink + max(0.0, 2.0 * self._apart - reached)
+        now = errors_of_steps(self._spread).friction
+        for place in range(len(self.moments) - 1, -1, -1):
+            one = self.moments[place]
+            if one.instant.time < first or one.instant.time <= self._kink:
+                return
+            errors = one.errors._replace(friction=max(one.errors.friction, now))
+            self.moments[place] = replace(one, errors=errors)
 
     def _record(self, pair: Pair[State], instant: Instant, *, asked: bool, times: int = 1) -> None:
         if not asked and self.times is not None:
