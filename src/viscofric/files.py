@@ -42,6 +42,7 @@ _HDF5 = b"\x89HDF\r\n\x1a\n"
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
 # In remarks of files, unless it is the kind of a substance, which may well be measured.
 _SYNTHETIC = re.compile(r"\bsynthetic\b(?!\s+(rubber|elastomer|polymer|oil|grease|lubricant))", re.IGNORECASE)
+_OF_ELEMENT = re.compile(r">([^<]+)<")
 _REMARKED = 64_000  # bytes at the beginning of a file whose remarks say where its data come from
 
 
@@ -116,13 +117,34 @@ def read_text(path: str | PathLike[str], most: int | None = None) -> str:
 
 
 def says_synthetic(path: str | PathLike[str]) -> bool:
-    """Whether a text file says of itself, in a remark (#) among its first lines, that it was not measured."""
+    """Whether a file says of itself that it was not measured.
+
+    A text does so in a remark (#) among its first lines, a workbook in a cell with such a remark or in its properties.
+    """
     try:
         with file_path(path).open("rb") as file:
-            lines = decoded(file.read(_REMARKED), path).splitlines()[:50]
-    except (OSError, DataFileError):
+            data = file.read(_REMARKED)
+        lines = _remarks_of_workbook(path) if data.startswith(b"PK") else decoded(data, path).splitlines()[:50]
+    except (OSError, DataFileError, zipfile.BadZipFile):
         return False
     return any(_SYNTHETIC.search(line) for line in lines if line.startswith("#"))
+
+
+def _remarks_of_workbook(path: str | PathLike[str]) -> list[str]:
+    """Return the first texts of the cells of a workbook, and its properties as remarks."""
+    found = []
+    with zipfile.ZipFile(path) as book:
+        for name, start in (("docProps/core.xml", "#"), ("xl/sharedStrings.xml", "")):
+            if name in book.namelist():
+                with book.open(name) as part:
+                    text = part.read(_REMARKED).decode("utf-8", errors="replace")
+                found += [start + words for words in _OF_ELEMENT.findall(text)]
+    return found
+
+
+def marked(source: str, *, synthetic: bool) -> str:
+    """Return where data come from, with a mark if they are synthetic; a file whose remarks have it says so."""
+    return f"{source} (synthetic)" if synthetic and not _SYNTHETIC.search(source) else source
 
 
 def parse_json(text: str | bytes, **options: Any) -> Any:

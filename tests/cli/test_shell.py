@@ -72,7 +72,7 @@ def test_runs_are_read_from_a_pipe_and_curves_go_into_one() -> None:
     runner = CliRunner()
     curves = runner.invoke(main, ["measure", "-", "--out", "-"], input=RUNS.read_bytes())
     assert curves.exit_code == 0, curves.output
-    assert curves.stdout.startswith("# viscofric friction curves\n# source: standard input\n")
+    assert curves.stdout.startswith("# viscofric friction curves\n# source: standard input (synthetic)\n")
     words = ["master", "-", "--shift", "synthetic fluoroelastomer", "--json"]
     shifted = runner.invoke(main, words, input=curves.stdout)
     assert shifted.exit_code == 0, shifted.output

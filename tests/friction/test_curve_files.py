@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import fields, replace
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from friction.synthetic_curves import planted_law, synthetic_curves
 from readers.samples import workbook
 from refusals import refused
 from viscofric.errors import DataFileError
+from viscofric.files import says_synthetic
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, Remedy, codes, note_of
@@ -426,3 +428,25 @@ def test_a_temperature_of_all_rows_is_not_that_of_another_heading(tmp_path: Path
         0.2,
         0.25,
     ]
+
+
+def test_what_synthetic_runs_and_rubbers_give_is_synthetic_after_writing_and_reading(tmp_path: Path) -> None:
+    """Also where the remark of a table is left behind, and in workbooks; measured friction is not."""
+    first, again, other = (tmp_path / name for name in ("one.csv", "two.csv", "other.csv"))
+    vf.write_friction_curves(vf.separate(vf.read_mtm(files("viscofric") / "example" / "mtm.csv")), first)
+    assert says_synthetic(first)
+    vf.write_friction_curves(vf.read_friction_curves(first).select([0, 1]), again)
+    assert says_synthetic(again)
+    rubber = vf.synthetic_fluoroelastomer()
+    predicted = vf.predict_friction(rubber, vf.Ball("10 mm"), speeds=[0.1], load="5 N", temperatures=[303.15])
+    vf.write_friction_curves(predicted, other)
+    assert says_synthetic(other)
+    assert str(vf.citations(vf.read_friction_curves(other))) == str(vf.citations(predicted))
+    vf.write_friction_curves(replace(predicted, source="a tribometer"), other)
+    assert not says_synthetic(other)
+    for remark, synthetic in (("# SYNTHETIC, of a model", True), ("# measured on synthetic rubber", False)):
+        rows = [[remark], *(line.replace(",", ".").split(";") for line in FOREIGN.splitlines())]
+        book = workbook.write(tmp_path / "curves.xlsx", {"friction": rows})
+        assert says_synthetic(book) is synthetic
+        vf.write_friction_curves(vf.read_friction_curves(book), other)
+        assert says_synthetic(other) is synthetic

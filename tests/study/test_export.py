@@ -15,6 +15,7 @@ import xarray
 from refusals import refused
 from study.sweeps import friction_of, made_results, made_sweep
 from viscofric.errors import DataFileError
+from viscofric.files import says_synthetic
 from viscofric.study.results import export
 from viscofric.study.results.export import FORMS
 
@@ -84,6 +85,13 @@ def test_workbook_holds_every_table_and_says_what_its_headings_mean(tmp_path: Pa
     assert meanings["max_pressure"] == ["Pa", "largest contact pressure"]
     # what begins like a formula stays the text that it is
     assert ["warning", "=1+1 is no formula."] in [row[:2] for row in found["summary"]]
+
+
+def test_workbooks_of_synthetic_data_say_so(tmp_path: Path) -> None:
+    for origin in ("synthetic", "measured"):
+        results = made(tmp_path)
+        results.tree.attrs["data_origin"] = origin
+        assert says_synthetic(results.to_excel(tmp_path / "all.xlsx")) is (origin == "synthetic")
 
 
 def test_headings_stay_in_sight(tmp_path: Path) -> None:

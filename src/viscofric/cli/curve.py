@@ -79,6 +79,7 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     """
     refuse_to_overwrite(inputs_of(parameters), out, picture)
     from viscofric.cli.progress import contact_bar
+    from viscofric.files import marked
     from viscofric.friction.curve_files import write_friction_curves
     from viscofric.friction.prediction import predict_friction
 
@@ -101,11 +102,13 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
             heating=chosen_heating(parameters),
             **settings,
         )
+    made_up = is_made_up(rubber, parameters)
+    curves = replace(curves, source=marked(curves.source, synthetic=made_up))
     answer(lambda: _record(curves, rubber, shape, parameters), lambda: _print(name, rubber, curves))
     print_notes(curves.notes)
     write_files(
         ("curves", out, partial(write_friction_curves, curves)),
-        ("picture", picture, drawing(_figure_of(curves), curves, mark=is_made_up(rubber, parameters))),
+        ("picture", picture, drawing(_figure_of(curves), curves, mark=made_up)),
     )
     exit_if_beyond(parameters["accuracy"], curves.viscoelastic, curves.viscoelastic_error)
 

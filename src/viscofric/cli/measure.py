@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -48,17 +49,19 @@ def command(runs: tuple[Path, ...], out: Path | None, picture: Path | None, synt
     test; `-` is standard input.
     """
     refuse_to_overwrite(runs, out, picture)
+    from viscofric.files import marked
     from viscofric.friction.curve_files import write_friction_curves
     from viscofric.report.texts.friction import friction_record
 
+    made_up = is_synthetic(synthetic, runs)
     curves = separated_runs(runs, parameters)
+    curves = replace(curves, source=marked(curves.source, synthetic=made_up))
 
     def record() -> dict[str, Any]:
         return friction_record(curves, {"runs": [plainly(str(path)) for path in runs], **separation_record(parameters)})
 
     answer(record, lambda: _print(curves))
     print_notes(curves.notes)
-    made_up = is_synthetic(synthetic, runs)
     draw = drawing("friction.friction_figure", curves, mark=made_up, synthetic=made_up)
     write_files(("curves", out, lambda path: write_friction_curves(curves, path)), ("picture", picture, draw))
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError, short_notes
-from viscofric.files import file_path, write_atomically
+from viscofric.files import file_path, marked, says_synthetic, write_atomically
 from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
@@ -172,7 +172,7 @@ def read_friction_curves(
     try:
         return FrictionCurves(
             replicates=replicates.astype(np.int64),
-            source=(remarks["source"] or [str(path)])[0],
+            source=marked((remarks["source"] or [str(path)])[0], synthetic=says_synthetic(path)),
             assumption=(remarks["assumption"] or [""])[0],
             notes=(*short_notes(note for note in notes if note not in doubts), *doubts),
             load_unit=unit,

@@ -13,12 +13,14 @@ from viscofric.contact.heated_curve import States, heat_columns, solve_states
 from viscofric.contact.settings import ContactSettings
 from viscofric.contact.steady import thermal_contact
 from viscofric.datasets import Dataset
+from viscofric.files import marked
 from viscofric.friction.cases.record import Record, columns_of_contacts, indenter_record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.planning.shared import SharedContacts
 from viscofric.heat.heating import Heating
 from viscofric.heat.result import SolvedHeatColumns
 from viscofric.processes import Workers, at_work
+from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.showing import Rows
 
@@ -92,7 +94,8 @@ def predict_heated(
     unit = contacts[0]["indenter"].geometry.load_unit
     records = [_record(one) for one in states]
     friction = columns_of_contacts(material, records, unit, columns["temperature_rise"])
-    return HeatedFrictionCurves(**friction, source="predicted", **columns)
+    source = marked("predicted", synthetic=is_synthetic(material))
+    return HeatedFrictionCurves(**friction, source=source, **columns)
 
 
 def _record(one: States) -> Record:

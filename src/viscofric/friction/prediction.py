@@ -16,6 +16,7 @@ from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, i
 from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
+from viscofric.files import marked
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.cases.record import columns_of_contacts, indenter_record
 from viscofric.friction.coulomb import check_interface, shear_notes, with_interface
@@ -25,6 +26,7 @@ from viscofric.friction.planning.shared import SharedContacts, places_of
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.heat.heating import Heating
 from viscofric.processes import Workers, at_work, call_all
+from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material, insist_on_material
@@ -252,7 +254,7 @@ def _isothermal(
         pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
         records = [indenter_record(one, kelvin, known) for (one, known), kelvin in zip(pairs, kelvins, strict=True)]
     columns = columns_of_contacts(material, records, contacts[0]["indenter"].geometry.load_unit)
-    curves = FrictionCurves(**columns, source="predicted")
+    curves = FrictionCurves(**columns, source=marked("predicted", synthetic=is_synthetic(material)))
     if drawn is None:
         return curves
     return with_material_band(curves, [record.sensitivity for record in records], drawn)  # type: ignore[misc]

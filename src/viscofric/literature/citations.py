@@ -160,7 +160,7 @@ def _of_persson(theory: PerssonTheory) -> Iterator[Cited]:
 
 
 def _of_curves(curves: FrictionCurves) -> Iterator[Cited]:
-    if curves.source == "predicted":
+    if curves.source.startswith("predicted"):
         yield from _solved_contact(line=curves.load_unit == "N/m")
     elif curves.coulomb is not None:
         yield from _SEPARATED_FRICTION

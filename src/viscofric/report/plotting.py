@@ -113,7 +113,8 @@ def _contact(axes: Axes, solution: Any, **options: Any) -> None:
 
 
 def _curves(axes: Axes, curves: Any, **options: Any) -> None:
-    plot_friction_curves(axes, **{"prediction" if curves.source == "predicted" else "measurement": curves}, **options)
+    kind = "prediction" if curves.source.startswith("predicted") else "measurement"
+    plot_friction_curves(axes, **{kind: curves}, **options)
 
 
 def _cycle(axes: Axes, cycle: Any) -> None:
@@ -155,7 +156,7 @@ def _indentation(axes: Axes, record: Any) -> None:
 
 
 def _master(axes: Axes, found: Any, **options: Any) -> None:
-    if found.curves.source == "predicted":  # the figure of measurements would call them measured
+    if found.curves.source.startswith("predicted"):  # the figure of measurements would call them measured
         _columns("viscoelastic", along="reduced_speed", log="x")(axes, found, **options)
     else:
         plot_friction_master_curve(axes, measurement=found, **options)

@@ -12,7 +12,7 @@ import numpy as np
 
 from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError, InputError, check_choice, short_notes
-from viscofric.files import file_path, read_bytes
+from viscofric.files import file_path, marked, read_bytes, says_synthetic
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.notes import Note, note_of, setting
 from viscofric.readers.mtm import delimited, pcs_binary, pcs_text
@@ -167,7 +167,7 @@ def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
     return TractionRuns(
         **columns,
         replicate=replicate,
-        source=", ".join(part.source for part in parts),
+        source=", ".join(marked(part.source, synthetic=says_synthetic(part.source)) for part in parts),
         notes=(*short_notes((*own, *numbering, *timing)), *notes_on_friction(friction)),
         zero_force=_optional(parts, "zero_force"),
         time=time,

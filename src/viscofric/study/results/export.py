@@ -66,6 +66,7 @@ def workbook(tree: DataTree, cases: Dataset) -> bytes:
         book.set_properties(
             {
                 "title": str(attributes.get("title", "")),
+                "keywords": str(attributes.get("data_origin", "")),
                 "comments": f"viscofric {attributes.get('viscofric_version', '')}",
                 "created": datetime.fromisoformat(str(attributes["created"])),
             }
