@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -19,7 +20,7 @@ from hypothesis import strategies as st
 import hostile
 import viscofric as vf
 from refusals import refused
-from study.sweeps import made_outcomes, made_results, made_sweep
+from study.sweeps import RECORD, made_outcomes, made_results, made_sweep
 from viscofric.errors import DataFileError
 from viscofric.report.texts.study import grouped_failures
 from viscofric.study.cases.sweep import place, place_in
@@ -27,6 +28,8 @@ from viscofric.study.contacts import Solved
 from viscofric.study.results.file import DIGEST, save_results
 from viscofric.study.results.netcdf import read_netcdf, write_netcdf
 from viscofric.study.results.results import input_hashes
+from viscofric.study.results.tree import master_prediction
+from viscofric.study.study_rubber import curves_of
 
 #: Which an earlier version wrote, through h5py.
 STORED = Path(__file__).parents[1] / "data" / "stored" / "results" / "results.nc"
@@ -258,3 +261,9 @@ def test_a_run_file_whose_name_is_no_text_has_results(tmp_path: Path) -> None:
     path.write_text(hostile.STUDY + "[solver]\naccuracy = 0.1\n[outputs]\nfields = 'none'\n", encoding="utf-8")
     vf.run_study(path)
     assert vf.open_results(path.with_suffix(".results")).dataset.attrs["study_file"] == r"a\udcff.toml"
+
+
+def test_interpolated_contacts_along_the_master_curve_are_marked() -> None:
+    records = [RECORD, replace(RECORD, interpolated=True)]
+    found = master_prediction(records, "point", None, curves_of(records))
+    assert found["interpolated"].values.tolist() == [0, 1]

@@ -155,6 +155,7 @@ def master_prediction(
     meaning = meaning_of(geometry)
     columns: dict[str, Any] = {name: [getattr(record, name) for record in records] for name in MEANING[geometry]}
     columns |= _band(curves, "friction")
+    columns["interpolated"] = np.array([record.interpolated for record in records], dtype=np.int8)
     if within is not None:
         columns[_WITHIN] = np.array(within, dtype=np.int8)
     return dataset("case", {name: (values, *meaning[name]) for name, values in columns.items()})
