@@ -14,7 +14,8 @@ from report.test_studies import STUDIES, rough
 from viscofric.notes import Note, Remedy, records
 from viscofric.report.captions import captions
 from viscofric.report.texts.friction_tables import agreement_table, detail_tables, friction_at_a_glance
-from viscofric.report.texts.study import grouped_failures, key_numbers, scope
+from viscofric.report.texts.study import grouped_failures, inputs, key_numbers, scope
+from viscofric.report.texts.tables import shift_factor_table
 
 
 def test_failures_of_one_code_are_one_line() -> None:
@@ -71,13 +72,13 @@ def test_doubtful_rows_are_marked_and_counted_in_the_headline(tree: xr.DataTree)
     change(tree, "prediction", "within_measured_frequencies", 1, 0)
     change(tree, "measurement", "within_measured_frequencies", 2, 0)
     tables = {table.key: table for table in detail_tables(tree)}
-    assert [row[-1] for row in tables["prediction"].rows[:3]] == ["wide contact", "beyond the sweeps", ""]
-    assert [row[-1] for row in tables["measured-and-predicted"].rows[:3]] == ["", "", "beyond the sweeps"]
+    assert [row[-1] for row in tables["prediction"].rows[:3]] == ["wide contact", "extrapolated", ""]
+    assert [row[-1] for row in tables["measured-and-predicted"].rows[:3]] == ["", "", "extrapolated"]
     assert "remark" not in tables["prediction-master"].headings
     glance = friction_at_a_glance(tree)
     assert glance is not None
     assert [row[1].endswith(" *") for row in glance.rows[:3]] == [True, True, False]
-    assert "extends beyond 0.3 ball radii from the axis" in glance.note
+    assert "extends beyond 0.3 of the indenter's radius from its axis" in glance.note
     remark = key_numbers(tree)[0].remark
     assert "doubtful in 1 of 21" in remark
     assert "extrapolated beyond the measured frequencies in 1 of 21" in remark
@@ -187,3 +188,27 @@ def test_agreement_says_whether_the_material_is_counted(tree: xr.DataTree) -> No
     (number,) = [item for item in key_numbers(tree) if item.name == "Prediction minus measurement"]
     assert "+0.4\N{NO-BREAK SPACE}% ± 0.37\N{NO-BREAK SPACE}%" in number.remark
     assert "including the material's" in number.remark
+
+
+def test_scope_and_inputs_say_what_the_material_is_fitted_to(make_tree: Callable[..., xr.DataTree]) -> None:
+    tree = make_tree(measurement=False, step_tests_format="delimited text")
+    sweeps = tree["isotherms"].to_dataset()
+    times = sweeps.rename(angular_frequency="time").assign_attrs(kind="creep")
+    for name, group, fitted in (
+        ("ramps", sweeps, "temperature ramps in tension: 14 temperatures from −30 °C to 100 °C, 0.63 to 63 rad/s;"),
+        ("step_tests", times, "creep tests in tension, read as delimited text: 14 temperatures from −30 °C to 100 °C"),
+        ("master_curve", tree["master_curve"].to_dataset(), "a master curve in tension: 14 temperatures"),
+    ):
+        other = tree.copy()
+        del other["isotherms"]
+        other[name] = xr.DataTree(group)
+        said = scope(other)[1].replace("\N{NO-BREAK SPACE}", " ")
+        assert said.startswith(f"The material is fitted to {fitted}")
+        assert inputs(other)[0].value.startswith("fitted to ")
+
+
+def test_logarithms_at_the_reference_are_zero(tree: xr.DataTree) -> None:
+    change(tree, "shift_factors", "log10_shift_factor", 6, -7e-18)
+    table = shift_factor_table(tree)
+    assert table is not None
+    assert table.rows[6][table.headings.index("log₁₀ α")] == "0.0000"

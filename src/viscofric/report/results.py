@@ -115,11 +115,11 @@ def reference_temperature(tree: DataTree) -> float | None:
 
 # Numerical error, as part of friction, up to which lines and three digits hide it.
 _HIDDEN_ERROR = 0.01
-WIDE, EXTRAPOLATED = "wide contact", "beyond the sweeps"
+WIDE, EXTRAPOLATED = "wide contact", "extrapolated"
 
 
 def reach(tree: DataTree, cases: Dataset) -> Array:
-    """Return how far each contact reaches from the ball's axis, over the ball's radius; nan if not known."""
+    """Return how far each contact reaches from the indenter's axis, over its radius; nan if not known."""
     radius = values(cases, "radius") if "radius" in cases.variables else number(tree.attrs, "indenter_radius")
     sides = np.array([values(cases, name) for name in ("front", "rear", "half_width")])
     farthest: Array = np.where(np.isfinite(sides), sides, -np.inf).max(axis=0)

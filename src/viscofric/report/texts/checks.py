@@ -126,7 +126,8 @@ def _law(tree: DataTree, measured_used: bool) -> Iterator[Check]:
     rms = math.nan if law is None else number(law.attrs, "rms")
     if law is None or not math.isfinite(rms):
         return
-    far = f"The shift factors lie {significant(rms, 2)} decades (rms) from the {law.attrs.get('law', 'fitted')} law"
+    apart = "less than 0.001" if rms < 1e-3 else significant(rms, 2)
+    far = f"The shift factors lie {apart} decades (rms) from the {law.attrs.get('law', 'fitted')} law"
     if measured_used:
         words = f"{far}; the measured shift factors are used, not this law."
         yield Check("Shift law", "noted", words)
@@ -228,7 +229,9 @@ def _small_strain(tree: DataTree) -> Iterator[Check]:
     reaches = np.concatenate([reach(tree, part) for part in parts])
     reaches = reaches[np.isfinite(reaches)]
     if not reaches.size:
-        words = "Could not be checked: the results do not contain the size of the ball or of its contact."
+        words = (
+            "Could not be checked: the results do not contain the radius of the indenter, or the size of its contact."
+        )
         yield Check("Small strain", "noted", words)
         return
     wide = int(np.sum(reaches > SMALL_STRAIN))
@@ -237,8 +240,8 @@ def _small_strain(tree: DataTree) -> Iterator[Check]:
     yield Check.of(
         "Small strain",
         wide == 0,
-        f"The contact extends to {significant(float(reaches.max()), 2)} ball radii from the axis at most; above "
-        f"{SMALL_STRAIN:g} the linear theory of a half-space is doubtful.{many}",
+        f"The contact extends to {significant(float(reaches.max()), 2)} of the indenter's radius from its axis at "
+        f"most; above {SMALL_STRAIN:g} the linear theory of a half-space is doubtful.{many}",
         float(reaches.max()),
         SMALL_STRAIN,
     )

@@ -31,6 +31,7 @@ from viscofric.report.texts.tables import (
     Column,
     Table,
     law_table,
+    logarithm,
     made_table,
     shift_factor_table,
     spectrum_table,
@@ -43,13 +44,13 @@ _MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
 # Rows of a table beyond which the results alone hold the others.
 _LONGEST = 1_000
 _DOUBTFUL = {
-    WIDE: f"extends beyond {SMALL_STRAIN:g} ball radii from the axis",
+    WIDE: f"extends beyond {SMALL_STRAIN:g} of the indenter's radius from its axis",
     EXTRAPOLATED: "depends on frequencies that were not measured",
 }
 _MEANINGS = (
     "95 %: confidence band from the uncertainty of the material; "
-    "front and rear: from the ball's axis to the leading and to the trailing edge of the contact; half-width: across "
-    "the motion; energy balance: friction from the pressure minus friction from the dissipation, relative; "
+    "front and rear: from the indenter's axis to the leading and to the trailing edge of the contact; half-width: "
+    "across the motion; energy balance: friction from the pressure minus friction from the dissipation, relative; "
     "complementarity: largest violation of the contact conditions, over the indentation; cells: along the longer "
     "edge of the finest grid; products: number of products with the influence matrix."
 )
@@ -325,11 +326,11 @@ def friction_shift_table(tree: DataTree) -> Table | None:
         return None
     columns = [
         Column("temperature", "temperature", degrees),
-        Column("log₁₀ α from friction", "log10_shift_factor", times(1.0)),
+        Column("log₁₀ α from friction", "log10_shift_factor", logarithm),
         Column("standard error", "standard_error", times(1.0, 2)),
-        Column("log₁₀ α of the modulus", "known_log10_shift_factor", times(1.0)),
+        Column("log₁₀ α of the modulus", "known_log10_shift_factor", logarithm),
         Column("its standard error", "known_standard_error", times(1.0, 2)),
-        Column("difference", "difference", times(1.0, 2)),
+        Column("difference", "difference", logarithm),
     ]
     full = found.assign(difference=found["log10_shift_factor"] - found["known_log10_shift_factor"])
     at = degrees(number(found.attrs, "reference_temperature"))

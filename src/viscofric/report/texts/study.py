@@ -58,7 +58,7 @@ def scope(tree: DataTree) -> list[str]:
     """Say the inputs of the study in sentences."""
     attrs = tree.attrs
     said = []
-    found, sweeps = group(tree, "prediction"), group(tree, "isotherms")
+    found = group(tree, "prediction")
     if found is not None:
         prediction = cases_of(found)
         steps, speed = _temperatures(prediction), values(prediction, "speed")
@@ -74,15 +74,10 @@ def scope(tree: DataTree) -> list[str]:
         also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load", "pressure")]
         if also:
             said.append(f"Varied as well: {'; '.join(f'{axis.title} ({_points(axis)})' for axis in also)}.")
-    if sweeps is not None:
-        steps = _temperatures(sweeps)
-        at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
-        file = f", read as {attrs['dma_format']}" if attrs.get("dma_format") else ""
-        said.append(
-            f"The material is fitted to DMA frequency sweeps in {attrs.get('deformation', 'tension')}{file}: "
-            f"{at}, {unbroken(_range(values(sweeps, 'angular_frequency')) + ' rad/s')}"
-            f"{_isotherms_used(tree)}. Poisson's ratio is taken as {short(number(attrs, 'poisson_ratio'))}."
-        )
+    if tests := _tests(tree):
+        kind = str(attrs.get("deformation", "")) if len(tests) == 1 else ""
+        fitted, ratio = " and to ".join(_tested(one, kind) for one in tests), short(number(attrs, "poisson_ratio"))
+        said.append(f"The material is fitted to {fitted}{_isotherms_used(tree)}. Poisson's ratio is taken as {ratio}.")
     elif attrs.get("material"):
         source = f" ({attrs['citation']})" if attrs.get("citation") else ""
         said.append(
@@ -102,6 +97,36 @@ def scope(tree: DataTree) -> list[str]:
         points = f"{measurement.sizes['point']} {kind} points of friction"
         said.append(f"The prediction is compared with {points}{separated}. {enters}")
     return said + _interface(tree) + _heating(tree)
+
+
+class _Tests(NamedTuple):
+    """Tests of one kind that the material is fitted to: what they are called, as a file was read, and their points."""
+
+    noun: str
+    read_as: str
+    points: Dataset
+
+
+def _tests(tree: DataTree) -> list[_Tests]:
+    """Return the tests that the material is fitted to; none of a predefined material."""
+    named = {"isotherms": "DMA sweeps", "ramps": "temperature ramps", "step_tests": "{kind} tests"}
+    found: list[_Tests] = []
+    for name, noun in (named if "step_tests" in tree.children else named | {"master_curve": "a master curve"}).items():
+        points = group(tree, name)
+        if points is not None and (name != "master_curve" or not found):  # else that of the tests
+            form = str(tree.attrs.get("step_tests_format" if name == "step_tests" else "dma_format", ""))
+            found.append(_Tests(noun.format(**points.attrs), form, points))
+    return found
+
+
+def _tested(tests: _Tests, deformation: str) -> str:
+    """Say what was tested at which temperatures, and over which frequencies or times."""
+    steps = _temperatures(tests.points)
+    at = f"{len(steps)} temperatures from {steps[0]} to {steps[-1]}" if len(steps) > 1 else steps[0]
+    along, unit = ("time", "s") if "time" in tests.points else ("angular_frequency", "rad/s")
+    how = f" in {deformation}" if deformation else ""
+    file = f", read as {tests.read_as}" if tests.read_as else ""
+    return f"{tests.noun}{how}{file}: {at}, {unbroken(f'{_range(values(tests.points, along))} {unit}')}"
 
 
 def _interface(tree: DataTree) -> list[str]:
@@ -149,8 +174,8 @@ def inputs(tree: DataTree) -> list[Input]:
     """Return what the study was given: rubber, indenter, conditions, accuracy."""
     attrs, listed = tree.attrs, []
     rubber = str(attrs.get("material") or attrs.get("material_name") or "")
-    if not rubber and group(tree, "isotherms") is not None:
-        rubber = "fitted to DMA sweeps"
+    if not rubber and (tests := _tests(tree)):
+        rubber = f"fitted to {' and '.join(one.noun for one in tests)}"
     listed.append(Input("material", rubber))
     listed.append(Input("Poisson's ratio", short(number(attrs, "poisson_ratio"))))
     reference = reference_temperature(tree)
@@ -294,7 +319,8 @@ def _caveat(tree: DataTree, prediction: Dataset) -> str:
     wide, beyond = int(is_wide(tree, prediction).sum()), int(is_extrapolated(prediction).sum())
     of, said = prediction.sizes["case"], ""
     if wide:
-        said += f"; doubtful in {wide} of {of} cases, whose contact extends beyond {SMALL_STRAIN:g} ball radii"
+        reaching = f"extends beyond {SMALL_STRAIN:g} of the indenter's radius"
+        said += f"; doubtful in {wide} of {of} cases, whose contact {reaching}"
     friction = values(prediction, "friction_coefficient")
     error = shown_error(friction, values(prediction, "friction_error"))
     if np.isfinite(error).any():

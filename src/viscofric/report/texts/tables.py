@@ -12,6 +12,7 @@ from viscofric.datasets import Dataset, DataTree
 from viscofric.notes import table_in
 from viscofric.report.results import group, values
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
+from viscofric.units import shown_number
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,11 @@ class Column(NamedTuple):
 def times(factor: float, digits: int = 4) -> Callable[[float], str]:
     """Return what writes a number times a factor to so many digits."""
     return lambda value: significant(factor * value, digits)
+
+
+def logarithm(value: float) -> str:
+    """Write a decadic logarithm, whose rounding is zero."""
+    return shown_number(value, "z.4f") if np.isfinite(value) else ABSENT
 
 
 def whole(value: float) -> str:
@@ -74,10 +80,10 @@ def shift_factor_table(tree: DataTree) -> Table | None:
         return None
     columns = [
         Column("temperature", "temperature", degrees),
-        Column("log₁₀ α", "log10_shift_factor", times(1.0)),
+        Column("log₁₀ α", "log10_shift_factor", logarithm),
         Column("standard error", "standard_error", times(1.0, 2)),
         Column("α", "alpha", times(1.0)),
-        Column("log₁₀ b", "log10_vertical_shift", times(1.0)),
+        Column("log₁₀ b", "log10_vertical_shift", logarithm),
         Column("standard error of log₁₀ b", "vertical_standard_error", times(1.0, 2)),
     ]
     full = factors.assign(alpha=10.0 ** factors["log10_shift_factor"])
