@@ -48,7 +48,8 @@ def spectrum(fit: vf.rheology.Superposition) -> vf.RetardationSpectrum:
 @pytest.fixture
 def axes() -> Iterator[Axes]:
     """Axes one column wide; whatever is drawn on them must draw without a warning."""
-    with matplotlib.rc_context({**style.STYLE, **style.COLUMN}):
+    sizes = {"font.size": 7.5, "axes.labelsize": 8.0, "legend.fontsize": 7.0, "legend.handlelength": 1.6}
+    with matplotlib.rc_context({**style.STYLE, **sizes}):
         figure = style.new_figure(85 / 25.4, 70 / 25.4)
         yield figure.subplots()
         with warnings.catch_warnings():

@@ -89,6 +89,3 @@ def test_friction_curves_stand_beside_the_theory(road):
     cold, warm, warm_theory, cold_theory = axes.lines
     assert warm_theory.get_color() == warm.get_color() != cold.get_color() == cold_theory.get_color()
     assert warm.get_label() == "solved, warm, 2 surfaces"
-    axes = new_figure().subplots()
-    figures.plot_friction_by_cut_off(axes, [theory, theory], ["10 µm", "1 µm"])
-    assert len(axes.lines) == 2

@@ -37,6 +37,7 @@ _NEAR_POLE = 1.0
 #: Shift factors of the modulus are drawn so far beyond those of friction, K.
 FARTHER = 20.0
 _SIDES = ("lower", "upper")
+_MEGA = 1e-6
 
 
 def as_dataset(source: Any, *arguments: Any) -> Dataset:
@@ -54,8 +55,8 @@ class Moduli(NamedTuple):
 
     temperature: Array  # (n,), K
     angular_frequency: Array  # (n,), rad/s
-    storage: Array  # (n,), Pa
-    loss: Array  # (n,), Pa
+    storage: Array  # (n,), MPa
+    loss: Array  # (n,), MPa
     symbol: str  # E, or G for moduli measured in shear
     reference: float  # K; NaN where none is stated
 
@@ -71,7 +72,8 @@ def moduli_of_sweeps(source: Sweeps | SuperpositionCheck) -> Moduli:
         return moduli(source)
     if isinstance(source, SuperpositionCheck):
         order = np.arange(float(len(source.temperature)))  # of the frequencies
-        return Moduli(source.temperature, order, source.storage_modulus, source.loss_modulus, "E", np.nan)
+        storage, loss = _MEGA * source.storage_modulus, _MEGA * source.loss_modulus
+        return Moduli(source.temperature, order, storage, loss, "E", np.nan)
     isotherms: Any = getattr(source, "isotherms", source)
     deformation: Any = getattr(source, "deformation", "tension")
     return moduli(IsothermalSweeps(tuple(isotherms), deformation))
@@ -88,15 +90,15 @@ def moduli(source: Any, prefix: str = "") -> Moduli:
     return Moduli(
         values(data, "temperature"),
         values(data, "angular_frequency"),
-        values(data, f"{prefix}storage_modulus"),
-        values(data, f"{prefix}loss_modulus"),
+        _MEGA * values(data, f"{prefix}storage_modulus"),
+        _MEGA * values(data, f"{prefix}loss_modulus"),
         "G" if data.attrs.get("deformation") == "shear" else "E",
         number(data.attrs, "reference_temperature"),
     )
 
 
 class ModulusBand(NamedTuple):
-    """Lower and upper bounds (2, n) of E' and E'' (Pa) over the angular frequency (n,), rad/s."""
+    """Lower and upper bounds (2, n) of E' and E'' (MPa) over the angular frequency (n,), rad/s."""
 
     angular_frequency: Array
     storage: Array
@@ -107,7 +109,7 @@ def modulus_band(source: Any, angular_frequency: Array) -> ModulusBand:
     """Return bounds of E(ω): those of a dataset, or of an object (such as samples) at angular frequencies (n,)."""
     data = as_dataset(source, angular_frequency)
     storage, loss = (
-        np.stack([values(data, f"{name}_modulus_{side}") for side in _SIDES]) for name in ("storage", "loss")
+        _MEGA * np.stack([values(data, f"{name}_modulus_{side}") for side in _SIDES]) for name in ("storage", "loss")
     )
     return ModulusBand(values(data, "angular_frequency"), storage, loss)
 

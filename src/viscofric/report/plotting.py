@@ -39,7 +39,7 @@ from viscofric.report.figures.shift_factors import (
     plot_shift_factors,
     plot_vertical_shift,
 )
-from viscofric.report.figures.style import BLUE, STYLE, VERMILION, looks
+from viscofric.report.figures.style import BLUE, MODULI, STYLE, looks
 from viscofric.report.figures.superposition import plot_van_gurp_palmen
 from viscofric.report.figures.sweeps import plot_study
 from viscofric.rheology.shifts.shift_law import ShiftLaw
@@ -143,10 +143,9 @@ def _laws(axes: Axes, comparison: Any) -> None:
 
 def _samples(axes: Axes, samples: Any) -> None:
     bounds = modulus_band(samples, np.geomspace(*samples.frequency_range))
-    for name, limits, colour in (("$E'$", bounds.storage, BLUE), ("$E''$", bounds.loss, VERMILION)):
-        axes.fill_between(
-            bounds.angular_frequency, *limits / 1e6, color=colour, alpha=0.4, linewidth=0, label=f"{name}, 95 %"
-        )
+    for name, symbol, _, colour in MODULI:
+        look: dict[str, Any] = {"color": colour, "alpha": 0.4, "linewidth": 0, "label": f"{symbol}, 95 %"}
+        axes.fill_between(bounds.angular_frequency, *getattr(bounds, name), **look)
     axes.set(xscale="log", yscale="log", xlabel=r"angular frequency $\omega$ (rad/s)", ylabel="modulus (MPa)")
     axes.legend()
 

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
     from viscofric.friction.identification.result import Identified
 
-_MEGAPASCAL = 1e6
-
 
 def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Material | Master | None = None) -> None:
     """Draw an identified modulus with its 95 % band, the identified frequencies marked.
@@ -45,11 +43,8 @@ def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Mate
         relative = number(data.attrs, "anchored") == 0.0
         known_to = f"known to {100.0 * limit:g} %" + (" except for its magnitude" if relative else "")
         handles.append(axes.axvspan(low, high, color=style.GREY, alpha=0.15, linewidth=0.0, zorder=0, label=known_to))
-    for symbol, value, limits, colour in (
-        ("$E'$", modulus.storage, bounds.storage, style.BLUE),
-        ("$E''$", modulus.loss, bounds.loss, style.VERMILION),
-    ):
-        value, limits = value / _MEGAPASCAL, limits / _MEGAPASCAL
+    for name, symbol, _, colour in style.MODULI:
+        value, limits = getattr(modulus, name), getattr(bounds, name)
         shade: dict[str, Any] = {"color": colour, "alpha": 0.22, "linewidth": 0.0, "zorder": 1}
         axes.plot(frequency, value, color=colour, linewidth=0.7)
         handles += axes.plot(frequency, np.where(inside, value, np.nan), color=colour, label=f"{symbol} identified")
@@ -57,7 +52,7 @@ def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Mate
     if known is not None:
         handles += _plot_known(axes, known, frequency)
     axes.set_xlim(frequency[0], frequency[-1])
-    axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + style.at_temperature(modulus.reference))
+    axes.set_xlabel(style.reduced_frequency(modulus.reference))
     axes.set_ylabel("modulus (MPa)")
     style.logarithmic(axes)
     style.legend_above(axes, handles, columns=2)
@@ -65,7 +60,7 @@ def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Mate
 
 def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[Any]:
     if isinstance(known, Material):
-        modulus = np.asarray(known.complex_modulus(frequency)) / _MEGAPASCAL
+        modulus = 1e-6 * np.asarray(known.complex_modulus(frequency))
         handles = axes.plot(frequency, modulus.real, color=style.INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
         axes.plot(frequency, modulus.imag, color=style.INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
         handles[0].set_label(known.name or "for comparison")
@@ -79,8 +74,8 @@ def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[
         "markeredgewidth": 0.7,
         "zorder": 2,
     }
-    handles = axes.plot(points.angular_frequency[near], points.storage[near] / _MEGAPASCAL, "s", **look)
-    axes.plot(points.angular_frequency[near], points.loss[near] / _MEGAPASCAL, "o", **look)
+    handles = axes.plot(points.angular_frequency[near], points.storage[near], "s", **look)
+    axes.plot(points.angular_frequency[near], points.loss[near], "o", **look)
     handles[0].set_label("DMA")
     return list(handles)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import matplotlib
@@ -196,7 +196,10 @@ def plot_rough_friction(
             label = title + _where(theory.temperature[row])
             axes.plot(theory.speed, values[row], color=look_of[name, row].colour, linestyle=dash, label=label)
             dashes[name, row] += 1
-    _speed_axes(axes, "contact area over nominal area" if area else "friction coefficient")
+    axes.set(xscale="log", ylim=(0.0, None), xlabel="speed (m/s)")
+    axes.set_ylabel("contact area over nominal area" if area else "friction coefficient")
+    speed_ticks(axes.xaxis)
+    axes.legend()
 
 
 def _plot_solved(axes: Axes, found: RoughFriction, row: int, look: Look, name: str, *, area: bool) -> None:
@@ -213,21 +216,3 @@ def _plot_solved(axes: Axes, found: RoughFriction, row: int, look: Look, name: s
 def _where(kelvin: float) -> str:
     """Return what the legend says of a temperature, if one is known."""
     return "" if math.isnan(kelvin) else f", {shown_celsius(float(kelvin), 'z.4g')} °C"
-
-
-def plot_friction_by_cut_off(
-    axes: Axes, theories: Sequence[PerssonTheory], labels: Sequence[str], *, temperature: int = 0
-) -> None:
-    """Draw μ(v) of Persson's theory for several cut-offs of the surface."""
-    for look, theory, label in zip(looks(len(theories)), theories, labels, strict=True):
-        friction = theory.friction_coefficient[temperature]
-        axes.plot(theory.speed, friction, color=look.colour, linestyle=look.dashes, label=label)
-    _speed_axes(axes, "friction coefficient")
-
-
-def _speed_axes(axes: Axes, quantity: str) -> None:
-    axes.set_xscale("log")
-    axes.set_ylim(bottom=0.0)
-    speed_ticks(axes.xaxis)
-    axes.set(xlabel="speed (m/s)", ylabel=quantity)
-    axes.legend()

@@ -35,6 +35,8 @@ Fitted: TypeAlias = "RetardationSpectrum | ModulusTable | Dataset"
 
 
 _PASCAL_PER_MEGAPASCAL = 1e6
+#: Of the fitted storage and loss modulus.
+_DASHES: tuple[Any, Any] = ("-", (0, (5, 1.5)))
 #: The fitted line goes so far beyond the measured frequencies, as a factor.
 _BEYOND = 10.0
 
@@ -55,7 +57,7 @@ def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "l
         Temperatures in °C to colours, for a colour bar (`style.temperature_bar`).
     """
     measured = moduli_of_sweeps(isotherms)
-    value = (measured.storage if modulus == "storage" else measured.loss) / _PASCAL_PER_MEGAPASCAL
+    value = measured.storage if modulus == "storage" else measured.loss
     marker = "s" if modulus == "storage" else "o"
     order = np.argsort(measured.angular_frequency, kind="stable")
     columns = (measured.temperature, measured.angular_frequency, value)
@@ -123,25 +125,24 @@ def plot_master_curve(
     bounds = None if band is None else modulus_band(band, wide)
     handles: list[Any] = []
     bands: list[Any] = []
-    for name, symbol, marker, colour, dashes in (
-        ("storage", "$E'$", "s", style.BLUE, "-"),
-        ("loss", "$E''$", "o", style.VERMILION, (0, (5, 1.5))),
-    ):
-        value = getattr(measured, name) / _PASCAL_PER_MEGAPASCAL
+    for (name, symbol, marker, colour), dashes in zip(style.MODULI, _DASHES, strict=True):
         dots: dict[str, Any] = {"color": colour, "markersize": 3.5, "markeredgewidth": 0.8, "fillstyle": "none"}
-        handles += axes.plot(frequency, value, marker, label=f"{symbol} {style.origin(synthetic)}", **dots)
+        handles += axes.plot(
+            frequency, getattr(measured, name), marker, label=f"{symbol} {style.origin(synthetic)}", **dots
+        )
         if fitted is not None:
             order = np.argsort(fitted.angular_frequency, kind="stable")
-            line, part = fitted.angular_frequency[order], getattr(fitted, name)[order] / _PASCAL_PER_MEGAPASCAL
+            line, part = fitted.angular_frequency[order], getattr(fitted, name)[order]
             handles += axes.plot(line, part, color=style.INK, linestyle=dashes, linewidth=1.2, label=f"{symbol} fitted")
         if bounds is not None:
-            lower, upper = getattr(bounds, name) / _PASCAL_PER_MEGAPASCAL
+            lower, upper = getattr(bounds, name)
             look: dict[str, Any] = {"color": colour, "alpha": 0.25, "linewidth": 0, "zorder": 1}
             bands.append(axes.fill_between(bounds.angular_frequency, lower, upper, label=f"{symbol}, 95 %", **look))
     axes.set(xscale="log", yscale="log")
     if bands and frequency.size:
         bands += _shade_beyond(axes, float(frequency.min()), float(frequency.max()))
-    axes.set(xlabel=_reduced_label(measured, reference_temperature), ylabel="modulus (MPa)")
+    at = measured.reference if reference_temperature is None else reference_temperature
+    axes.set(xlabel=style.reduced_frequency(at), ylabel="modulus (MPa)")
     style.logarithmic(axes)
     style.legend_above(axes, handles + bands, columns=3 if bands else 2)
 
@@ -165,26 +166,19 @@ def plot_residuals(
         raise InputError("there is no fit to compare with: give a spectrum.", code="no-fit")
     handles: list[Any] = []
     largest = 0.01
-    for symbol, value, fit, marker, colour in (
-        ("$E'$", measured.storage, fitted.storage, "s", style.BLUE),
-        ("$E''$", measured.loss, fitted.loss, "o", style.VERMILION),
-    ):
-        left = np.log10(value / fit)
+    for name, symbol, marker, colour in style.MODULI:
+        left = np.log10(getattr(measured, name) / getattr(fitted, name))
         rms = float(np.sqrt(np.mean(left**2))) if left.size else 0.0
         largest = max(largest, float(np.max(np.abs(left), initial=0.0)))
         dots: dict[str, Any] = {"color": colour, "markersize": 3, "markeredgewidth": 0.7, "fillstyle": "none"}
         handles += axes.plot(frequency, left, marker, label=f"{symbol}, rms {rms:#.3g}", **dots)
     axes.axhline(0.0, color=style.GREY, linewidth=0.8, zorder=0)
     axes.set_ylim(-1.12 * largest, 1.12 * largest)
-    axes.set_xlabel(_reduced_label(measured, reference_temperature))
+    at = measured.reference if reference_temperature is None else reference_temperature
+    axes.set_xlabel(style.reduced_frequency(at))
     axes.set_ylabel(r"$\log_{10}\,\frac{\mathrm{measured}}{\mathrm{fit}}$")
     style.logarithmic(axes, "x")
     style.legend_above(axes, handles)
-
-
-def _reduced_label(measured: Moduli, reference: float | None) -> str:
-    at = measured.reference if reference is None else reference
-    return r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + style.at_temperature(at)
 
 
 def _fitted(master_curve: Master, spectrum: Fitted | None, frequency: Array) -> Moduli | None:

@@ -88,6 +88,18 @@ def unit_for(largest: float, base: str = "m") -> Unit:
     return Unit(1e-9, "n" + base)
 
 
+class ModulusPart(NamedTuple):
+    """Name, symbol and look of the storage or the loss modulus."""
+
+    name: Literal["storage", "loss"]
+    symbol: str
+    marker: str
+    colour: str
+
+
+MODULI = (ModulusPart("storage", "$E'$", "s", BLUE), ModulusPart("loss", "$E''$", "o", VERMILION))
+
+
 class Look(NamedTuple):
     """Colour, mark and dashes of one temperature."""
 
@@ -117,18 +129,6 @@ def sequential_looks(count: int) -> list[Look]:
     """Return a look for each of so many values of an ordered quantity, from dark (low) to light."""
     scale = matplotlib.colormaps["viridis"]
     return _marked([scale(0.88 * index / max(count - 1, 1)) for index in range(count)])
-
-
-#: What changes for a figure that is printed one column wide (85 mm), where text must not shrink below 7 pt.
-COLUMN: Mapping[Any, Any] = {
-    "font.size": 7.5,
-    "axes.labelsize": 8.0,
-    "legend.fontsize": 7.0,
-    "legend.title_fontsize": 7.0,
-    "legend.handlelength": 1.6,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 4.0,
-}
 
 
 def new_figure(width: float = 6.2, height: float = 4.3) -> Figure:
@@ -293,6 +293,11 @@ def slender_bar(figure: Figure, scale: ScalarMappable, panels: Sequence[Axes], l
     bar = figure.colorbar(scale, ax=list(panels), label=label, pad=0.015, aspect=slender, **style)
     bar.ax.tick_params(top=False, bottom=False, left=False)
     return bar
+
+
+def reduced_frequency(kelvin: float | None = None) -> str:
+    """Return the label of an axis of reduced frequencies, with the reference temperature if that is known."""
+    return r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)" + at_temperature(kelvin)
 
 
 def at_temperature(kelvin: float | None, before: str = "") -> str:

@@ -10,11 +10,9 @@ from matplotlib.cm import ScalarMappable
 
 from viscofric.report.data import Sweeps, moduli_of_sweeps
 from viscofric.report.figures.rubber import draw_by_temperature, modulus_label
-from viscofric.report.figures.style import BLUE, GREY, VERMILION, legend_above, logarithmic, plain_numbers
+from viscofric.report.figures.style import GREY, MODULI, legend_above, logarithmic, plain_numbers, reduced_frequency
 from viscofric.rheology.superposition.consistency import SuperpositionCheck
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig
-
-_PASCAL_PER_MEGAPASCAL = 1e6
 
 
 def plot_wicket(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
@@ -69,7 +67,7 @@ def plot_van_gurp_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> Sca
 def _diagram(axes: Axes, sweeps: Sweeps | SuperpositionCheck, x: str, y: str) -> ScalarMappable:
     """Draw one quantity of every sweep over another; those with a unit, and tan δ, in decades."""
     measured = moduli_of_sweeps(sweeps)
-    storage, loss = measured.storage / _PASCAL_PER_MEGAPASCAL, measured.loss / _PASCAL_PER_MEGAPASCAL
+    storage, loss = measured.storage, measured.loss
     quantities = {
         "storage": (storage, modulus_label(measured.symbol, "storage")),
         "loss": (loss, modulus_label(measured.symbol, "loss")),
@@ -100,13 +98,12 @@ def plot_kramers_kronig(axes: Axes, agreement: KramersKronig) -> None:
 
     judged = agreement.judged
     handles: list[Any] = []
-    for label, deviation, marker, colour in (
-        ("$E'$ that $E''$ demands", agreement.storage_deviation, "s", BLUE),
-        ("$E''$ that $E'$ demands", agreement.loss_deviation, "o", VERMILION),
-    ):
-        look: dict[str, Any] = {"color": colour, "markersize": 3.5, "markeredgewidth": 0.8}
-        handles += axes.plot(agreement.angular_frequency[judged], deviation[judged], marker, label=label, **look)
-        axes.plot(agreement.angular_frequency[~judged], deviation[~judged], marker, fillstyle="none", **look)
+    for part, other in zip(MODULI, MODULI[::-1], strict=True):
+        deviation = getattr(agreement, f"{part.name}_deviation")
+        label = f"{part.symbol} that {other.symbol} demands"
+        look: dict[str, Any] = {"color": part.colour, "markersize": 3.5, "markeredgewidth": 0.8}
+        handles += axes.plot(agreement.angular_frequency[judged], deviation[judged], part.marker, label=label, **look)
+        axes.plot(agreement.angular_frequency[~judged], deviation[~judged], part.marker, fillstyle="none", **look)
     handles.append(
         axes.axhspan(-LARGEST_RMS, LARGEST_RMS, color=GREY, alpha=0.2, linewidth=0, label="allowed rms of $E'$")
     )
@@ -114,7 +111,7 @@ def plot_kramers_kronig(axes: Axes, agreement: KramersKronig) -> None:
     shown = np.concatenate([agreement.storage_deviation[judged], agreement.loss_deviation[judged]])
     largest = 1.15 * max(float(np.max(np.abs(shown), initial=0.0)), 1.5 * LARGEST_RMS)
     axes.set_ylim(-largest, largest)
-    axes.set_xlabel(r"reduced angular frequency $\alpha_T\,\omega$ (rad/s)")
+    axes.set_xlabel(reduced_frequency())
     axes.set_ylabel(r"$\log_{10}$ of demanded over measured")
     logarithmic(axes, "x")
     legend_above(axes, handles)
