@@ -14,10 +14,10 @@ import pytest
 from cli import calls
 from refusals import refused
 from viscofric.cli import run
+from viscofric.cli.verify import open_friction_test
 from viscofric.errors import StudyError
 from viscofric.notes import note_of
 from viscofric.report import html
-from viscofric.study.friction_test import open_friction_test
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -15,6 +15,7 @@ from viscofric.cli.output import json_option, out_option, print_json, write_rows
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
+    from viscofric.study.run_file.study import Study
     from viscofric.verification import Check, Comparison, Outcome
 
 
@@ -32,6 +33,37 @@ _PRINTED = (
 )
 
 
+def open_friction_test(folder: Path) -> tuple[Path, Study]:
+    """Return the run file of a friction test, and what it holds; raise `StudyError` where something is missing."""
+    from viscofric.errors import StudyError
+    from viscofric.study.run_file.study import load_study
+
+    if not folder.is_dir():
+        raise StudyError(f"{folder}: is not a folder; expected the folder of a friction test.", code="no-folder")
+    found = sorted(folder.glob("*.toml"))
+    if len(found) != 1:
+        names = ", ".join(path.name for path in found) or "none"
+        raise StudyError(
+            f"{folder}: expected one run file (*.toml) beside the sweeps and the friction; found {names}.",
+            code="no-run-file",
+        )
+    study = load_study(found[0])
+    missing = [
+        (not study.material.dma, '[material] dma = "sweeps.csv"'),
+        (study.measurement is None, '[measurement] mtm = "friction.csv" (or curves = "friction.csv")'),
+        (not study.citation, 'citation = "…"'),
+        (not study.licence, 'licence = "…"'),
+    ]
+    wanted = [text for lacks, text in missing if lacks]
+    if wanted:
+        raise StudyError(
+            f"{found[0]}: a friction test needs its sweeps, its measured friction, a citation and a licence; add "
+            f"{', and '.join(wanted)}.",
+            code="incomplete-test",
+        )
+    return found[0], study
+
+
 def compare_test(folder: Path, as_json: bool) -> None:
     """Run the study of a friction test, and print every point with the errors of both."""
     from viscofric.cli.run import run_and_report
@@ -39,7 +71,6 @@ def compare_test(folder: Path, as_json: bool) -> None:
     from viscofric.report.results import group, is_synthetic, sentences
     from viscofric.report.texts.friction_tables import measurement_table
     from viscofric.showing import aligned
-    from viscofric.study.friction_test import open_friction_test
     from viscofric.study.results.results import open_results
 
     run_file, study = open_friction_test(folder)
