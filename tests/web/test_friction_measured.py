@@ -43,8 +43,6 @@ def test_separated_friction_is_that_of_the_library(example: dict[str, Any], cont
     for name in ("speed", "viscoelastic", "viscoelastic_error", "coulomb", "consistency", "offset"):
         expected = getattr(separated, name)[order]
         np.testing.assert_allclose(column(example["curves"], name), expected, rtol=1e-5)  # six digits are sent
-    lower, _ = separated.interval()
-    np.testing.assert_allclose(column(example["curves"], "viscoelastic_lower"), lower[order], rtol=1e-5)
 
 
 def test_four_configurations_that_agree_pass(example: dict[str, Any]) -> None:

@@ -260,7 +260,6 @@ def _rubber_at(rubber: StudyRubber, case: Case, frequency: float) -> dict[str, f
         "storage_modulus": modulus.real,
         "loss_factor": modulus.imag / modulus.real,
         "shift_factor": alpha,
-        "reduced_frequency": alpha * frequency,
         "reduced_speed": alpha * case.speed,
     }
 

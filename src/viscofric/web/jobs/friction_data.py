@@ -15,8 +15,6 @@ from viscofric.report.results import nearest, nominal_temperatures
 from viscofric.report.texts.tables import Table
 
 _MEASURED = (
-    "load",
-    "slip",
     "replicates",
     "viscoelastic",
     "viscoelastic_error",
@@ -44,11 +42,10 @@ def by_temperature(temperature: Array, speed: Array, **columns: Any) -> list[dic
 
 
 def measured_points(curves: FrictionCurves) -> list[dict[str, Any]]:
-    """Return measured friction by temperature, with the 95 % limits of its means; NaN where it is not determined."""
+    """Return measured friction by temperature; NaN where it is not determined."""
     columns = {name: getattr(curves, name) for name in _MEASURED if getattr(curves, name) is not None}
     for name in ("viscoelastic", "coulomb"):
         if getattr(curves, name) is not None:
-            columns[f"{name}_lower"], columns[f"{name}_upper"] = curves.interval(of=name)
             not_found = (columns[name] == 0.0) & np.isinf(columns[f"{name}_error"])
             columns[name] = np.where(not_found, np.nan, columns[name])
     return by_temperature(curves.temperature, curves.speed, **columns)

@@ -131,7 +131,6 @@ def _reply(
         "reference": found.material.reference,
         "modulus": modulus,
         "identified": {name: getattr(found.identified, name) for name in _OF_A_BAND},
-        "frequency_range": found.frequency_range,
         "middle": found.middle,
         "anchored": found.anchored,
         "anchor": at,
@@ -141,8 +140,6 @@ def _reply(
         "family": [
             {name: getattr(fit, name) for name in ("factor", "modulus", "rms", "penalty")} for fit in found.family
         ],
-        "level_range": found.level_range,
-        "rms": found.rms,
         "sentences": texts(found.sentences),
         "download": _DOWNLOAD,
     }

@@ -12,7 +12,7 @@ from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.friction.shifting.shift import chosen_law, common_reference, shift_friction
-from viscofric.friction.shifting.shift_agreement import LIKELY, compare_shift_factors
+from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import listed
 from viscofric.report.data import FARTHER, law_line, measured_line
 from viscofric.report.texts.inverse import shift_words
@@ -117,7 +117,6 @@ def _found(
         "factors": with_bars(factors.to_dataset()),
         "law": None if law is None else with_bars(law_line(law, *factors.temperatures[[0, -1]].tolist())),
         "agreement": None if agreement is None else agreement.sentence,
-        "agrees": None if agreement is None else agreement.p_value >= LIKELY,
         "download": _DOWNLOAD,
     }
     return _curve(master) | more, notes

@@ -96,7 +96,6 @@ def _without_bands(rubber: Rubber, held: dict[float, float]) -> dict[str, Any]:
     found = {
         "name": rubber.material.name,
         "source": rubber.source,
-        "citation": rubber.material.citation,
         "synthetic": rubber.synthetic,
         "deformation": None if rubber.sweeps is None else rubber.sweeps.deformation,
         "shift": shift_numbers(rubber, held),

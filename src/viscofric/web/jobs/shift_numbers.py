@@ -109,7 +109,7 @@ def places_held(temperatures: Array, held: Mapping[float, float]) -> list[bool]:
     return [place in nearest for place in range(len(temperatures))]
 
 
-_OF_A_LAW = ("kind", "title", "constants", "chi2", "freedom", "scatter", "aic", "weight", "exact", "refusal", "same_as")
+_OF_A_LAW = ("kind", "title", "constants", "scatter", "aic", "weight", "exact", "refusal", "same_as")
 
 
 def _law(row: LawRow[ParametricLaw], rubber: Rubber, factors: ShiftFactors) -> dict[str, Any]:
