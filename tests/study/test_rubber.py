@@ -90,7 +90,9 @@ def test_a_material_is_made_of_ramps(ramps: Path) -> None:
     for celsius in (10.0, 30.0, 70.0):
         ratio = made.material.complex_modulus(10.0, celsius + 273.15) / truth.complex_modulus(10.0, celsius + 273.15)
         assert abs(ratio) == pytest.approx(1.0, abs=0.05)
-    assert {"/ramps", "/master_curve", "/shift_law", "/spectrum"} <= set(rubber_groups(made))
+    groups = rubber_groups(made)
+    assert {"/ramps", "/master_curve", "/shift_law", "/spectrum"} <= set(groups)
+    assert groups["/ramps"].attrs["source"] == "ramps.csv"
     assumed = rubber(ramps=str(ramps), assumed_shift="150 kJ/mol", **REFERENCE)
     assert assumed.shift_used == "assumed"
     assert "shift-assumed" in codes(assumed.notes)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -48,6 +49,9 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
         groups["/spectrum"] = spectrum.to_dataset()
         moduli = spectrum.modulus_dataset(wide)
         groups["/spectrum_curve"] = moduli if samples is None else moduli.assign(samples.to_dataset(wide).data_vars)
+    for data in groups.values():
+        if "source" in data.attrs:  # results are passed on, and say nothing of the folders of one machine
+            data.attrs["source"] = ", ".join(Path(one).name for one in str(data.attrs["source"]).split(", "))
     return groups
 
 
