@@ -102,6 +102,8 @@ def test_friction_curves_distinguish_predicted_from_measured() -> None:
     assert keys(curves()) == POINT
     assert keys(curves(load_unit="N/m")) == LINE
     assert keys(curves(material_error=np.ones(30))) == POINT | {"efron1993", "giles2000"}
+    assert keys(curves("predicted (synthetic)")) == POINT  # as files keep it
+    assert keys(curves("predicted_and_measured.csv")) == set()
     assert keys(curves("mtm.csv")) == set()
     assert keys(curves("mtm.csv", coulomb=np.ones(30))) == {PAPER.key}
 

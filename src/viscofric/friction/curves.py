@@ -15,6 +15,7 @@ from viscofric.contact.solution import ContactSolution
 from viscofric.data import picked, read_only, whole_numbers
 from viscofric.datasets import Dataset, dataset, on_grid
 from viscofric.errors import InputError, check_choice, wrong_argument
+from viscofric.files import marked
 from viscofric.friction.cases.record import columns_of
 from viscofric.friction.curve_words import LABELS, LOADS
 from viscofric.friction.intervals import consistency_check, half_widths
@@ -389,6 +390,11 @@ class FrictionCurves(Plotted):
             attributes={"source": self.source, "notes": "", "assumption": str(self.assumption)}
             | note_attributes(self.notes),
         )
+
+
+def is_predicted(curves: FrictionCurves) -> bool:
+    """Whether curves were predicted, also if they were written and read again."""
+    return curves.source in ("predicted", marked("predicted", synthetic=True))
 
 
 def insist_on_curves(given: object, name: str) -> FrictionCurves:

@@ -16,7 +16,7 @@ from viscofric.contact.solution import ContactSolution
 from viscofric.datasets import DataTree
 from viscofric.errors import InputError
 from viscofric.files import parse_toml
-from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.curves import FrictionCurves, is_predicted
 from viscofric.friction.identification.indentation.result import MaterialFromIndentation
 from viscofric.friction.identification.result import IdentifiedMaterial
 from viscofric.friction.interface_stress import ShearStress
@@ -160,7 +160,7 @@ def _of_persson(theory: PerssonTheory) -> Iterator[Cited]:
 
 
 def _of_curves(curves: FrictionCurves) -> Iterator[Cited]:
-    if curves.source.startswith("predicted"):
+    if is_predicted(curves):
         yield from _solved_contact(line=curves.load_unit == "N/m")
     elif curves.coulomb is not None:
         yield from _SEPARATED_FRICTION

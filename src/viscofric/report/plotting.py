@@ -9,6 +9,7 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 
+from viscofric.friction.curves import is_predicted
 from viscofric.ramps import TemperatureRamps
 from viscofric.report.data import as_dataset, modulus_band
 from viscofric.report.figures.contact import plot_pressure_map, plot_pressure_profile
@@ -113,7 +114,7 @@ def _contact(axes: Axes, solution: Any, **options: Any) -> None:
 
 
 def _curves(axes: Axes, curves: Any, **options: Any) -> None:
-    kind = "prediction" if curves.source.startswith("predicted") else "measurement"
+    kind = "prediction" if is_predicted(curves) else "measurement"
     plot_friction_curves(axes, **{kind: curves}, **options)
 
 
@@ -155,7 +156,7 @@ def _indentation(axes: Axes, record: Any) -> None:
 
 
 def _master(axes: Axes, found: Any, **options: Any) -> None:
-    if found.curves.source.startswith("predicted"):  # the figure of measurements would call them measured
+    if is_predicted(found.curves):  # the figure of measurements would call them measured
         _columns("viscoelastic", along="reduced_speed", log="x")(axes, found, **options)
     else:
         plot_friction_master_curve(axes, measurement=found, **options)
