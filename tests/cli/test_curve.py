@@ -13,6 +13,7 @@ import pytest
 
 import viscofric as vf
 from cli import calls
+from rheology.planted import write_moduli
 from viscofric.cli.speed_options import chosen_speeds
 from viscofric.rheology.spectra.quality import SpectrumFit
 
@@ -20,6 +21,7 @@ DMA = str(files("viscofric") / "example" / "dma.csv")
 RUBBER = ("--material", "synthetic fluoroelastomer")
 SINGLE = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
 BALL = ("--ball", "9.525 mm", "--load", "25 N", "--accuracy", "0.02")
+HERTZ = (0.1, 0.3, 1, 3, 10, 30, 100)
 
 
 succeed = partial(calls.succeed, "curve")
@@ -94,12 +96,9 @@ def test_a_rubber_of_sweeps_has_bands_about_its_friction() -> None:
 
 @pytest.mark.slow
 def test_columns_of_sweeps_are_named(tmp_path: Path) -> None:
-    rubber, rows = vf.synthetic_fluoroelastomer(), []
-    for celsius in (30, 40, 50):
-        for hertz in (0.1, 0.3, 1, 3, 10, 30, 100):
-            E = rubber.complex_modulus(2.0 * np.pi * hertz, celsius + 273.15)
-            rows.append(f"{celsius},{hertz},{E.real / 1e6},{E.imag / 1e6}")
-    strange = tmp_path / "strange.csv"
+    rubber = vf.synthetic_fluoroelastomer()
+    strange = write_moduli(tmp_path / "strange.csv", rubber.complex_modulus, (30, 40, 50), HERTZ)
+    _, *rows = strange.read_text(encoding="utf-8").splitlines()
     strange.write_text("\n".join(["Ofen,v1,Es,El", *rows]), encoding="utf-8")
     names = {"temperature": "Ofen (degC)", "frequency": "v1 (Hz)", "storage_modulus": "Es", "loss_modulus": "#4"}
     words = [word for one in names.items() for word in ("--column", "=".join(one))] + ["--modulus-unit", "MPa"]
@@ -117,16 +116,13 @@ def test_columns_of_sweeps_are_named(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_sweeps_whose_moduli_contradict_each_other_are_doubted_before_friction(tmp_path: Path) -> None:
-    rubber, rows = vf.synthetic_fluoroelastomer(), []
-    for celsius in (20, 30, 40):
-        for hertz in (0.1, 0.3, 1, 3, 10, 30, 100):
-            E = rubber.complex_modulus(2.0 * np.pi * hertz, celsius + 273.15)
-            rows.append([celsius, hertz, E.real / 1e6, E.imag / 1e6])
+    def swapped(omega: float, kelvin: float) -> complex:
+        return 1j * complex(known(omega, kelvin)).conjugate()
+
+    known = vf.synthetic_fluoroelastomer().complex_modulus
     doubted = {}
-    for name, order in (("right", (0, 1, 2, 3)), ("swapped", (0, 1, 3, 2))):
-        path = tmp_path / f"{name}.csv"
-        lines = [",".join(f"{row[place]:.6g}" for place in order) for row in rows]
-        path.write_text("\n".join(["T (°C),f (Hz),E' (MPa),E'' (MPa)", *lines]), encoding="utf-8")
+    for name, modulus in (("right", known), ("swapped", swapped)):
+        path = write_moduli(tmp_path / f"{name}.csv", modulus, (20, 30, 40), HERTZ)
         words = ("--dma", str(path), "--reference", "30 degC", *BALL, "--speed", "0.1 m/s")
         doubted[name] = "Warning: Storage against loss modulus" in calls.succeed("curve", *words).stderr
     assert doubted == {"right": False, "swapped": True}
