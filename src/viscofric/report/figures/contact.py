@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-import matplotlib
 import numpy as np
 from scipy.ndimage import uniform_filter
 
 from viscofric.arrays import Array, centre_line
-from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, Unit, new_figure, unit_for
+from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, Unit, heat_map, new_figure, unit_for
 from viscofric.report.texts.numbers import prefixed, significant
 from viscofric.units import shown_celsius
 
@@ -29,33 +28,25 @@ _MOST_CELLS = 256
 _SHARE_SHOWN = 0.98
 
 
-def pressure_mesh(axes: Axes, x: Array, y: Array, pressure: Array, highest: float | None = None) -> QuadMesh:
-    """Draw a pressure (nx, ny) seen from above, blank where there is none; the colours end at `highest`."""
-    mesh: QuadMesh = axes.pcolormesh(
-        x,
-        y,
-        np.ma.masked_equal(pressure.T, 0.0),
-        cmap=matplotlib.colormaps["viridis"],
-        vmin=0.0,
-        vmax=highest,
-        shading="nearest",
-        rasterized=True,
-    )
-    axes.set_aspect("equal")
-    axes.grid(visible=False)
-    return mesh
+def pressure_mesh(
+    axes: Axes, x: Array, y: Array, pressure: Array, highest: float | None = None, *, outlined: bool = False
+) -> QuadMesh:
+    """Draw a pressure (nx, ny) seen from above, blank where there is none, and perhaps the edge of the contact.
+
+    The colours end at `highest`.
+    """
+    every = math.ceil(max(pressure.shape) / _MOST_CELLS)
+    x, y, pressure = x[::every], y[::every], pressure[::every, ::every]
+    if outlined:
+        # Averaged over three cells, the staircase of the loaded cells is a curve.
+        loaded = uniform_filter((pressure.T > 0.0).astype(float), 3, mode="constant")
+        axes.contour(x, y, loaded, levels=[0.5], colors=[INK], linewidths=0.9)
+    return heat_map(axes, x, y, np.ma.masked_equal(pressure, 0.0), "viridis", vmin=0.0, vmax=highest)
 
 
 def highest_shown(*pressures: Array, share: float = 0.995) -> float:
     """Return where the colours of pressures should end: one point at a sharp edge would leave all others dark."""
     return float(np.quantile(np.concatenate([each[each > 0.0] for each in pressures]), share))
-
-
-def draw_outline(axes: Axes, x: Array, y: Array, pressure: Array) -> None:
-    """Draw the edge of a contact seen from above."""
-    # Averaged over three cells, the staircase of the loaded cells is a curve.
-    loaded = uniform_filter((pressure.T > 0.0).astype(float), 3, mode="constant")
-    axes.contour(x, y, loaded, levels=[0.5], colors=[INK], linewidths=0.9)
 
 
 def draw_profile(axes: Axes, x: Array, pressure: Array, **style: Any) -> None:
@@ -97,13 +88,10 @@ def plot_pressure_map(axes: Axes, solution: ContactSolution) -> QuadMesh:
         For a colour bar, in Pa with the prefix that suits the largest pressure.
     """
     unit, pressure_unit = _along(solution), unit_for(solution.max_pressure, "Pa")
-    every = math.ceil(max(solution.pressure.shape) / _MOST_CELLS)
-    x, y = solution.x[::every] / unit.size, solution.y[::every] / unit.size
-    pressure = solution.pressure[::every, ::every] / pressure_unit.size
+    pressure = solution.pressure / pressure_unit.size
     # One cell at a sharp edge would leave all others dark.
     highest = None if solution.diagnostics.peak_resolved else highest_shown(pressure, share=_SHARE_SHOWN)
-    mesh = pressure_mesh(axes, x, y, pressure, highest)
-    draw_outline(axes, x, y, pressure)
+    mesh = pressure_mesh(axes, solution.x / unit.size, solution.y / unit.size, pressure, highest, outlined=True)
     axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
     axes.set(xlabel=_label_along(solution), ylabel=f"across $y$ ({unit.name})")
     _draw_motion(axes, solution)

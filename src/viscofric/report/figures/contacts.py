@@ -12,12 +12,11 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from viscofric.arrays import Array, centre_line
-from viscofric.report.figures.contact import draw_arrow, draw_outline, draw_profile, highest_shown, pressure_mesh
+from viscofric.report.figures.contact import draw_arrow, draw_profile, highest_shown, pressure_mesh
 from viscofric.report.figures.rough import mark_motion, plot_pressure_of_period
 from viscofric.report.figures.style import GREY, INK, VERMILION, WHITE, new_figure, slender_bar
 from viscofric.report.texts.numbers import megapascals, significant
 
-_MOST_CELLS = 200  # along an edge of a map; more do not show
 _MARGIN = 1.12  # of the shown region, over the largest contact
 _MILLI, _MEGA = 1e-3, 1e6
 #: Mean pressures within this factor share a scale in MPa.
@@ -79,12 +78,8 @@ def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: fl
         Pressure at the end of the colours.
     """
     along, across = (np.flatnonzero(np.abs(places) <= reach) for places in (contact.x, contact.y))
-    every = math.ceil(max(along.size, across.size) / _MOST_CELLS)
-    along, across = along[::every], across[::every]
     x, y = contact.x[along] / _MILLI, contact.y[across] / _MILLI
-    seen = pressure[np.ix_(along, across)]
-    mesh = pressure_mesh(axes, x, y, seen, highest)
-    draw_outline(axes, x, y, seen)
+    mesh = pressure_mesh(axes, x, y, pressure[np.ix_(along, across)], highest, outlined=True)
     axes.plot([0.0], [0.0], marker="+", color=WHITE, markersize=9, markeredgewidth=1.2, linestyle="none")
     dot: dict[str, Any] = {
         "marker": "o",

@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -222,11 +221,8 @@ def temperature_map_figure(tree: DataTree) -> Figure | None:
 
 def _plot_map(axes: Axes, data: Dataset) -> Any:
     x, y = _MILLIMETRES * values(data, "x"), _MILLIMETRES * values(data, "y")
-    colours = matplotlib.colormaps["inferno"]
-    mesh = axes.pcolormesh(x, y, data["rise"].values.T, cmap=colours, shading="nearest", rasterized=True)
+    mesh = style.heat_map(axes, x, y, data["rise"].values, "inferno")
     axes.contour(x, y, data["contact"].values.T, levels=[0.5], colors=["white"], linewidths=0.9)
-    axes.set_aspect("equal")
-    axes.grid(visible=False)
     axes.set(xlabel="along the motion $x$ (mm) →", ylabel="across $y$ (mm)")
     return mesh
 

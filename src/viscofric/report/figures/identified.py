@@ -61,10 +61,9 @@ def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Mate
 def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[Any]:
     if isinstance(known, Material):
         modulus = 1e-6 * np.asarray(known.complex_modulus(frequency))
-        handles = axes.plot(frequency, modulus.real, color=style.INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
-        axes.plot(frequency, modulus.imag, color=style.INK, linestyle=(0, (5, 1.5)), linewidth=1.0)
-        handles[0].set_label(known.name or "for comparison")
-        return list(handles)
+        dashed: dict[str, Any] = {"color": style.INK, "linestyle": (0, (5, 1.5)), "linewidth": 1.0}
+        axes.plot(frequency, modulus.imag, **dashed)
+        return axes.plot(frequency, modulus.real, **dashed, label=known.name or "for comparison")
     points: Moduli = moduli_of_master_curve(known)
     near = (points.angular_frequency >= frequency[0]) & (points.angular_frequency <= frequency[-1])
     look: dict[str, Any] = {
@@ -74,17 +73,13 @@ def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[
         "markeredgewidth": 0.7,
         "zorder": 2,
     }
-    handles = axes.plot(points.angular_frequency[near], points.storage[near], "s", **look)
     axes.plot(points.angular_frequency[near], points.loss[near], "o", **look)
-    handles[0].set_label("DMA")
-    return list(handles)
+    return axes.plot(points.angular_frequency[near], points.storage[near], "s", **look, label="DMA")
 
 
 def identified_figure(found: Identified, known: Material | None = None) -> Figure:
     """Return a figure of an identified modulus, beside a known one."""
-    figure = style.new_figure()
-    plot_identified_modulus(figure.subplots(), found, _at_reference(known, found))
-    return figure
+    return style.one_panel(plot_identified_modulus, found, _at_reference(known, found))
 
 
 def _at_reference(known: Material | None, found: Identified) -> Material | None:

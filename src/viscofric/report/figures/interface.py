@@ -183,9 +183,8 @@ def stress_figure(tree: DataTree) -> Figure | None:
     stress, law = group(tree, "interface"), group(tree, "interface_law")
     if stress is None:
         return None
-    figure = style.new_figure(7.4, 4.3)
-    plot_shear_stress(figure.subplots(), stress, () if law is None else [law], synthetic=is_synthetic(tree))
-    return figure
+    laws = () if law is None else [law]
+    return style.one_panel(plot_shear_stress, stress, laws, size=style.WIDE, synthetic=is_synthetic(tree))
 
 
 def parts_figure(tree: DataTree) -> Figure | None:

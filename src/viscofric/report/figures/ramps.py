@@ -13,7 +13,7 @@ from viscofric.arguments import insist_on
 from viscofric.datasets import Dataset
 from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamps
-from viscofric.report.figures.style import BLUE, GREY, VERMILION, new_figure, sequential_looks
+from viscofric.report.figures.style import BLUE, GREY, VERMILION, one_panel, sequential_looks
 from viscofric.report.results import values
 from viscofric.rheology.payne.kraus_fit import PayneFit
 from viscofric.rheology.ramps.result import RampSuperposition, glass_transition
@@ -107,6 +107,4 @@ def plot_amplitude_sweep(axes: Axes, fit: PayneFit) -> None:
 
 def amplitude_figure(fit: PayneFit) -> Figure:
     """Return a figure of an amplitude sweep with Kraus's law."""
-    figure = new_figure()
-    plot_amplitude_sweep(figure.subplots(), fit)
-    return figure
+    return one_panel(plot_amplitude_sweep, fit)

@@ -6,11 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import matplotlib
 import numpy as np
 
-from viscofric.report.figures.contact import draw_arrow, highest_shown, pressure_mesh
-from viscofric.report.figures.style import INK, Look, Unit, decade_ticks, looks, speed_ticks, unit_for
+from viscofric.report.figures.contact import draw_arrow, highest_shown
+from viscofric.report.figures.style import INK, Look, decade_ticks, heat_map, looks, speed_ticks, unit_for
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
@@ -31,12 +30,6 @@ _DASHES = ("-", "--", ":", "-.")
 _MOST_POINTS = 512
 
 
-def _axes_of_map(axes: Axes, unit: Unit) -> None:
-    axes.set_aspect("equal")
-    axes.grid(visible=False)
-    axes.set(xlabel=f"$x$ ({unit.name})", ylabel=f"$y$ ({unit.name})")
-
-
 def plot_topography(axes: Axes, topography: Topography) -> tuple[QuadMesh, str]:
     """Draw the heights of a surface seen from above; points without a reading stay blank.
 
@@ -54,15 +47,9 @@ def plot_topography(axes: Axes, topography: Topography) -> tuple[QuadMesh, str]:
     every = math.ceil(max(topography.shape) / _MOST_POINTS)
     z = topography.heights[::every, ::every] - np.nanmean(topography.heights)
     unit, depth = unit_for(max(topography.size)), unit_for(float(np.nanmax(np.abs(z))) or 1.0)
-    mesh = axes.pcolormesh(
-        topography.x[::every] / unit.size,
-        topography.y[::every] / unit.size,
-        np.ma.masked_invalid(z.T / depth.size),
-        cmap=matplotlib.colormaps["cividis"],
-        shading="nearest",
-        rasterized=True,
-    )
-    _axes_of_map(axes, unit)
+    x, y = (places[::every] / unit.size for places in (topography.x, topography.y))
+    mesh = heat_map(axes, x, y, np.ma.masked_invalid(z / depth.size), "cividis")
+    axes.set(xlabel=f"$x$ ({unit.name})", ylabel=f"$y$ ({unit.name})")
     return mesh, f"height above the mean ({depth.name})"
 
 
@@ -108,8 +95,9 @@ def plot_pressure_of_period(
     unit, ends = unit_for(float(x[-1])), highest_shown(merged) if highest is None else highest
     size = unit_for(float(pressure.max()) if highest is None else highest, "Pa")
     along, across = x[: shape[0] * every : every] / unit.size, y[: shape[1] * every : every] / unit.size
-    mesh = pressure_mesh(axes, along, across, merged / size.size, ends / size.size)
-    _axes_of_map(axes, unit)
+    shown = np.ma.masked_equal(merged / size.size, 0.0)
+    mesh = heat_map(axes, along, across, shown, "viridis", vmin=0.0, vmax=ends / size.size)
+    axes.set(xlabel=f"$x$ ({unit.name})", ylabel=f"$y$ ({unit.name})")
     return mesh, f"pressure ({size.name})"
 
 

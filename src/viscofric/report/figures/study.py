@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 
 from viscofric.datasets import Dataset, DataTree
@@ -35,7 +37,7 @@ from viscofric.report.figures.rubber import (
 )
 from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors, plot_vertical_shift
 from viscofric.report.figures.stored_contacts import shown_contacts
-from viscofric.report.figures.style import new_figure, temperature_bar
+from viscofric.report.figures.style import WIDE, new_figure, one_panel, temperature_bar
 from viscofric.report.figures.superposition import plot_cole_cole, plot_van_gurp_palmen
 from viscofric.report.figures.sweeps import sweep_figure
 from viscofric.report.results import (
@@ -69,22 +71,21 @@ def _of(name: str, draw: Callable[..., None], *size: float) -> Callable[[DataTre
 _PAIR = (9.0, 4.3)
 
 
-def _isotherms(figure: Figure, sweeps: Dataset, tree: DataTree) -> None:
-    left, right = figure.subplots(1, 2)
-    plot_isotherms(left, sweeps, "storage")
-    temperature_bar(figure, plot_isotherms(right, sweeps, "loss"), [left, right])
+def _by_temperature(*draws: Callable[..., ScalarMappable]) -> Callable[..., None]:
+    """Return what draws panels beside each other with one colour bar of the temperatures."""
+
+    def drawn(figure: Figure, sweeps: Dataset, tree: DataTree) -> None:
+        panels = list(figure.subplots(1, len(draws)))
+        scales = [draw(panel, sweeps) for draw, panel in zip(draws, panels, strict=True)]
+        temperature_bar(figure, scales[-1], panels)
+
+    return drawn
 
 
 def _ramps(figure: Figure, ramps: Dataset, tree: DataTree) -> None:
     left, right = figure.subplots(1, 2)
     plot_temperature_ramps(left, ramps)
     plot_temperature_ramps(right, ramps, "tan delta")
-
-
-def _superposition(figure: Figure, sweeps: Dataset, tree: DataTree) -> None:
-    left, right = figure.subplots(1, 2)
-    plot_van_gurp_palmen(left, sweeps)
-    temperature_bar(figure, plot_cole_cole(right, sweeps), [left, right])
 
 
 def _master_curve(figure: Figure, curve: Dataset, tree: DataTree) -> None:
@@ -102,21 +103,11 @@ def _step_master_curve(figure: Figure, curve: Dataset, tree: DataTree) -> None:
     temperature_bar(figure, plot_step_master_curve(axes, curve, synthetic=is_synthetic(tree)), [axes])
 
 
-def _shift_factors(figure: Figure, factors: Dataset, tree: DataTree) -> None:
-    plot_shift_factors(figure.subplots(), factors, law_of(group(tree, "shift_law")))
-
-
 def _vertical_shift(tree: DataTree) -> Figure | None:
     factors = group(tree, "shift_factors")
     if factors is None or "log10_vertical_shift" not in factors:
         return None
-    figure = new_figure()
-    plot_vertical_shift(figure.subplots(), factors)
-    return figure
-
-
-def _spectrum(figure: Figure, spectrum: Dataset, tree: DataTree) -> None:
-    plot_retardation_spectrum(figure.subplots(), spectrum)
+    return one_panel(plot_vertical_shift, factors)
 
 
 def _friction_shift_factors(figure: Figure, found: Dataset, tree: DataTree) -> None:
@@ -131,10 +122,8 @@ def friction_against_speed(tree: DataTree) -> Figure | None:
     prediction, measurement = solved_cases(tree), group(tree, "measurement")
     if measurement is None and (prediction is None or not _is_plain(tree)):
         return None
-    figure = new_figure(7.4, 4.3)
     few = None if prediction is None else _few_curves(prediction, measurement)
-    plot_friction_curves(figure.subplots(), few, measurement, synthetic=is_synthetic(tree))
-    return figure
+    return one_panel(plot_friction_curves, few, measurement, size=WIDE, synthetic=is_synthetic(tree))
 
 
 def friction_sweep(tree: DataTree) -> Figure | None:
@@ -183,19 +172,15 @@ def friction_master_curve(tree: DataTree) -> Figure | None:
     reference = reference_temperature(tree)
     found = [(name, part) for name, branch in rubbers(tree) if (part := solved_cases(branch, _MASTER)) is not None]
     if found:
-        figure = new_figure(7.4, 4.3)
-        plot_friction_master_curves(figure.subplots(), dict(found[:MOST_LINES]), reference_temperature=reference)
-        return figure
+        several = dict(found[:MOST_LINES])
+        return one_panel(plot_friction_master_curves, several, size=WIDE, reference_temperature=reference)
     prediction = solved_cases(tree, _MASTER)
     measured = group(tree, "measurement_master")
     measured = group(tree, "measurement") if measured is None else measured
     if group(tree, _MASTER) is None or (prediction is None and measured is None):
         return None
-    figure = new_figure(7.4, 4.3)
-    plot_friction_master_curve(
-        figure.subplots(), prediction, measured, reference_temperature=reference, synthetic=is_synthetic(tree)
-    )
-    return figure
+    about: dict[str, Any] = {"reference_temperature": reference, "synthetic": is_synthetic(tree)}
+    return one_panel(plot_friction_master_curve, prediction, measured, size=WIDE, **about)
 
 
 _MASTER = "prediction_master"
@@ -206,9 +191,7 @@ def coulomb_friction(tree: DataTree) -> Figure | None:
     measurement = group(tree, "measurement")
     if measurement is None or not np.isfinite(values(measurement, "coulomb")).any():
         return None
-    figure = new_figure(7.4, 4.0)
-    plot_coulomb_friction(figure.subplots(), measurement, synthetic=is_synthetic(tree))
-    return figure
+    return one_panel(plot_coulomb_friction, measurement, size=(7.4, 4.0), synthetic=is_synthetic(tree))
 
 
 def contacts(tree: DataTree) -> Figure | None:
@@ -250,11 +233,14 @@ FRICTION_FIGURES: dict[str, Callable[[DataTree], Figure | None]] = {
 RUBBER_FIGURES: dict[str, Callable[[DataTree], Figure | None]] = {
     "master_curve": _of("master_curve", _master_curve, 6.2, 5.6),
     "step_master_curve": _of("step_master_curve", _step_master_curve),
-    "spectrum": _of("spectrum", _spectrum),
-    "shift_factors": _of("shift_factors", _shift_factors),
+    "spectrum": _of("spectrum", lambda figure, modes, _: plot_retardation_spectrum(figure.subplots(), modes)),
+    "shift_factors": _of(
+        "shift_factors",
+        lambda figure, found, tree: plot_shift_factors(figure.subplots(), found, law_of(group(tree, "shift_law"))),
+    ),
     "vertical_shift": _vertical_shift,
-    "superposition": _of("isotherms", _superposition, *_PAIR),
-    "isotherms": _of("isotherms", _isotherms, *_PAIR),
+    "superposition": _of("isotherms", _by_temperature(plot_van_gurp_palmen, plot_cole_cole), *_PAIR),
+    "isotherms": _of("isotherms", _by_temperature(plot_isotherms, partial(plot_isotherms, modulus="loss")), *_PAIR),
     "ramps": _of("ramps", _ramps, *_PAIR),
 }
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 import matplotlib
@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
+from matplotlib.collections import QuadMesh
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
@@ -71,6 +72,10 @@ STYLE: Mapping[Any, Any] = {
     "mathtext.fontset": "dejavusans",
     "svg.fonttype": "path",
 }
+
+
+#: Size of a figure with a legend beside it, inches.
+WIDE = (7.4, 4.3)
 
 
 class Unit(NamedTuple):
@@ -134,6 +139,22 @@ def sequential_looks(count: int) -> list[Look]:
 def new_figure(width: float = 6.2, height: float = 4.3) -> Figure:
     """Return an empty figure of a size in inches, without pyplot's global state."""
     return Figure(figsize=(width, height))
+
+
+def one_panel(draw: Callable[..., object], *arguments: Any, size: tuple[float, ...] = (), **settings: Any) -> Figure:
+    """Return a figure of a size in inches with what `draw` draws on its one Axes."""
+    figure = new_figure(*size)
+    draw(figure.subplots(), *arguments, **settings)
+    return figure
+
+
+def heat_map(axes: Axes, x: Array, y: Array, field: Any, colours: str, **limits: Any) -> QuadMesh:
+    """Draw a field (nx, ny) seen from above in named colours, blank where it is masked."""
+    scale = matplotlib.colormaps[colours]
+    mesh: QuadMesh = axes.pcolormesh(x, y, field.T, cmap=scale, shading="nearest", rasterized=True, **limits)
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+    return mesh
 
 
 #: Axes of fewer decades than this have 2s and 5s labelled too, in plain numbers …

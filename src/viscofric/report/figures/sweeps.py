@@ -230,7 +230,7 @@ def small_multiples(count: int) -> tuple[Figure, list[Axes]]:
     """Return a figure with so many panels on common scales, those inside without numbers on their axes."""
     columns = columns_of(count)
     rows = math.ceil(count / columns)
-    figure = style.new_figure(7.4, 4.3) if count == 1 else style.new_figure(1.7 + 2.75 * columns, 0.8 + 2.5 * rows)
+    figure = style.new_figure(*style.WIDE) if count == 1 else style.new_figure(1.7 + 2.75 * columns, 0.8 + 2.5 * rows)
     grid = list(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel())
     for axes in grid[count:]:
         axes.remove()
