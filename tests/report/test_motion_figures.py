@@ -15,7 +15,7 @@ import viscofric as vf
 from refusals import refused
 from viscofric import report
 from viscofric.motion.mover import Field
-from viscofric.report.figures.motion import distance, returns
+from viscofric.report.data import distance, returns
 from viscofric.report.figures.pressures import frames_of, spread_times
 from viscofric.report.figures.style import new_figure
 

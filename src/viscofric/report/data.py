@@ -10,7 +10,7 @@ import numpy as np
 
 from viscofric.arrays import Array, Mask
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
-from viscofric.datasets import Dataset, dataset
+from viscofric.datasets import DataArray, Dataset, dataset
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.report.results import is_extrapolated, number, shown_error, values
@@ -230,3 +230,48 @@ def measured_line(source: ReducedFriction) -> Predicted | None:
     temperature, load = np.full(speed.shape, source.reference), np.full(speed.shape, source.load)
     none, no_error = np.zeros(speed.shape, dtype=bool), np.full(speed.shape, np.nan)
     return Predicted(speed, temperature, load, friction, friction - doubt, friction + doubt, none, no_error)
+
+
+#: Columns of a contact over time that are drawn together, and what they are called: its size …
+SIZES = {
+    "contact_radius": "radius",
+    "front": "ahead of the axis",
+    "rear": "behind the axis",
+    "half_width": "half-width across",
+}
+#: … and its energies.
+ENERGIES = {"work": "work on the material", "stored": "stored", "dissipated": "dissipated"}
+
+
+def position_along(data: Dataset) -> Array:
+    """Return the position along the direction of the friction force, (n,) in m."""
+    x, y = np.asarray(data.attrs["direction"], dtype=float)
+    return np.asarray(x * data["position_x"] + y * data["position_y"])
+
+
+def distance(data: Dataset) -> Array:
+    """Return the distance along the path since the start, (n,) in m."""
+    steps = np.hypot(np.diff(np.asarray(data["position_x"])), np.diff(np.asarray(data["position_y"])))
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def moves(data: Dataset) -> bool:
+    """Return whether the position ever changes."""
+    return bool(distance(data)[-1] > 0.0)
+
+
+def returns(data: Dataset) -> bool:
+    """Return whether the indenter comes back along its path, so that friction against position is a loop."""
+    steps = np.diff(position_along(data))
+    return bool(np.any(steps > 0.0) and np.any(steps < 0.0))
+
+
+def pressure_along(field: DataArray, along: str = "x", *, highest: bool = False) -> tuple[Array, Array]:
+    """Return places along the motion (m) and the pressure there (Pa), through the axis or where it is highest."""
+    if field.dims == ("r",):
+        r, pressure = field["r"].values, field.values
+        return np.concatenate([-r[::-1], r]), np.concatenate([pressure[::-1], pressure])
+    for across in set(field.dims) - {along}:
+        rest = field.max(along).values if highest else -np.abs(field[across].values)
+        field = field.isel({across: int(np.argmax(rest))})
+    return field[along].values, field.values

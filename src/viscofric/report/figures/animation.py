@@ -14,7 +14,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from viscofric.errors import InputError
 from viscofric.files import write_atomically
 from viscofric.motion.solution import TransientSolution
-from viscofric.report.figures.motion import moves, plot_transient
+from viscofric.report.data import moves
+from viscofric.report.figures.motion import plot_transient
 from viscofric.report.figures.pressures import Frames, frames_of, plot_pressure_frame
 from viscofric.report.figures.style import INK, STYLE, mark_synthetic, new_figure, unit_for
 from viscofric.report.texts.numbers import prefixed

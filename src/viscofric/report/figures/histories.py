@@ -10,9 +10,10 @@ from matplotlib.figure import Figure
 
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
-from viscofric.report.figures.style import GREY, legend_above, looks, new_figure, speed_ticks, unit_for
+from viscofric.report.figures.motion import label_restitution
+from viscofric.report.figures.style import GREY, legend_above, looks, new_figure, unit_for
 from viscofric.report.results import group
-from viscofric.report.sweeps import SAMPLE, axis_of, band_of_samples, best_estimate
+from viscofric.report.sweeps import SAMPLE, axis_of, band_of_samples, best_estimate, thinned
 from viscofric.units import celsius
 
 #: More lines cannot be distinguished.
@@ -53,7 +54,7 @@ def histories_figure(tree: DataTree) -> Figure | None:
     shown = [
         *([("load_over_time", load, force)] if varies else []),
         ("indentation", r"indentation $\delta$", "m"),
-        *([_FRICTION] if slides else []),
+        *([("friction_coefficient", r"friction coefficient $\mu$", "")] if slides else []),
         *([("temperature_rise", r"temperature rise $\Delta T$", "K")] if "temperature_rise" in data else []),
     ]
     figure = new_figure(6.2, 2.6 * len(shown) + 1.0)
@@ -82,16 +83,8 @@ def impacts_figure(tree: DataTree) -> Figure | None:
     axes = figure.subplots()
     x = data[along].values if along == "impact_speed" else np.array([celsius(one) for one in data[along].values])
     _plot(axes, lines, "restitution", [x] * len(lines), 1.0, True, marked=True)
-    if along == "impact_speed" and len(x) > 1:
-        axes.set_xscale("log")
-        speed_ticks(axes.xaxis)
-    axes.set_xlabel("speed of the impact (m/s)" if along == "impact_speed" else "temperature (°C)")
-    axes.set_ylabel("coefficient of restitution $e$")
-    axes.set_ylim(0.0, 1.05)
+    label_restitution(axes, len(x) if along == "impact_speed" else 0)
     return figure
-
-
-_FRICTION = ("friction_coefficient", r"friction coefficient $\mu$", "")
 
 
 def _plot(
@@ -122,9 +115,8 @@ def _lines(data: Dataset, name: str, along: str) -> list[_Line]:
     dimensions = [str(one) for one in best[name].dims if one != along]
     axes = [axis_of(best, one) for one in dimensions]
     solved = np.argwhere(np.isfinite(best[name].transpose(*dimensions, along).values).all(axis=-1))
-    chosen = np.unique(np.linspace(0, len(solved) - 1, min(MOST_LINES, len(solved))).round().astype(int))
     found = []
-    for place in solved[chosen].tolist():
+    for place in solved[thinned(len(solved), MOST_LINES)].tolist():
         words = ", ".join(axis.labels[index] for axis, index in zip(axes, place, strict=True))
         at = dict(zip(dimensions, place, strict=True))
         found.append(_Line(words, best.isel(at), data.isel(at) if SAMPLE in data.dims else None))

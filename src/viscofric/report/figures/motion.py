@@ -10,44 +10,34 @@ from matplotlib.axes import Axes
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import check_choice
+from viscofric.report.data import ENERGIES, SIZES, distance, position_along
 from viscofric.report.figures import style
 from viscofric.report.texts.numbers import degrees, prefixed
-from viscofric.units import celsius
+from viscofric.units import CELSIUS_ZERO
 
 
 class _Line(NamedTuple):
-    """A column of the data set, its colour and its entry in the legend."""
+    """A column of the data set, its entry in the legend and its colour."""
 
     column: str
+    words: str
     colour: str
-    words: str = ""
+
+
+def _lines(columns: dict[str, str], *colours: str) -> tuple[_Line, ...]:
+    return tuple(_Line(*one, colour) for one, colour in zip(columns.items(), colours, strict=True))
 
 
 #: Quantity -> label of its axis, and what is drawn of it where the data set has it.
 _QUANTITIES: dict[str, tuple[str, tuple[_Line, ...]]] = {
-    "load": ("normal load $F$", (_Line("load", style.INK),)),
-    "indentation": (r"indentation $\delta$", (_Line("indentation", style.GREEN),)),
-    "friction_force": ("friction force $T$", (_Line("friction_force", style.VERMILION),)),
-    "friction_coefficient": (r"friction coefficient $\mu$", (_Line("friction_coefficient", style.VERMILION),)),
-    "contact": (
-        "contact",
-        (
-            _Line("contact_radius", style.BLUE, "radius"),
-            _Line("front", style.BLUE, "ahead of the axis"),
-            _Line("rear", style.ORANGE, "behind the axis"),
-            _Line("half_width", style.PURPLE, "half-width across"),
-        ),
-    ),
-    "energy": (
-        "energy",
-        (
-            _Line("work", style.INK, "work on the material"),
-            _Line("stored", style.BLUE, "stored"),
-            _Line("dissipated", style.VERMILION, "dissipated"),
-        ),
-    ),
+    "load": ("normal load $F$", (_Line("load", "", style.INK),)),
+    "indentation": (r"indentation $\delta$", (_Line("indentation", "", style.GREEN),)),
+    "friction_force": ("friction force $T$", (_Line("friction_force", "", style.VERMILION),)),
+    "friction_coefficient": (r"friction coefficient $\mu$", (_Line("friction_coefficient", "", style.VERMILION),)),
+    "contact": ("contact", _lines(SIZES, style.BLUE, style.BLUE, style.ORANGE, style.PURPLE)),
+    "energy": ("energy", _lines(ENERGIES, style.INK, style.BLUE, style.VERMILION)),
 }
-_AREA = (_Line("contact_area", style.BLUE),)
+_AREA = (_Line("contact_area", "", style.BLUE),)
 #: Labels of a periodic contact, whose loads are mean pressures.
 _PER_AREA = {
     "load": r"mean pressure $\bar p$",
@@ -161,46 +151,24 @@ def plot_restitution(axes: Axes, data: Dataset) -> None:
     speeds, values = np.asarray(data["speed"]), np.asarray(curve.transpose("temperature", "speed"))
     kelvins = np.atleast_1d(np.asarray(data["temperature"])) if "temperature" in data.coords else None
     if kelvins is not None and len(kelvins) > len(speeds):
-        for value, column, look in zip(speeds, values.T, style.looks(len(speeds)), strict=True):
-            words = prefixed(float(value), None, "m/s")
-            celsius_values = [celsius(float(one)) for one in kelvins]
-            axes.plot(celsius_values, column, color=look.colour, marker=look.marker, label=words)
-        axes.set_xlabel("temperature (°C)")
+        x, values, names = kelvins - CELSIUS_ZERO, values.T, [prefixed(float(one), None, "m/s") for one in speeds]
     else:
-        names = [""] if kelvins is None else [degrees(float(one)) for one in kelvins]
-        for words, row, look in zip(names, values, style.looks(len(values)), strict=True):
-            axes.plot(speeds, row, color=look.colour, marker=look.marker, label=words)
-        if len(speeds) > 1:
-            axes.set_xscale("log")
-            style.speed_ticks(axes.xaxis)
-        axes.set_xlabel("speed of the impact (m/s)")
-    axes.set_ylim(0.0, 1.05)
-    axes.set_ylabel("coefficient of restitution $e$")
+        x, names = speeds, [""] if kelvins is None else [degrees(float(one)) for one in kelvins]
+    for words, row, look in zip(names, values, style.looks(len(values)), strict=True):
+        axes.plot(x, row, color=look.colour, marker=look.marker, label=words)
+    label_restitution(axes, len(speeds) if x is speeds else 0)
     if kelvins is not None:
         axes.legend(loc="best")
 
 
-def position_along(data: Dataset) -> Array:
-    """Return the position along the direction of the friction force, (n,) in m."""
-    x, y = np.asarray(data.attrs["direction"], dtype=float)
-    return np.asarray(x * data["position_x"] + y * data["position_y"])
-
-
-def distance(data: Dataset) -> Array:
-    """Return the distance along the path since the start, (n,) in m."""
-    steps = np.hypot(np.diff(np.asarray(data["position_x"])), np.diff(np.asarray(data["position_y"])))
-    return np.concatenate([[0.0], np.cumsum(steps)])
-
-
-def moves(data: Dataset) -> bool:
-    """Return whether the position ever changes."""
-    return bool(distance(data)[-1] > 0.0)
-
-
-def returns(data: Dataset) -> bool:
-    """Return whether the indenter comes back along its path, so that friction against position is a loop."""
-    steps = np.diff(position_along(data))
-    return bool(np.any(steps > 0.0) and np.any(steps < 0.0))
+def label_restitution(axes: Axes, speeds: int) -> None:
+    """Label axes of restitution over so many speeds of the impact, or over the temperature for none of them."""
+    if speeds > 1:
+        axes.set_xscale("log")
+        style.speed_ticks(axes.xaxis)
+    axes.set_xlabel("speed of the impact (m/s)" if speeds else "temperature (°C)")
+    axes.set_ylim(0.0, 1.05)
+    axes.set_ylabel("coefficient of restitution $e$")
 
 
 def _along(data: Dataset, against: str) -> tuple[Array, str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -11,27 +10,18 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
-from viscofric.arrays import Array
 from viscofric.datasets import DataArray
 from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
 from viscofric.motion.solution import TransientSolution
+from viscofric.report.data import moves, pressure_along, returns
 from viscofric.report.figures.contact import draw_profile, pressure_mesh
-from viscofric.report.figures.motion import (
-    moves,
-    plot_force_depth,
-    plot_friction_loop,
-    plot_restitution,
-    plot_transient,
-    returns,
-)
-from viscofric.report.figures.style import INK, Unit, new_figure, sequential_looks, unit_for
+from viscofric.report.figures.motion import plot_force_depth, plot_friction_loop, plot_restitution, plot_transient
+from viscofric.report.figures.style import INK, Unit, new_figure, one_panel, sequential_looks, unit_for
 from viscofric.report.texts.numbers import prefixed
 from viscofric.units import Quantities, to_si_array
 
 #: Pressures that are drawn without times of the user's choice.
 _FRAMES = 5
-#: More cells along an edge than this do not show; maps draw every n-th.
-_MOST_CELLS = 256
 #: Share of the touched length that is shown beside it.
 _MARGIN = 0.15
 #: Relative change of a load that is constant up to rounding and the solver's tolerance.
@@ -93,7 +83,7 @@ def plot_pressure_profiles(axes: Axes, run: TransientSolution, times: Quantities
     """
     frames = frames_of(run, times)
     for time, field, look in zip(frames.times, frames.fields, sequential_looks(len(frames.times)), strict=True):
-        x, pressure = _centre_line(field)
+        x, pressure = pressure_along(field)
         words = prefixed(time, None, "s")
         axes.plot(x / frames.length.size, pressure / frames.pressure.size, color=look.colour, label=words)
     axes.set_xlim(*frames.reach[0])
@@ -108,14 +98,13 @@ def plot_pressure_frame(axes: Axes, frames: Frames, place: int) -> QuadMesh | No
     axes.set_xlim(*frames.reach[0])
     axes.set_xlabel(f"$x$ ({frames.length.name})")
     if not frames.are_maps:
-        x, pressure = _centre_line(field)
+        x, pressure = pressure_along(field)
         draw_profile(axes, x / frames.length.size, pressure / frames.pressure.size)
         axes.set_ylim(0.0, 1.05 * frames.highest)
         axes.set_ylabel(f"pressure $p$ ({frames.pressure.name})")
         return None
-    every = math.ceil(max(field.shape) / _MOST_CELLS)
-    x, y = (np.asarray(field[name])[::every] / frames.length.size for name in field.dims)
-    mesh = pressure_mesh(axes, x, y, np.asarray(field)[::every, ::every] / frames.pressure.size, frames.highest)
+    x, y = (np.asarray(field[name]) / frames.length.size for name in field.dims)
+    mesh = pressure_mesh(axes, x, y, np.asarray(field) / frames.pressure.size, frames.highest)
     if frames.has_axis:
         axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
     axes.set_ylim(*frames.reach[1])
@@ -209,22 +198,10 @@ def impact_figure(found: ImpactSolution | RestitutionCurve, title: str = "") -> 
     """Return a figure of an impact over time, or of the restitution of several."""
     if isinstance(found, ImpactSolution):
         return transient_figure(found.run, title)
-    figure = new_figure()
-    plot_restitution(figure.subplots(), found.to_dataset())
+    figure = one_panel(plot_restitution, found.to_dataset())
     if title:
         figure.suptitle(title, fontsize=10.5)
     return figure
-
-
-def _centre_line(field: DataArray) -> tuple[Array, Array]:
-    """Return places along the motion and the pressure there, through the indenter's axis."""
-    values = np.asarray(field)
-    if field.dims == ("r",):
-        r = np.asarray(field["r"])
-        return np.concatenate([-r[::-1], r]), np.concatenate([values[::-1], values])
-    if field.ndim == 2:
-        values = values[:, int(np.abs(np.asarray(field[field.dims[1]])).argmin())]
-    return np.asarray(field[field.dims[0]]), values
 
 
 def _reach(fields: Sequence[DataArray]) -> tuple[tuple[float, float], tuple[float, float]]:

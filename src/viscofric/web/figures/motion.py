@@ -6,23 +6,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.datasets import DataArray, Dataset, plain
+from viscofric.datasets import Dataset, plain
+from viscofric.report.data import ENERGIES, SIZES, moves, position_along, pressure_along, returns
+from viscofric.report.sweeps import thinned
 from viscofric.web.figures.spec import Spec, around, axis, axis_of, figure, kind_of, line, number, quantity
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array
     from viscofric.motion.impact_solution import ImpactContact
     from viscofric.motion.solution import TransientSolution
 
-_SIZES = {
-    "contact_radius": "radius",
-    "front": "ahead of the axis",
-    "rear": "behind the axis",
-    "half_width": "half-width across",
-}
 #: Times and points of the pressure over time.
 _FRAMES, _POINTS, _FRAME_DIGITS = 120, 121, 4
-_ENERGIES = {"work": "work on the material", "stored": "stored", "dissipated": "dissipated"}
 
 
 def motion_view(data: Dataset, contacts: tuple[ImpactContact, ...], steps: str) -> dict[str, Any]:
@@ -44,10 +38,10 @@ def pressures(solved: TransientSolution) -> dict[str, Any]:
     if not solved.has_pressures:
         return {}
     times = np.unique(solved.time)
-    times = times[np.unique(np.linspace(0, len(times) - 1, _FRAMES).round().astype(int))]
+    times = times[thinned(len(times), _FRAMES)]
     waves = solved.geometry == "periodic"
     along = "y" if waves and abs(solved.direction[1]) > abs(solved.direction[0]) else "x"
-    lines = [_line_of(solved.pressure_at(float(time)), along, waves) for time in times]
+    lines = [pressure_along(solved.pressure_at(float(time)), along, highest=waves) for time in times]
     pressed = [np.abs(x[p > 0.0]).max() for x, p in lines if np.any(p > 0.0)]
     if not pressed:
         return {}
@@ -66,18 +60,6 @@ def pressures(solved: TransientSolution) -> dict[str, Any]:
     return {"animation": found, "figures": {"motion-pressure": plain(spec)}}
 
 
-def _line_of(pressure: DataArray, along: str, waves: bool) -> tuple[Array, Array]:
-    """Return positions (m) and pressures (Pa) along the motion."""
-    if "r" in pressure.dims:
-        r, p = pressure["r"].values, pressure.values
-        return np.concatenate([-r[::-1], r]), np.concatenate([p[::-1], p])
-    across = {"x": "y", "y": "x"}[along]
-    if across in pressure.dims:
-        rest = pressure.max(along).values if waves else -np.abs(pressure[across].values)
-        pressure = pressure.isel({across: int(np.argmax(rest))})
-    return pressure[along].values, pressure.values
-
-
 def _over_time(data: Dataset, title: str, y: Spec, names: dict[str, str | None]) -> Spec:
     """Draw columns with their errors over the time."""
     lines = []
@@ -90,28 +72,25 @@ def _over_time(data: Dataset, title: str, y: Spec, names: dict[str, str | None])
 def _figures(data: Dataset) -> dict[str, Spec]:
     # a constant load has no range of its own
     load = axis_of(data, "load", range=[0.0, 1.08 * float(data["load"].max()) or 1.0])
-    sizes = {name: words for name, words in _SIZES.items() if name in data and data[name].notnull().any()}
+    sizes = {name: words for name, words in SIZES.items() if name in data and data[name].notnull().any()}
     contact: dict[str, str | None] = {**sizes} or {"contact_area": None}
     size = axis("size of the contact", "length") if sizes else axis("contact area fraction")
     energy = axis(f"energy ({data['work'].attrs['units'].replace('m2', 'm²')})")
-    path = data["position_x"] * data.attrs["direction"][0] + data["position_y"] * data.attrs["direction"][1]
-    steps = np.diff(path)
     friction = axis_of(data, "friction_coefficient")
     loop = figure(
         "Friction loop",
         axis("position along the motion", "length"),
         axis_of(data, "friction_force"),
-        [line(path, "friction_force")],
+        [line(position_along(data), "friction_force")],
         "Its area is the work of friction.",
     )
     found = {
         "load": _over_time(data, "Load", load, {"load": None}),
         "indentation": _over_time(data, "Indentation", axis_of(data, "indentation"), {"indentation": None}),
-        "friction": np.any(steps != 0.0)
-        and _over_time(data, "Friction coefficient", friction, {"friction_coefficient": None}),
+        "friction": moves(data) and _over_time(data, "Friction coefficient", friction, {"friction_coefficient": None}),
         "contact": _over_time(data, "Contact", size, contact),
-        "loop": np.any(steps > 0.0) and np.any(steps < 0.0) and loop,
-        "energy": _over_time(data, "Energy", energy, {**_ENERGIES}),
+        "loop": returns(data) and loop,
+        "energy": _over_time(data, "Energy", energy, {**ENERGIES}),
     }
     return {f"motion-{name}": spec for name, spec in found.items() if spec}
 
