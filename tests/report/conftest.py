@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -254,6 +255,11 @@ def make_tree() -> Callable[..., xr.DataTree]:
         return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **groups})
 
     return make
+
+
+@pytest.fixture
+def axes() -> Axes:
+    return Figure().subplots()
 
 
 @pytest.fixture

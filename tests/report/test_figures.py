@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from matplotlib.container import ErrorbarContainer
-from matplotlib.figure import Figure
 
 from viscofric import report
 from viscofric.report.data import law_of
@@ -23,11 +22,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 ZERO = 273.15
-
-
-@pytest.fixture
-def axes() -> Axes:
-    return Figure().subplots()
 
 
 def group(tree: xr.DataTree, name: str) -> xr.Dataset:

@@ -6,10 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.container import ErrorbarContainer
-from matplotlib.figure import Figure
 
 import viscofric as vf
 from refusals import refused
@@ -45,11 +43,6 @@ def curves(coulomb: bool = True) -> vf.FrictionCurves:
 
 def with_band(found: vf.FrictionCurves) -> vf.FrictionCurves:
     return replace(found, viscoelastic_lower=0.9 * found.viscoelastic, viscoelastic_upper=1.2 * found.viscoelastic)
-
-
-@pytest.fixture
-def axes() -> Axes:
-    return Figure().subplots()
 
 
 def bars(axes: Axes) -> list[ErrorbarContainer]:

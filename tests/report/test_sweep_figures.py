@@ -24,11 +24,6 @@ SPEEDS, TEMPERATURES = np.geomspace(1e-3, 1.0, 7), np.linspace(303.15, 363.15, 4
 CURVES = {"temperature": TEMPERATURES, "speed": SPEEDS}
 
 
-@pytest.fixture
-def axes() -> Axes:
-    return Figure().subplots()
-
-
 def legend_texts(figure: Figure) -> list[str]:
     legends = [legend for axes in figure.axes if (legend := axes.get_legend()) is not None]
     assert len(legends) == 1

@@ -35,7 +35,7 @@ _POINTS_OF_A_LINE = 200
 #: Laws are not drawn this near to a pole, K.
 _NEAR_POLE = 1.0
 #: Shift factors of the modulus are drawn so far beyond those of friction, K.
-FARTHER = 20.0
+_FARTHER = 20.0
 _SIDES = ("lower", "upper")
 _MEGA = 1e-6
 
@@ -134,6 +134,13 @@ def shift_table(source: Shifts) -> ShiftTable:
     )
 
 
+def beside_friction(factors: Dataset, temperatures: Array) -> Dataset:
+    """Leave out what lies far from temperatures of friction (K): a rubber's sweeps reach farther."""
+    kelvin = values(factors, "temperature")
+    near = (kelvin >= temperatures.min() - _FARTHER) & (kelvin <= temperatures.max() + _FARTHER)
+    return factors.isel(temperature=near)
+
+
 def law_of(source: Dataset | None) -> ShiftLaw | None:
     """Return the shift law that results hold, or None if they hold none."""
     from viscofric.rheology.cards.native import shift_of
@@ -173,9 +180,9 @@ class Predicted(NamedTuple):
     extrapolated: Mask  # (n,): whether a case rests on frequencies that were not measured
     error: Array  # (n,), numerical error where it can be seen in a figure; NaN elsewhere
 
-    def rows(self, mask: Mask) -> Predicted:
-        """Return the rows of a mask in ascending speed."""
-        chosen = np.flatnonzero(mask)
+    def rows(self, mask: Mask | bool = True) -> Predicted:
+        """Return the rows of a mask, or all, in ascending speed."""
+        chosen = np.flatnonzero(np.broadcast_to(mask, self.speed.shape))
         chosen = chosen[np.argsort(self.speed[chosen], kind="stable")]
         return Predicted._make(column[chosen] for column in self)
 

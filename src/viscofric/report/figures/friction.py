@@ -140,10 +140,7 @@ def plot_friction_master_curves(
     """Draw predicted friction of several rubbers (by name) against the reduced speed αv."""
     handles: list[Any] = []
     for look, (name, prediction) in zip(style.looks(len(predictions)), predictions.items(), strict=True):
-        lines = predicted(prediction)
-        lines = lines.rows(np.ones(lines.speed.size, dtype=bool))
-        _plot_band(axes, lines, look.colour, 1.0)
-        _plot_predicted(axes, lines, color=look.colour, linestyle=look.dashes)
+        _plot_predicted(axes, predicted(prediction).rows(), color=look.colour, linestyle=look.dashes)
         handles.append(Line2D([], [], color=look.colour, linestyle=look.dashes, label=name))
     axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + style.at_temperature(reference_temperature))
     _finish(axes, handles, "predicted", r"viscoelastic friction coefficient $\mu$")
@@ -195,36 +192,30 @@ def _plot_loads(axes: Axes, lines: Predicted, look: Any, *, alone: bool) -> None
         line = lines.rows(lines.load == load)
         marker = look.marker if alone or np.isfinite(line.friction).sum() == 1 else "none"
         alpha = 1.0 if load == loads[0] else 0.55
-        _plot_band(axes, line, look.colour, alpha)
         marks = {"linestyle": look.dashes, "marker": marker, "markersize": 4, "alpha": alpha}
         _plot_predicted(axes, line, color=look.colour, **marks)
 
 
 def _plot_line(axes: Axes, lines: Predicted, label: str) -> list[Any]:
     """Draw one line over the reduced speed, with its band, and return what the legend shows of them."""
-    lines = lines.rows(np.ones(lines.speed.size, dtype=bool))
     alone = {"marker": "o", "markersize": 4} if np.isfinite(lines.friction).sum() == 1 else {}
-    _plot_band(axes, lines, style.GREY, 1.0)
-    _plot_predicted(axes, lines, color=style.INK, **alone)
+    _plot_predicted(axes, lines.rows(), color=style.INK, **alone)
     handles: list[Any] = [Line2D([], [], color=style.INK, label=label, **alone)]  # type: ignore[arg-type]
     if lines.has_band:
         handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="its 95 % band"))
     return handles
 
 
-def _plot_band(axes: Axes, lines: Predicted, colour: Any, alpha: float) -> None:
+def _plot_predicted(axes: Axes, lines: Predicted, **look: Any) -> None:
+    """Draw a predicted line and its band, thin and pale where they rest on frequencies that were not measured."""
+    speed = _MILLIMETRES * lines.speed
     if lines.has_band:
-        shade = {"color": colour, "alpha": alpha * (2.0 * _BAND if colour == style.GREY else _BAND), "linewidth": 0.0}
+        colour, dark = (style.GREY, 2.0 * _BAND) if look["color"] == style.INK else (look["color"], _BAND)
+        shade = {"color": colour, "alpha": look.get("alpha", 1.0) * dark, "linewidth": 0.0, "zorder": 1}
         if lines.extrapolated.any():  # half as dark there
             shade["alpha"] *= 0.5
-            sound = np.where(lines.extrapolated, np.nan, lines.lower)
-            axes.fill_between(_MILLIMETRES * lines.speed, sound, lines.upper, zorder=1, **shade)
-        axes.fill_between(_MILLIMETRES * lines.speed, lines.lower, lines.upper, zorder=1, **shade)
-
-
-def _plot_predicted(axes: Axes, lines: Predicted, **look: Any) -> None:
-    """Draw a predicted line, thin where it rests on frequencies that were not measured."""
-    speed = _MILLIMETRES * lines.speed
+            axes.fill_between(speed, np.where(lines.extrapolated, np.nan, lines.lower), lines.upper, **shade)
+        axes.fill_between(speed, lines.lower, lines.upper, **shade)
     look["zorder"] = 3.0  # above the points
     style.error_bars(axes, speed, lines.friction, lines.error, look["color"])
     if not lines.extrapolated.any():
@@ -262,9 +253,7 @@ def _finish(axes: Axes, handles: list[Any], title: str, label: str) -> None:
 def friction_figure(curves: FrictionCurves, *, synthetic: bool = False) -> Figure:
     """Return a figure of measured viscoelastic friction, and of Coulomb friction where there is any below it."""
     if curves.coulomb is None:
-        figure = style.new_figure(_WIDTH, _HEIGHT)
-        plot_friction_curves(figure.subplots(), measurement=curves, synthetic=synthetic)
-        return figure
+        return style.one_panel(plot_friction_curves, measurement=curves, size=(_WIDTH, _HEIGHT), synthetic=synthetic)
     figure = style.new_figure(_WIDTH, 1.8 * _HEIGHT)
     top, bottom = figure.subplots(2, 1, sharex=True)
     plot_friction_curves(top, measurement=curves, synthetic=synthetic)
@@ -275,17 +264,14 @@ def friction_figure(curves: FrictionCurves, *, synthetic: bool = False) -> Figur
 
 def predicted_figure(curves: FrictionCurves) -> Figure:
     """Return a figure of predicted friction against speed, with its bands where it has any."""
-    figure = style.new_figure(_WIDTH, _HEIGHT)
-    plot_friction_curves(figure.subplots(), curves)
-    return figure
+    return style.one_panel(plot_friction_curves, curves, size=(_WIDTH, _HEIGHT))
 
 
 def shifted_figure(master: FrictionMasterCurve, known: ShiftLaw | None = None, *, synthetic: bool = False) -> Figure:
     """Return a figure of a friction master curve, and of its shift factors below it where they were found from it."""
     if not master.found:
-        figure = style.new_figure(_WIDTH, _HEIGHT)
-        plot_friction_master_curve(figure.subplots(), measurement=master, synthetic=synthetic)
-        return figure
+        drawn: dict[str, Any] = {"measurement": master, "synthetic": synthetic}
+        return style.one_panel(plot_friction_master_curve, size=(_WIDTH, _HEIGHT), **drawn)
     figure = style.new_figure(_WIDTH, 2.0 * _HEIGHT)
     top, bottom = figure.subplots(2, 1)
     plot_friction_master_curve(top, measurement=master, synthetic=synthetic)

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
-from viscofric.report.data import FARTHER, Shifts, ShiftTable, as_dataset, law_line, law_residuals, shift_table
+from viscofric.report.data import Shifts, ShiftTable, as_dataset, beside_friction, law_line, law_residuals, shift_table
 from viscofric.report.figures import style
 from viscofric.report.results import SAME_TEMPERATURE, values
 from viscofric.report.texts.numbers import degrees
@@ -148,14 +148,13 @@ def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -
         handles += draw_law(axes, known, ends, "of the modulus: ")
         lowest, highest = (float(part) for part in np.asarray(known.log10(ends))[[1, 0]])
     else:
-        other = shift_table(known)
+        other = shift_table(beside_friction(as_dataset(known), table.temperature))
         if abs(other.reference - table.reference) > SAME_TEMPERATURE:
             raise InputError(
                 f"shift factors of friction are 1 at {degrees(table.reference)}, those of the modulus at "
                 f"{degrees(other.reference)}: must be the same to be drawn together.",
                 code="other-reference",
             )
-        other = _between(other, table.temperature)
         handles.append(_points(axes, other, style.INK, "s", "of the modulus, ± standard error"))
         lowest, highest = float(np.min(other.log10)), float(np.max(other.log10))
     handles.append(_points(axes, table, style.BLUE, "o", "from friction, ± standard error"))
@@ -170,13 +169,6 @@ def _finish(axes: Axes, low: float, high: float, room: float, handles: list[Any]
     style.plain_numbers(axes, "x")
     style.logarithmic(axes, "y")
     style.legend_above(axes, handles, columns=1)
-
-
-def _between(table: ShiftTable, temperatures: Array) -> ShiftTable:
-    """Leave out what lies far from temperatures, for a rubber's sweeps reach farther than friction."""
-    low, high = temperatures.min() - FARTHER, temperatures.max() + FARTHER
-    near = (table.temperature >= low) & (table.temperature <= high)
-    return table._replace(temperature=table.temperature[near], log10=table.log10[near], error=table.error[near])
 
 
 def _points(axes: Axes, table: ShiftTable, colour: str, marker: str, label: str) -> Any:

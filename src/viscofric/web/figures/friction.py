@@ -132,12 +132,8 @@ def master_figures(found: dict[str, Any], **more: Any) -> dict[str, spec.Spec]:
         master = found[name]
         if not master:
             continue
-        smoothed = master["line"]
-        words = "smoothed, with its 95 % band"
-        lines = []
-        if smoothed:
-            band = (smoothed["lower"], smoothed["upper"])
-            lines = [spec.line(smoothed["speed"], smoothed["friction"], words, band=band, colour="purple")]
+        look: spec.Spec = {"colour": "purple", "name": "smoothed, with its 95 % band"}
+        lines = _predicted(master["line"], **look) if master["line"] else []
         measured = [trace for one in master["points"] for trace in _measured(one, "friction", "scatter")]
         x = {**spec.SPEED, "label": f"reduced speed α·v at {spec.quantity(master['reference'], 'temperature')}"}
         drawn = spec.figure(

@@ -14,7 +14,7 @@ from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.friction.shifting.shift import chosen_law, common_reference, shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import listed
-from viscofric.report.data import FARTHER, law_line, measured_line
+from viscofric.report.data import beside_friction, law_line, measured_line
 from viscofric.report.texts.inverse import shift_words
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -128,8 +128,5 @@ def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any] | None:
     warm = np.array([one["temperature"] for one in beside["points"]])
     if warm.size < 2:
         return None
-    points = None
-    if isinstance(law, ShiftFactors):
-        near = (law.temperatures >= warm.min() - FARTHER) & (law.temperatures <= warm.max() + FARTHER)
-        points = with_bars(law.to_dataset().isel(temperature=near))
+    points = with_bars(beside_friction(law.to_dataset(), warm)) if isinstance(law, ShiftFactors) else None
     return {"points": points, "line": with_bars(law_line(law, float(warm.min()), float(warm.max())))}
