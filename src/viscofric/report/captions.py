@@ -28,9 +28,9 @@ from viscofric.report.sweeps import (
     SAMPLE,
     SEED,
     layout_of,
+    predicted_axes,
     seeds_averaged,
     solved_cases,
-    sweep_axes,
     words_of_band,
 )
 from viscofric.report.texts.numbers import degrees, prefixed, speed
@@ -187,7 +187,7 @@ def _of_map(tree: DataTree) -> str:
     friction = group(tree, "prediction")
     seeds = 0 if friction is None else seeds_averaged(friction)
     mapped = {*_MAPPED, SEED} if seeds else set(_MAPPED)
-    others = [] if friction is None else [axis for axis in sweep_axes(friction) if axis.name not in mapped]
+    others = [axis for axis in predicted_axes(tree) if axis.name not in mapped]
     said = "Predicted viscoelastic friction over speed and temperature"
     said += f", mean over {seeds} seeds of the surface" if seeds else ""
     said += f", one panel for each {' and each '.join(axis.title for axis in others)}" if others else ""

@@ -196,6 +196,18 @@ def solved_cases(tree: DataTree, name: str = "prediction") -> Dataset | None:
     return cases.isel({CASE: np.flatnonzero(solved)}) if solved.any() else None
 
 
+def predicted_axes(tree: DataTree) -> list[SweepAxis]:
+    """Return the axes along which friction was predicted at more than one point."""
+    friction = group(tree, "prediction")
+    return [] if friction is None else sweep_axes(friction)
+
+
+def has_curves_only(tree: DataTree) -> bool:
+    """Whether curves over the speed, one for each temperature, are all that was predicted."""
+    names = {axis.name for axis in predicted_axes(tree)}
+    return _SPEED in names <= {_SPEED, _TEMPERATURE} and SAMPLE not in tree["prediction"].dims
+
+
 def over_seeds(cases: Dataset) -> Dataset:
     """Return the means over the seeds of a surface, with the 95 % interval of the mean friction instead of its band.
 

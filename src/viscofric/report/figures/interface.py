@@ -18,7 +18,7 @@ from viscofric.report.data import Measured, as_dataset
 from viscofric.report.figures import style
 from viscofric.report.figures.friction import plot_measured
 from viscofric.report.results import group, is_synthetic, nearest, nominal_temperatures, number, values
-from viscofric.report.sweeps import SAMPLE, solved_cases, sweep_axes, thinned
+from viscofric.report.sweeps import has_curves_only, solved_cases, thinned
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.roughness.rough_friction import RoughFriction
@@ -189,11 +189,8 @@ def stress_figure(tree: DataTree) -> Figure | None:
 
 def parts_figure(tree: DataTree) -> Figure | None:
     """Return the figure of hysteresis and interface at a few temperatures, where nothing but these and speed varies."""
-    cases, friction = solved_cases(tree), group(tree, "prediction")
-    if cases is None or friction is None or "interface_friction" not in cases or SAMPLE in friction.dims:
-        return None
-    names = {axis.name for axis in sweep_axes(friction)}
-    if "speed" not in names or not names <= {"speed", "temperature"}:
+    cases = solved_cases(tree)
+    if cases is None or "interface_friction" not in cases or not has_curves_only(tree):
         return None
     temperature = values(cases, "temperature")
     nominal = nominal_temperatures(temperature)

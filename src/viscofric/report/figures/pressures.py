@@ -207,8 +207,8 @@ def impact_figure(found: ImpactSolution | RestitutionCurve, title: str = "") -> 
 def _reach(fields: Sequence[DataArray]) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the ends along x and y of what is loaded at any of the times, with a margin."""
     ends = []
-    for axis in (0, 1):
-        loaded = [_loaded(field, axis) for field in fields]
+    for name in ("x", "y"):
+        loaded = [_loaded(field, name) for field in fields]
         low, high = min(one[0] for one in loaded), max(one[1] for one in loaded)
         margin = _MARGIN * ((high - low) or 1.0)
         ends.append((low - margin, high + margin))
@@ -225,15 +225,11 @@ def _whole(field: DataArray) -> tuple[tuple[float, float], tuple[float, float]]:
     return ends[0], ends[1]
 
 
-def _loaded(field: DataArray, axis: int) -> tuple[float, float]:
-    """Return the ends of the loaded part along an axis; of the whole field without a load."""
-    round_one = field.dims == ("r",)
-    if axis >= field.ndim and not round_one:
+def _loaded(field: DataArray, name: str) -> tuple[float, float]:
+    """Return the ends of the loaded part along x or y, of a round contact along either; zeros without a load."""
+    name = "r" if field.dims == ("r",) else name
+    if name not in field.dims or not (field > 0.0).any():
         return 0.0, 0.0
-    places = np.asarray(field[field.dims[0 if round_one else axis]])
-    highest = np.asarray(field).max(axis=1 - axis) if field.ndim == 2 else np.asarray(field)
-    pressed = highest > 0.0
-    if not pressed.any():
-        return 0.0, 0.0
-    low, high = float(places[pressed].min()), float(places[pressed].max())
-    return (-high, high) if round_one else (low, high)
+    places = field[name].values[(field > 0.0).any([other for other in field.dims if other != name]).values]
+    low, high = float(places.min()), float(places.max())
+    return (-high, high) if name == "r" else (low, high)

@@ -51,7 +51,7 @@ from viscofric.report.results import (
     rubbers,
     values,
 )
-from viscofric.report.sweeps import MOST_LINES, SAMPLE, solved_cases, sweep_axes, thinned
+from viscofric.report.sweeps import MOST_LINES, has_curves_only, predicted_axes, solved_cases, thinned
 
 
 def _of(name: str, draw: Callable[..., None], *size: float) -> Callable[[DataTree], Figure | None]:
@@ -120,7 +120,7 @@ def _friction_shift_factors(figure: Figure, found: Dataset, tree: DataTree) -> N
 def friction_against_speed(tree: DataTree) -> Figure | None:
     """Friction at a few temperatures, beside what was measured; where nothing else varies, or friction was measured."""
     prediction, measurement = solved_cases(tree), group(tree, "measurement")
-    if measurement is None and (prediction is None or not _is_plain(tree)):
+    if measurement is None and (prediction is None or not has_curves_only(tree)):
         return None
     few = None if prediction is None else _few_curves(prediction, measurement)
     return one_panel(plot_friction_curves, few, measurement, size=WIDE, synthetic=is_synthetic(tree))
@@ -129,23 +129,9 @@ def friction_against_speed(tree: DataTree) -> Figure | None:
 def friction_sweep(tree: DataTree) -> Figure | None:
     """Friction over the axes of a study: where more than speed and temperature varies, or the speed does not."""
     friction = group(tree, "prediction")
-    drawn_as_curves = group(tree, "measurement") is not None and varied(tree) <= _CURVES
-    return None if friction is None or drawn_as_curves or _is_plain(tree) else sweep_figure(friction)
-
-
-def _is_plain(tree: DataTree) -> bool:
-    """Whether curves over the speed, one for each temperature, are all there is."""
-    names, friction = varied(tree), group(tree, "prediction")
-    return "speed" in names and names <= _CURVES and friction is not None and SAMPLE not in friction.dims
-
-
-def varied(tree: DataTree) -> set[str]:
-    """Return the names of the axes along which friction was predicted at more than one point."""
-    friction = group(tree, "prediction")
-    return set() if friction is None else {axis.name for axis in sweep_axes(friction)}
-
-
-_CURVES = {"speed", "temperature"}
+    few = {axis.name for axis in predicted_axes(tree)} <= {"speed", "temperature"}
+    drawn_as_curves = has_curves_only(tree) or (few and group(tree, "measurement") is not None)
+    return None if friction is None or drawn_as_curves else sweep_figure(friction)
 
 
 def _few_curves(prediction: Dataset, measurement: Dataset | None) -> Dataset:

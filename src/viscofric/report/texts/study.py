@@ -28,7 +28,7 @@ from viscofric.report.results import (
     shown_error,
     values,
 )
-from viscofric.report.sweeps import SweepAxis, cases_of, solved_cases, sweep_axes, value_label
+from viscofric.report.sweeps import SweepAxis, cases_of, predicted_axes, solved_cases, value_label
 from viscofric.report.texts.numbers import (
     ABSENT,
     degrees,
@@ -71,7 +71,7 @@ def scope(tree: DataTree) -> list[str]:
             f"Viscoelastic friction of a material against a {attrs.get('indenter', 'rigid indenter')}"
             f"{_under(prediction, number(attrs, 'load'))}, at {moves} and {at}{to}."
         )
-        also = [axis for axis in _axes(tree) if axis.name not in ("speed", "temperature", "load", "pressure")]
+        also = [axis for axis in predicted_axes(tree) if axis.name not in ("speed", "temperature", "load", "pressure")]
         if also:
             said.append(f"Varied as well: {'; '.join(f'{axis.title} ({_points(axis)})' for axis in also)}.")
     if tests := _tests(tree):
@@ -183,7 +183,7 @@ def inputs(tree: DataTree) -> list[Input]:
     listed.append(Input("surface" if is_rough(tree) else "indenter", str(attrs.get("indenter", ""))))
     friction = group(tree, "prediction")
     if friction is not None:
-        along = {axis.name: axis for axis in _axes(tree)}
+        along = {axis.name: axis for axis in predicted_axes(tree)}
         varied = {column for axis in along.values() for column in axis.columns}
         listed += [Input(axis.title, _points(axis)) for axis in along.values()]
         for name in ("load", "pressure", "direction", "temperature", "speed", "thickness"):
@@ -226,11 +226,6 @@ def _other_settings(text: str, known: set[str]) -> list[Input]:
 def _as_given(value: Any) -> str:
     """Return a value of a run file as it is written there, text without its quotes."""
     return json.dumps(value, ensure_ascii=False) if isinstance(value, (bool, list)) else str(value)
-
-
-def _axes(tree: DataTree) -> list[SweepAxis]:
-    friction = group(tree, "prediction")
-    return [] if friction is None else sweep_axes(friction)
 
 
 def _points(axis: SweepAxis) -> str:
