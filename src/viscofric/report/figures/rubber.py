@@ -26,6 +26,7 @@ from viscofric.report.results import nearest, nominal_temperatures, number, valu
 from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
+from viscofric.rheology.superposition.consistency import SuperpositionCheck
 from viscofric.units import celsius
 
 if TYPE_CHECKING:
@@ -56,14 +57,28 @@ def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "l
     matplotlib.cm.ScalarMappable
         Temperatures in °C to colours, for a colour bar (`style.temperature_bar`).
     """
-    measured = moduli_of_sweeps(isotherms)
-    value = measured.storage if modulus == "storage" else measured.loss
-    marker = "s" if modulus == "storage" else "o"
+    return draw_diagram(axes, isotherms, "frequency", modulus, marker="s" if modulus == "storage" else "o")
+
+
+def draw_diagram(axes: Axes, sweeps: Sweeps | SuperpositionCheck, x: str, y: str, **look: Any) -> ScalarMappable:
+    """Draw one quantity of every sweep over another; those with a unit, and tan δ, in decades."""
+    measured = moduli_of_sweeps(sweeps)
+    storage, loss, letter = measured.storage, measured.loss, measured.symbol
+    quantities = {
+        "frequency": (measured.angular_frequency, r"angular frequency $\omega$ (rad/s)"),
+        "storage": (storage, f"storage modulus ${letter}'$ (MPa)"),
+        "loss": (loss, f"loss modulus ${letter}''$ (MPa)"),
+        "magnitude": (np.hypot(storage, loss), rf"modulus $|{letter}^*|$ (MPa)"),
+        "tangent": (measured.loss_tangent, r"loss tangent $\tan\delta$"),
+        "angle": (np.degrees(np.arctan2(loss, storage)), r"loss angle $\delta$ (°)"),
+    }
+    (across, x_label), (upwards, y_label) = quantities[x], quantities[y]
     order = np.argsort(measured.angular_frequency, kind="stable")
-    columns = (measured.temperature, measured.angular_frequency, value)
-    scale = draw_by_temperature(axes, *(column[order] for column in columns), marker=marker)
-    axes.set(xlabel=r"angular frequency $\omega$ (rad/s)", ylabel=modulus_label(measured.symbol, modulus))
-    style.logarithmic(axes)
+    scale = draw_by_temperature(axes, measured.temperature[order], across[order], upwards[order], **look)
+    axes.set(xlabel=x_label, ylabel=y_label)
+    style.logarithmic(axes, "x" if y == "angle" else "xy")
+    if y == "angle":
+        style.plain_numbers(axes, "y")
     return scale
 
 
@@ -82,12 +97,6 @@ def draw_by_temperature(axes: Axes, temperature: Array, x: Array, y: Array, **lo
         colour = scale.to_rgba(np.array(celsius(float(kelvin))))
         axes.plot(x[rows], y[rows], color=colour, label=degrees(float(kelvin)), **look)
     return scale
-
-
-def modulus_label(symbol: str, modulus: Literal["storage", "loss"]) -> str:
-    """Return the label of an axis of moduli in MPa."""
-    primes = "'" if modulus == "storage" else "''"
-    return f"{modulus} modulus ${symbol}{primes}$ (MPa)"
 
 
 def plot_master_curve(

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 
-from viscofric.report.data import Sweeps, moduli_of_sweeps
-from viscofric.report.figures.rubber import draw_by_temperature, modulus_label
-from viscofric.report.figures.style import GREY, MODULI, legend_above, logarithmic, plain_numbers, reduced_frequency
+from viscofric.report.data import Sweeps
+from viscofric.report.figures.rubber import draw_diagram
+from viscofric.report.figures.style import GREY, MODULI, legend_above, logarithmic, reduced_frequency
 from viscofric.rheology.superposition.consistency import SuperpositionCheck
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig
 
@@ -29,7 +29,7 @@ def plot_wicket(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappab
     matplotlib.cm.ScalarMappable
         Temperatures in °C to colours, for a colour bar.
     """
-    return _diagram(axes, sweeps, "storage", "tangent")
+    return draw_diagram(axes, sweeps, "storage", "tangent")
 
 
 def plot_cole_cole(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
@@ -37,7 +37,7 @@ def plot_cole_cole(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMap
 
     Arguments and value are those of `plot_wicket`.
     """
-    return _diagram(axes, sweeps, "storage", "loss")
+    return draw_diagram(axes, sweeps, "storage", "loss")
 
 
 def plot_booij_thoone_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
@@ -49,7 +49,7 @@ def plot_booij_thoone_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) ->
     ----------
     H. C. Booij, J. H. M. Palmen, Theoretical and Applied Rheology (1992) 321.
     """
-    return _diagram(axes, sweeps, "magnitude", "tangent")
+    return draw_diagram(axes, sweeps, "magnitude", "tangent")
 
 
 def plot_van_gurp_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> ScalarMappable:
@@ -61,28 +61,7 @@ def plot_van_gurp_palmen(axes: Axes, sweeps: Sweeps | SuperpositionCheck) -> Sca
     ----------
     M. van Gurp, J. Palmen, Rheol. Bull. 67 (1998) 5.
     """
-    return _diagram(axes, sweeps, "magnitude", "angle")
-
-
-def _diagram(axes: Axes, sweeps: Sweeps | SuperpositionCheck, x: str, y: str) -> ScalarMappable:
-    """Draw one quantity of every sweep over another; those with a unit, and tan δ, in decades."""
-    measured = moduli_of_sweeps(sweeps)
-    storage, loss = measured.storage, measured.loss
-    quantities = {
-        "storage": (storage, modulus_label(measured.symbol, "storage")),
-        "loss": (loss, modulus_label(measured.symbol, "loss")),
-        "magnitude": (np.hypot(storage, loss), rf"modulus $|{measured.symbol}^*|$ (MPa)"),
-        "tangent": (measured.loss_tangent, r"loss tangent $\tan\delta$"),
-        "angle": (np.degrees(np.arctan2(loss, storage)), r"loss angle $\delta$ (°)"),
-    }
-    (across, x_label), (upwards, y_label) = quantities[x], quantities[y]
-    order = np.argsort(measured.angular_frequency, kind="stable")
-    scale = draw_by_temperature(axes, measured.temperature[order], across[order], upwards[order])
-    axes.set(xlabel=x_label, ylabel=y_label)
-    logarithmic(axes, "x" if y == "angle" else "xy")
-    if y == "angle":
-        plain_numbers(axes, "y")
-    return scale
+    return draw_diagram(axes, sweeps, "magnitude", "angle")
 
 
 def plot_kramers_kronig(axes: Axes, agreement: KramersKronig) -> None:
