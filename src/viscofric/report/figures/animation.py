@@ -61,7 +61,7 @@ def _drawn(run: TransientSolution, shown: Frames, title: str, *, synthetic: bool
     from PIL import Image
 
     data = run.to_dataset()
-    figure = new_figure(9.0, 3.8)
+    figure = new_figure(9.0, 3.8, title=title)
     left, right = figure.subplots(1, 2)
     plot_transient(right, data, "friction_coefficient" if moves(data) else "indentation")
     now = right.axvline(0.0, color=INK, linewidth=1.2)
@@ -70,8 +70,6 @@ def _drawn(run: TransientSolution, shown: Frames, title: str, *, synthetic: bool
         figure.colorbar(mesh, ax=left, shrink=0.85).set_label(f"pressure $p$ ({shown.pressure.name})")
     if synthetic:
         mark_synthetic([right])
-    if title:
-        figure.suptitle(title, fontsize=10.5)
     left.set_title(" ", fontsize=_SMALL)
     figure.set_dpi(_DOTS_PER_INCH)
     canvas: Any = FigureCanvasAgg(figure)

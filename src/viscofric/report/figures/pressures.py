@@ -16,7 +16,7 @@ from viscofric.motion.solution import TransientSolution
 from viscofric.report.data import moves, pressure_along, returns
 from viscofric.report.figures.contact import draw_profile, pressure_mesh
 from viscofric.report.figures.motion import plot_force_depth, plot_friction_loop, plot_restitution, plot_transient
-from viscofric.report.figures.style import INK, Unit, new_figure, one_panel, sequential_looks, unit_for
+from viscofric.report.figures.style import INK, Unit, new_figure, sequential_looks, unit_for
 from viscofric.report.texts.numbers import prefixed
 from viscofric.units import Quantities, to_si_array
 
@@ -130,7 +130,7 @@ def pressure_strip(run: TransientSolution, times: Quantities | None = None, titl
     frames = frames_of(run, times)
     (left, right), (low, high) = frames.reach
     across = min((high - low) / (right - left), 2.0) if frames.are_maps else 0.9
-    figure = new_figure(2.2 * len(frames.times) + 1.2, 2.0 * across + (1.15 if title else 0.9))
+    figure = new_figure(2.2 * len(frames.times) + 1.2, 2.0 * across + (1.15 if title else 0.9), title=title)
     panels = figure.subplots(1, len(frames.times), squeeze=False, sharey=True)[0]
     mesh = None
     for place, panel in enumerate(panels):
@@ -141,10 +141,8 @@ def pressure_strip(run: TransientSolution, times: Quantities | None = None, titl
             panel.set_ylabel("")
     figure.supxlabel(f"$x$ ({frames.length.name})", fontsize=10.5)
     if mesh is not None:
-        bar = figure.colorbar(mesh, ax=list(panels), shrink=0.85, pad=0.01)
-        bar.set_label(f"pressure $p$ ({frames.pressure.name})")
-    if title:
-        figure.suptitle(title, fontsize=10.5)
+        label = f"pressure $p$ ({frames.pressure.name})"
+        figure.colorbar(mesh, ax=list(panels), shrink=0.85, pad=0.01, label=label)
     return figure
 
 
@@ -159,7 +157,7 @@ def transient_figure(run: TransientSolution, title: str = "") -> Figure:
     data = run.to_dataset()
     slides = moves(data)
     rows = ["load", "indentation", *(["friction_coefficient"] if slides else []), "contact"]
-    figure = new_figure(9.6, 1.7 * len(rows) + 0.6)
+    figure = new_figure(9.6, 1.7 * len(rows) + 0.6, title=title)
     left, right = figure.subfigures(1, 2, width_ratios=[1.15, 1.0], squeeze=False)[0]
     panels: Any = left.subplots(len(rows), 1, sharex=True)
     for panel, quantity in zip(panels, rows, strict=True):
@@ -177,8 +175,6 @@ def transient_figure(run: TransientSolution, title: str = "") -> Figure:
         plot_friction_loop(below, data)
     else:
         plot_transient(below, data, "energy")
-    if title:
-        figure.suptitle(title, fontsize=10.5)
     return figure
 
 
@@ -198,9 +194,8 @@ def impact_figure(found: ImpactSolution | RestitutionCurve, title: str = "") -> 
     """Return a figure of an impact over time, or of the restitution of several."""
     if isinstance(found, ImpactSolution):
         return transient_figure(found.run, title)
-    figure = one_panel(plot_restitution, found.to_dataset())
-    if title:
-        figure.suptitle(title, fontsize=10.5)
+    figure = new_figure(title=title)
+    plot_restitution(figure.subplots(), found.to_dataset())
     return figure
 
 

@@ -136,9 +136,12 @@ def sequential_looks(count: int) -> list[Look]:
     return _marked([scale(0.88 * index / max(count - 1, 1)) for index in range(count)])
 
 
-def new_figure(width: float = 6.2, height: float = 4.3) -> Figure:
+def new_figure(width: float = 6.2, height: float = 4.3, *, title: str = "") -> Figure:
     """Return an empty figure of a size in inches, without pyplot's global state."""
-    return Figure(figsize=(width, height))
+    figure = Figure(figsize=(width, height))
+    if title:
+        figure.suptitle(title, fontsize=10.5)
+    return figure
 
 
 def one_panel(draw: Callable[..., object], *arguments: Any, size: tuple[float, ...] = (), **settings: Any) -> Figure:
