@@ -117,7 +117,7 @@ def test_tables_and_drawings_are_written(tmp_path: Path, monkeypatch: pytest.Mon
 def test_strokes_go_forth_and_back(tmp_path: Path) -> None:
     words = (
         "transient", *RUBBER, "--cylinder", "10 mm", "--load", "200 N/m", "--dwell", "20 ms", "--slide", "1 mm",
-        "--speed", "0.1 m/s", "--strokes", 2, "--accuracy", 0.1, "--times", "20 ms, 30 ms, 40 ms",
+        "--speed", "0.1 m/s", "--strokes", 2, "--accuracy", 0.1, "--times", "20 ms, 30 ms, 40 ms", "--coulomb", 0.2,
     )  # fmt: skip
     found = record(*words)
     history = vf.motion.History(
@@ -131,6 +131,8 @@ def test_strokes_go_forth_and_back(tmp_path: Path) -> None:
     # at rest nothing but rounding
     assert abs(rest) < 1e-9 < 0.05 < forth
     assert back == pytest.approx(-forth, rel=0.1)  # the sliding forgets the dwell after some contact widths
+    assert found["results"]["total_friction"] == pytest.approx([0.2 + rest, forth - 0.2, back - 0.2])  # after each jump
+    assert lines(succeed(*words))["with Coulomb friction"] == f"−{0.2 - back:.4g}"
 
 
 @pytest.mark.slow
@@ -191,7 +193,7 @@ def test_a_repeated_history_has_its_periodic_state(tmp_path: Path) -> None:
         assert refusal(*words, *option).status == 2, option
     assert record(*words, "--coulomb", 0.3)["inputs"]["coulomb"] == 0.3
     assert refusal(*words, "--coulomb", 20)[:2] == (1, "out-of-range")
-    assert refusal("transient", *PRESS, "--coulomb", 0.3).status == 2
+    assert refusal("transient", *PRESS, "--coulomb", 0.3, "--heating", "steel").status == 2
     assert refusal("transient", *PRESS, "--load-time", "1 ms", "--cycle")[:2] == (1, "not-a-period")
 
 

@@ -35,6 +35,7 @@ def test_a_sliding_line_is_solved_at_the_temperature_that_its_heat_makes() -> No
     assert np.abs(run.temperature - 293.15 - heat.temperature_rise) == pytest.approx(heat.residual)
     assert heat.rubber_heat + heat.counterface_heat == pytest.approx(heat.coulomb_heat + heat.loss_heat)
     assert heat.coulomb_heat == pytest.approx(0.5 * 2000.0 * 0.3 * np.array(asked))
+    assert run.total == pytest.approx(run.friction_coefficient + 0.5)
     # The same contact at a given temperature, that of the end: after many contact lengths nothing older counts.
     warm = vf.motion.History(
         time, load=2000.0, speed=[0.3, 0.3, 0.3], temperature=float(run.temperature[-1]), before="at rest"

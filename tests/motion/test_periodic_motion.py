@@ -12,6 +12,7 @@ import pytest
 
 import viscofric as vf
 from motion.dense_wave import displacement_matrix, marched
+from refusals import refused
 from viscofric.contact.reference import westergaard
 from viscofric.motion.memory import Modes
 from viscofric.motion.mover import Observation
@@ -241,6 +242,23 @@ def test_pressure_may_go_and_come_back() -> None:
     assert run.friction_force[1] == 0.0
     assert run.friction_coefficient[[0, 2]].min() > 0.0
     assert 0.0 < run.indentation[1] < run.indentation[0]  # the dent has not recovered
+
+
+def test_coulomb_friction_turns_with_the_motion_and_ends_with_it_and_with_the_load() -> None:
+    """Along the direction of the history, 0.6 of the way; at both sides of jumps; the contact is as without it."""
+    times = [0.0, 1e-3, 1e-3, 2e-3, 2e-3, 3e-3]
+    path = np.outer([2.0, 2.0, -1.0, -1.0, 0.0, 0.0], [0.6, 0.8])
+    history = vf.motion.History(times, pressure=[1e3, 1e3, 1e3, 0.0, 0.0, 1e3], speed=path, before="sliding")
+    plain, run = (
+        vf.motion.solve_transient(TWO_MODES, crossed(4), history, times=times, accuracy=5e-2, coulomb=coulomb)
+        for coulomb in (0.0, 0.5)
+    )
+    assert run.interface_friction == pytest.approx([0.3, 0.3, -0.3, 0.0, 0.0, 0.0])
+    assert np.array_equal(run.friction_coefficient, plain.friction_coefficient)
+    assert np.array_equal(run.total, plain.friction_coefficient + run.interface_friction)
+    assert np.array_equal(run.to_dataset()["total_friction"], run.total)
+    with refused("no-interface"):
+        _ = plain.total
 
 
 @pytest.mark.slow

@@ -83,7 +83,8 @@ Examples:
     type=float,
     default=0.0,
     metavar="μ",
-    help="With --cycle: Coulomb friction coefficient; its shear is left out, a note has the effect [default: none].",
+    help="Coulomb friction coefficient, for the total friction; its shear is left out, a note has the effect "
+    "[default: none].",
 )
 @click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
 @click.option("--save-state", "state", type=WRITTEN, help="Write the last state (.npz) for --resume.")
@@ -135,10 +136,9 @@ def _check_pairs(parameters: dict[str, Any]) -> None:
     """Refuse options that exclude each other."""
     if parameters["cycle"] and parameters["heating"] is not None:
         raise click.UsageError("--cycle and --heating are both given; a periodic state is isothermal.")
-    if parameters["coulomb"] and not parameters["cycle"]:
+    if parameters["coulomb"] and parameters["heating"] is not None:
         raise click.UsageError(
-            "--coulomb needs --cycle. Otherwise the friction coefficient is the viscoelastic part: add Coulomb "
-            "friction while the indenter slides, or give --heating-coulomb to let it heat the contact."
+            "--coulomb and --heating are both given; Coulomb friction that heats is --heating-coulomb."
         )
     reasons = {"cycle": "a periodic state has no end", "heating": "a heated contact has no state"}
     for one, reason in reasons.items():
@@ -163,15 +163,14 @@ def _solved(
     from viscofric.motion.cycle import solve_cycle
     from viscofric.motion.solve import solve_transient
 
-    contact = {"accuracy": parameters["accuracy"], "layer": layer, **elastic_settings(parameters)}
+    contact = {name: parameters[name] for name in ("accuracy", "coulomb")}
+    contact |= {"layer": layer, **elastic_settings(parameters)}
     pictures = film or (drawn and parameters["cycle"])  # of a cycle, only the pressures asked for are kept
     times = chosen_times(parameters, history, film=pictures)
     if parameters["cycle"]:
         shown = "{:.0f} periods, {:.2g} away from the periodic state"
         with time_bar("Periodic state", quiet=quiet, shown=shown) as bar:
-            return solve_cycle(
-                material, body, history, times=times, progress=bar, coulomb=parameters["coulomb"], **contact
-            )
+            return solve_cycle(material, body, history, times=times, progress=bar, **contact)
     with time_bar("Contact over time", quiet=quiet) as bar:
         run = solve_transient(
             material, body, history, times=times, progress=bar, resume=parameters["resume"],

@@ -30,7 +30,7 @@ from viscofric.motion.history import History
 from viscofric.motion.march import INSTANT, march
 from viscofric.motion.mover import Mover
 from viscofric.motion.schedule import Schedule
-from viscofric.motion.shear import shear_notes
+from viscofric.motion.shear import with_coulomb
 from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
 from viscofric.motion.watch import Watch, Watched
 from viscofric.rheology.material import Material
@@ -79,8 +79,7 @@ def solve_cycle(
     layer, indenter_modulus, indenter_poisson_ratio : optional
         As for `solve_transient`.
     coulomb : float or str
-        Coulomb friction coefficient of a sliding contact, where it is known.  The contact is solved without its shear;
-        the note `tangential-coupling` has the change of friction by it, if above 5 %.
+        As for `solve_transient`; the mean friction is without it.
     most_periods : int
         Maximum number of periods.
     progress : callable, optional
@@ -139,8 +138,7 @@ def solve_cycle(
     # On cells, the track has the errors by the cells, which the whole period of one grid has not.
     run = assemble(track, problem, one_period, method, notes=notes)
     whole = run if asked is None else assemble(search.whole, problem, one_period, method, notes=notes)
-    shear = shear_notes(problem, whole, coulomb, whole.temperature)
-    run, whole = (replace(one, warnings=(*one.warnings, *shear)) for one in (run, whole))
+    run, whole = (with_coulomb(problem, one, coulomb, whole) for one in (run, whole))
     return replace(CycleSolution.of(whole, search.found, problem.schedule.control, search.periods), run=run)
 
 

@@ -23,7 +23,7 @@ from viscofric.heat.result import TransientHeating
 from viscofric.motion.history import History, dense_times
 from viscofric.motion.problem import Problem
 from viscofric.motion.progress import Progress
-from viscofric.motion.shear import contact_sizes, shear_notes
+from viscofric.motion.shear import contact_sizes, with_coulomb
 from viscofric.motion.solution import TransientErrors, TransientSolution
 from viscofric.notes import Note
 
@@ -86,8 +86,9 @@ def solve_heated(
         residual, _error(problem, run, heating, heats, (warmer, by_loss), change),
     )  # fmt: skip
     keep = range(len(grid)) if times is None else _rows(grid, times)
-    doubts = (*_thin_skin(problem, run, heating, found), *shear_notes(problem, run, heating.coulomb, around + warmer))
+    doubts = _thin_skin(problem, run, heating, found)
     run = replace(run, warnings=(*run.warnings, *doubts), errors=_with_what_is_left(run, history.control, change))
+    run = with_coulomb(problem, run, heating.coulomb)
     # A state of the last run is no state of the heated contact.
     chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep), _restart=None)
     return chosen

@@ -1,4 +1,4 @@
-"""Change of friction over time by the shear of Coulomb friction, for contacts that are solved without it."""
+"""Coulomb friction over time, and the change of friction by its shear, for contacts that are solved without it."""
 
 from __future__ import annotations
 
@@ -20,13 +20,24 @@ def contact_sizes(problem: Problem, run: TransientSolution) -> Array:
     return np.asarray(0.5 * area if problem.kind == "line" else np.sqrt(area / np.pi))
 
 
-def shear_notes(
-    problem: Problem, run: TransientSolution, coulomb: float, kelvin: Array | None = None
-) -> tuple[Note, ...]:
-    """Return a note where the shear of Coulomb friction changes friction by too much."""
-    # `kelvin` (n,) is the temperature of the rubber, K, if it is known.
+def with_coulomb(
+    problem: Problem, run: TransientSolution, coulomb: float, every: TransientSolution | None = None
+) -> TransientSolution:
+    """Return a run with Coulomb friction, and a note where its shear changes friction by too much."""
+    # `every` is the same run at every step, where that is known.
     if coulomb == 0.0:
-        return ()
+        return run
+    after = np.append(np.diff(run.time) > 0.0, True)  # of a time given once at a jump, the values after it
+    sides = zip(run.time.tolist(), after.tolist(), strict=True)
+    velocity = np.array([problem.schedule.velocity(time, after=side) for time, side in sides]).reshape(-1, 2)
+    speed = np.hypot(*velocity.T)
+    sliding = (speed > 0.0) & (run.load > 0.0)
+    along = np.divide(velocity @ run.direction, speed, out=np.zeros_like(speed), where=sliding)
+    notes = _shear_notes(problem, every or run, coulomb)
+    return replace(run, interface_friction=coulomb * along, warnings=(*run.warnings, *notes))
+
+
+def _shear_notes(problem: Problem, run: TransientSolution, coulomb: float) -> tuple[Note, ...]:
     ratio, layer, line = problem.material.poisson_ratio, problem.layer, problem.kind == "line"
     steps = np.hypot(*np.diff(run.position, axis=0).T)
     speed = np.append(steps / np.maximum(np.diff(run.time), 1e-300), 0.0)
@@ -43,7 +54,7 @@ def shear_notes(
         slid = np.concatenate([[0.0], np.cumsum(steps)]) >= size
         slid &= np.ptp(run.position, axis=0).max() >= size
         for row in np.flatnonzero(sliding & slid).tolist():
-            modes = problem.material.modes_at(None if kelvin is None else float(kelvin[row]))
+            modes = problem.material.modes_at(None if run.temperature is None else float(run.temperature[row]))
             compliance = sheared_compliance(modes, ratio, layer, float(size[row]), float(speed[row]), line=line)
             stress = coulomb * float(run.load[row] / run.contact_area[row])
             friction, where = float(run.friction_coefficient[row]), f"at {run.time[row]:.3g} s"

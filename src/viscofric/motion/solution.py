@@ -14,6 +14,7 @@ from viscofric.errors import InputError
 from viscofric.heat.result import TransientHeating
 from viscofric.motion.mover import Field
 from viscofric.motion.restart import Restart
+from viscofric.rheology.interface.friction import total_friction
 from viscofric.showing import Plotted, Rows, Shown
 from viscofric.units import Quantity, to_si
 
@@ -109,6 +110,9 @@ class TransientSolution(Plotted):
         where it is unknown.
     heating : TransientHeating or None
         Heat, rise of temperature and isothermal friction, where requested; `temperature` then includes the rise.
+    interface_friction : array or None
+        Coulomb friction over the load along the direction: that given, as long as the indenter slides along it; zero at
+        rest, where it is not known, and without load.  The contact is solved without its shear.
     """
 
     time: Array
@@ -136,6 +140,7 @@ class TransientSolution(Plotted):
     warnings: tuple[str, ...] = ()
     dent: Array | None = None
     heating: TransientHeating | None = None
+    interface_friction: Array | None = None
     _fields: tuple[Field | None, ...] = field(default=(), repr=False)
     _restart: Restart | None = field(default=None, repr=False)
 
@@ -147,6 +152,7 @@ class TransientSolution(Plotted):
             ("friction force", self.friction_force, unit),
             ("error of the friction", self.errors.friction_force, unit),
             ("friction coefficient", self.friction_coefficient),
+            ("interface friction", self.interface_friction),
             ("indentation", self.indentation, "m"),
             ("temperature", self.temperature, "°C"),
             ("solved with", f"{self.method}, {self.steps} steps"),
@@ -163,6 +169,12 @@ class TransientSolution(Plotted):
     def friction_error(self) -> Array:
         """Error estimate of the friction coefficient, (n,) array, that of the force over the load."""
         return self._over_load(self.errors.friction_force)
+
+    @property
+    def total(self) -> Array:
+        """Viscoelastic plus Coulomb friction over the load, (n,) array; `InputError` without the latter."""
+        give = "solve_transient() or solve_cycle() coulomb=, or heating with coulomb"
+        return total_friction(self.friction_coefficient, self.interface_friction, give)
 
     def _over_load(self, force: Array) -> Array:
         loaded = self.load > 0.0
@@ -264,6 +276,9 @@ class TransientSolution(Plotted):
             "friction_coefficient": (self.friction_coefficient, "1", "friction coefficient"),
             "contact_area": (self.contact_area, area, "contact area"),
         }
+        if self.interface_friction is not None:
+            columns["interface_friction"] = self.interface_friction, "1", "friction coefficient of the interface"
+            columns["total_friction"] = self.total, "1", "friction coefficient of hysteresis and interface together"
         for name in ("contact_radius", "front", "rear", "half_width"):
             values = getattr(self, name)
             columns[name] = None if values is None else (values, "m", name.replace("_", " "))

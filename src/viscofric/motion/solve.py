@@ -13,7 +13,7 @@ import numpy as np
 import scipy.fft
 
 from viscofric.arguments import insist_on, insist_on_function
-from viscofric.contact.bodies import Layer, indenter_compliance
+from viscofric.contact.bodies import Layer, checked_coulomb, indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic.solve import beyond_measured
@@ -24,6 +24,7 @@ from viscofric.motion.history import History
 from viscofric.motion.march import march
 from viscofric.motion.problem import Problem
 from viscofric.motion.restart import Restart
+from viscofric.motion.shear import with_coulomb
 from viscofric.motion.solution import TransientErrors, TransientSolution
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
@@ -69,6 +70,7 @@ def solve_transient(
     progress: Callable[[float, float], object] | None = None,
     resume: TransientSolution | str | PathLike[str] | None = None,
     heating: Heating | None = None,
+    coulomb: Quantity = 0.0,
 ) -> TransientSolution:
     """Solve a contact through a history of load or depth, path and temperature.
 
@@ -101,6 +103,10 @@ def solve_transient(
         Thermal properties and Coulomb heat: the rubber responds at the temperature of the history plus a mean rise
         (`Heating.average`), which the solution's `heating` holds.  In three or four runs, at some sixty times and those
         asked for.  Not with a layer, a rough surface, `resume` or steady sliding before.
+    coulomb : float or str
+        Coulomb friction coefficient of a sliding contact, for `TransientSolution.total`; that of `heating`, if given.
+        The contact is solved without its shear; the note `tangential-coupling` has the change of friction by it, if
+        above 5 %.
 
     Returns
     -------
@@ -147,12 +153,14 @@ def solve_transient(
     [1.015, 1.555, 1.778]
     """
     insist_on_function(progress, "progress")
-    accuracy = number(accuracy, "accuracy")
+    accuracy, coulomb = number(accuracy, "accuracy"), checked_coulomb(coulomb)
     problem = checked_problem(material, indenter, history, accuracy, layer, indenter_modulus, indenter_poisson_ratio)
     asked = checked_times(times, problem.schedule)
     if heating is not None:
         if resume is not None:
             raise InputError("heating: not with resume; solve the whole history at once.", code="not-with-heating")
+        if coulomb != 0.0:
+            raise InputError("coulomb: not with heating, which has its own; leave it out.", code="not-with-heating")
         from viscofric.motion.heated import solve_heated
 
         def solve(
@@ -165,12 +173,23 @@ def solve_transient(
             return found
 
         return solve_heated(problem, history, heating, asked, solve, progress)
+    found = _solved(problem, history, asked, progress, resume)
+    return with_coulomb(problem, found, coulomb)
+
+
+def _solved(
+    problem: Problem,
+    history: History,
+    asked: list[float] | None,
+    progress: Callable[[float, float], object] | None,
+    resume: TransientSolution | str | PathLike[str] | None,
+) -> TransientSolution:
     if resume is not None:
         return _resumed(resume, problem, history, asked, progress)
     mover, method, notes = mover_or_grid(problem, history, asked)
     if mover is None:
         return _on_cells(problem, history, asked, progress, notes)
-    track = march(mover, problem.schedule, accuracy=accuracy, times=asked, progress=progress)
+    track = march(mover, problem.schedule, accuracy=problem.accuracy, times=asked, progress=progress)
     found = assemble(track, problem, history, method)
     return replace(found, _restart=Restart.of(problem, history, method, mover, track))
 

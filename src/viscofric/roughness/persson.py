@@ -126,7 +126,7 @@ class PerssonTheory(Plotted):
     @property
     def total(self) -> Array:
         """Friction coefficient of hysteresis and interface, (m, n) array; InputError without an interface."""
-        return total_friction(self.friction_coefficient, self.interface_friction, "persson_theory")
+        return total_friction(self.friction_coefficient, self.interface_friction, "persson_theory() an interface")
 
     @property
     def total_error(self) -> Array | None:

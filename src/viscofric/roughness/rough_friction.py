@@ -80,7 +80,9 @@ class RoughFriction(Plotted):
     @property
     def total(self) -> Array:
         """Friction coefficient of hysteresis and interface, (m, n, k) array; InputError without an interface."""
-        return total_friction(self.friction_coefficient, self.interface_friction, "predict_rough_friction")
+        return total_friction(
+            self.friction_coefficient, self.interface_friction, "predict_rough_friction() an interface"
+        )
 
     @property
     def total_error(self) -> Array | None:

@@ -71,6 +71,8 @@ def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, s
     ]
     if slides:
         lines += [("  friction coefficient", _friction(run, -1)), ("largest friction", _largest(run))]
+    if slides and run.interface_friction is not None:
+        lines.insert(-1, ("  with Coulomb friction", significant(float(run.total[-1]), 4)))
     lines += _heat(run)
     lines += [
         ("work on the material", prefixed(float(run.work[-1]), None, energy)),

@@ -39,10 +39,10 @@ def check_interface_heat(heating: Heating, interface: object, slip: object = Non
         )
 
 
-def total_friction(hysteresis: Array, interface: Array | None, predictor: str) -> Array:
-    """Return both parts of a friction coefficient together; InputError without an interface, which a function takes."""
+def total_friction(hysteresis: Array, interface: Array | None, give: str) -> Array:
+    """Return both parts of a friction coefficient together; InputError without an interface: `give` is the remedy."""
     if interface is None:
-        raise InputError(f"there is no interfacial friction; give {predictor}() an interface.", code="no-interface")
+        raise InputError(f"there is no interfacial friction; give {give}.", code="no-interface")
     return hysteresis + interface
 
 
