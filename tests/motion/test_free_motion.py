@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 import viscofric as vf
 from refusals import refused
@@ -14,7 +13,6 @@ from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperat
 from viscofric.motion.free import mover, past, solve
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.response import response_of
-from viscofric.motion.free.state import _relaxation
 from viscofric.motion.free.wake import Wake
 from viscofric.notes import codes
 
@@ -423,19 +421,6 @@ def test_line_contacts_refuse_a_depth_and_a_path_across():
         vf.motion.solve_transient(RUBBER, CYLINDER, vf.motion.History([0.0, 1.0], load=0.0, speed=1.0))
     with refused("sharp-edge"):
         vf.motion.solve_transient(RUBBER, vf.FlatPunch("1 mm"), vf.motion.History([0.0, 1.0], load=1.0, speed=1.0))
-
-
-def test_integrals_of_the_relaxation_over_a_step():
-    steps = np.array([0.1, 0.499, 0.501, 3.0, 30.0])
-
-    def integral(power, k):
-        def value(s):
-            return np.exp(-k * s) ** (2 - power) * (-np.expm1(-k * s) / k) ** power
-
-        return quad(value, 0.0, 1.0, points=[min(0.99, 1.0 / k)])[0]
-
-    for power, found in enumerate(_relaxation(steps)):
-        assert found == pytest.approx([integral(power, k) for k in steps], rel=1e-9)  # of the quadrature
 
 
 def test_response_is_that_of_the_steady_operators_without_memory():

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.motion.memory import Modes, phi, step_coefficients
+from viscofric.motion.memory import Modes, phi, step_coefficients, step_parts
 
 NODES, WEIGHTS = (0.5 * (part + [1.0, 0.0][i]) for i, part in enumerate(np.polynomial.legendre.leggauss(60)))
 
@@ -109,3 +109,10 @@ def test_elastic_solid_has_no_modes() -> None:
     assert len(modes) == 0
     assert modes.creep_compliance([0.0, 2.0]) == pytest.approx(1e-6)
     assert modes.compliance(3.0) == pytest.approx(1e-6)
+
+
+@pytest.mark.parametrize("steps", [1e-3, 0.049, 0.051, 0.5, 3.0, 30.0])
+def test_energies_of_a_step_are_integrals_of_the_relaxation_over_it(steps):
+    lag, change = np.exp(-steps * NODES), -np.expm1(-steps * NODES) / steps
+    expected = [steps * WEIGHTS @ one for one in (lag**2, lag * change, change**2)]
+    assert step_parts(np.array([steps]))[3:] == pytest.approx(np.array(expected)[:, None], rel=1e-10)  # of the series

@@ -7,7 +7,6 @@ from the displacement under the pressure at the end: one product for all modes.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -17,18 +16,7 @@ from viscofric.arrays import Array
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.past import NO_PAST, Past
 from viscofric.motion.free.wake import Wake
-from viscofric.motion.memory import StepCoefficients
-
-# κ below which the integrals over a step are summed as series, and the number of terms.
-_SERIES_BELOW, _TERMS = 0.5, 20
-# Coefficients of (−κ)ⁿ in the three integrals.
-_SERIES = np.array(
-    [
-        [2.0**n / math.factorial(n + 1) for n in range(_TERMS)],
-        [(2.0 ** (n + 1) - 1.0) / (math.factorial(n + 1) * (n + 2.0)) for n in range(_TERMS)],
-        [(2.0 ** (n + 2) - 2.0) / (math.factorial(n + 2) * (n + 3.0)) for n in range(_TERMS)],
-    ]
-)
+from viscofric.motion.memory import StepCoefficients, step_parts
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +44,8 @@ class Products:
         lag = self.pressure - 2.0 * self.mixed + self.modes
         crossed = with_end - modes_with_end - self.pressure + self.mixed
         change = end - 2.0 * with_end + self.pressure
-        relaxing, both, driven = _relaxation(steps)
-        return np.asarray(steps * (relaxing * lag + 2.0 * both * crossed + driven * change))
+        parts = step_parts(steps)
+        return np.asarray(parts.own * lag + 2.0 * parts.mixed * crossed + parts.new * change)
 
 
 class Place(NamedTuple):
@@ -88,15 +76,3 @@ class FreeState:
     past: Past = NO_PAST  # memory on other cells, and on some of the same, where the contact returned
     wake: Wake | None = None  # memory far behind a contact that has slid for ever
     lagging: float = 0.0  # after a jump: energy of the modes without a field minus that after they have followed
-
-
-def _relaxation(steps: Array) -> tuple[Array, Array, Array]:
-    """Return ∫ E², ∫ E(1 − E)/κ and ∫ (1 − E)²/κ² over 0 ≤ s ≤ 1, with E = e^(−κs)."""
-    small = steps < _SERIES_BELOW
-    k = np.where(small, 1.0, steps)
-    one, two = -np.expm1(-k) / k, -np.expm1(-2.0 * k) / (2.0 * k)
-    exact = two, (one - two) / k, (1.0 - 2.0 * one + two) / k**2
-    near = np.where(small, steps, 0.0)
-    series = _SERIES @ np.power.outer(-near, np.arange(_TERMS)).T
-    first, second, third = (np.where(small, s, e) for s, e in zip(series, exact, strict=True))
-    return first, second, third
