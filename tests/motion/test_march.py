@@ -11,7 +11,7 @@ import viscofric as vf
 from refusals import refused
 from viscofric.errors import ConvergenceError
 from viscofric.motion.march import march
-from viscofric.motion.mover import Field, Observation, Scales
+from viscofric.motion.mover import Field, Observation, Sizes
 
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
 
@@ -24,11 +24,11 @@ class Unsteady:
     jump: float = 0.0  # of the depth at 0.3 s
     marked: tuple[float, ...] | None = None  # ticks
 
-    scales = Scales(1.0, 1.0, 1.0, 1.0)
+    scales = Sizes(1.0, 1.0, 1.0, 1.0)
     share, quickest, can_tighten = 0.05, 1e-2, False
 
     def floor(self, largest):
-        return Scales(0.0, 0.0, 0.0, 0.0)
+        return Sizes(0.0, 0.0, 0.0, 0.0)
 
     def begin(self):
         return 0, 0.0

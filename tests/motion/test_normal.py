@@ -14,7 +14,8 @@ from refusals import refused
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.reference.hertz import hertz_ball
 from viscofric.motion.march import march
-from viscofric.motion.solve import checked_problem, mover_of
+from viscofric.motion.normal import NormalMotion
+from viscofric.motion.solve import checked_problem
 from viscofric.notes import codes
 
 BALL = vf.Ball("10 mm")
@@ -380,7 +381,7 @@ def test_a_march_continues_from_a_stored_state():
     """In two parts with one mover, as in one; steps differ, within the accuracy."""
     whole = vf.motion.History([0.0, 0.02, 0.04], load=[0.0, 1.0, 0.2])
     problem = checked_problem(RUBBER, BALL, whole, 1e-3, None, None, 0.3)
-    mover, _ = mover_of(problem, whole)
+    mover = NormalMotion.of(problem)
     first = march(mover, vf.motion.History([0.0, 0.02], load=[0.0, 1.0]).schedule(RUBBER, "point"), accuracy=1e-3)
     second = vf.motion.History([0.02, 0.04], load=[1.0, 0.2]).schedule(RUBBER, "point")
     found = march(mover, second, accuracy=1e-3, begin=first.reached).moments[-1]
@@ -420,7 +421,7 @@ def test_the_contact_is_one_disc_in_any_history():
     rubber, time = broad(3), np.linspace(0.0, 1.0, 2561)
     values = 1e-4 * np.interp(time, np.linspace(0.0, 1.0, 14), np.random.default_rng(11).uniform(-0.5, 1.0, 14))
     history = vf.motion.History(time, indentation=values)
-    mover, _ = mover_of(checked_problem(rubber, BALL, history, 1e-2, None, None, 0.3), history)
+    mover = NormalMotion.of(checked_problem(rubber, BALL, history, 1e-2, None, None, 0.3))
     schedule, rises = history.schedule(rubber, "point"), []
     for stride in (16, 1):
         state, most, rise = mover.begin(), 0.0, 0.0

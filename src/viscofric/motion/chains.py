@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Generic, NamedTuple
 
-from viscofric.motion.mover import Field, Mover, Observation, Scales, State
+from viscofric.motion.mover import Field, Mover, Observation, Sizes, State
 from viscofric.motion.schedule import Instant
 
 #: Energies are so many times as accurate as the rest, for a balance of a tenth of the accuracy.
@@ -15,19 +15,10 @@ _ENERGIES = 3.0
 _FADING = 0.7
 
 
-class Errors(NamedTuple):
-    """Estimated errors at one time, absolute."""
-
-    load: float
-    depth: float
-    friction: float
-    energy: float
-
-
 #: Errors of the fine chain over the difference of the chains: a third, and a margin.  The margin is larger for load and
 #: depth, whose order is nearer to the first where springs or cells are touched within a step; friction is judged by it
 #: on grids as well, energies by their balance.
-_OF_STEPS = Errors(0.8, 0.8, 0.4, 0.4)
+_OF_STEPS = Sizes(0.8, 0.8, 0.4, 0.4)
 
 
 class Link(NamedTuple, Generic[State]):
@@ -74,7 +65,7 @@ class Reached(Generic[State]):
     since: float = 0.0  # the last kink, s
     jumped: bool = False  # whether a jump at this time has been taken
     told: float = -math.inf  # time of the last moment returned, s
-    scales: Scales | None = None  # largest values so far
+    scales: Sizes | None = None  # largest values so far
     #: Difference of the chains that errors are estimated from: the present one, or a part of an earlier larger one
     spread: Difference = SAME
     pace: float = 0.0  # next step, s, or a number of ticks; zero: as after a jump
@@ -92,7 +83,7 @@ def difference(pair: Pair[State]) -> Difference:
     return Difference(fine.load - coarse.load, fine.depth - coarse.depth, along, across, work, dissipated, *slopes)
 
 
-def over_scales(off: Difference, scales: Scales) -> tuple[float, ...]:
+def over_scales(off: Difference, scales: Sizes) -> tuple[float, ...]:
     """Return the differences that steps are judged by, in parts of the scales."""
     energy = scales.energy / _ENERGIES
     each = (scales.load, scales.depth, scales.friction, scales.friction, energy, energy)
@@ -109,7 +100,7 @@ class Moment(Generic[State]):
     instant: Instant
     seen: Observation
     work: float
-    errors: Errors
+    errors: Sizes
     field: Field | None
     rubbed: float = 0.0
     slopes: float = 0.0
@@ -132,17 +123,15 @@ def field_of(mover: Mover[State], pair: Pair[State]) -> Field:
     return replace(fine, error=fine.apart(coarse))
 
 
-def floor_of(floor: Scales, instant: Instant) -> Errors:
-    """Return the errors by the contact conditions; none of what is prescribed."""
-    load, depth, friction, energy = floor
-    given = instant.depth is None and instant.gap is None
-    return Errors(0.0 if given else load, depth if given else 0.0, friction, energy)
+def _of_the_rest(errors: Sizes, instant: Instant) -> Sizes:
+    """Return errors without that of what is prescribed."""
+    return errors._replace(**{"load" if instant.depth is None and instant.gap is None else "depth": 0.0})
 
 
-def errors_of_steps(spread: Difference) -> Errors:
+def errors_of_steps(spread: Difference) -> Sizes:
     """Return the errors by steps, from the difference of the chains."""
     each = spread.load, spread.depth, math.hypot(spread.along, spread.across), max(spread.work, spread.dissipated)
-    steps = Errors(*(part * one for part, one in zip(_OF_STEPS, each, strict=True)))
+    steps = Sizes(*(part * one for part, one in zip(_OF_STEPS, each, strict=True)))
     # Those of points that touch or leave within a step are of first order, and cancel in the friction only by chance.
     return steps._replace(friction=max(steps.friction, spread.points))
 
@@ -152,18 +141,19 @@ def moment_of(
     instant: Instant,
     held: Field | None,
     spread: Difference,
-    floor: Errors,
+    floor: Sizes,
     *,
     early: float,
     extrapolate: bool,
 ) -> Moment[State]:
     """Return what the chains say of one time: the energies extrapolated, and the rest too on request."""
-    # Errors are those of steps, by the spread, what the mover leaves out, `early` times that, and the floor.
+    # Errors are those of steps, by the spread, what the mover leaves out, `early` times that, and by the contact
+    # conditions, the floor.
     coarse, fine = pair
-    left_out = tuple(early * one for one in fine.seen.left_out)
+    left_out, floor = (_of_the_rest(one, instant) for one in (Sizes(*(early * e for e in fine.seen.left_out)), floor))
     off = difference(pair)
     steps = errors_of_steps(spread)
-    errors = Errors(*(sum(parts) for parts in zip(steps, left_out, floor, strict=True)))
+    errors = Sizes(*(sum(parts) for parts in zip(steps, left_out, floor, strict=True)))
     slopes = _OF_STEPS.friction * math.hypot(spread.slopes_along, spread.slopes_across) + left_out[2] + floor.friction
     # Sums over all steps are smooth enough to be extrapolated.
     stored, dissipated, work, rubbed = (
@@ -175,7 +165,7 @@ def moment_of(
             (coarse.rubbed, fine.rubbed),
         )
     )
-    seen = fine.seen._replace(stored=stored, dissipated=dissipated, left_out=left_out)  # type: ignore[arg-type]
+    seen = fine.seen._replace(stored=stored, dissipated=dissipated, left_out=left_out)
     if extrapolate:
         (x, y), (along, across) = seen.friction_force, seen.force_on_slopes
         seen = seen._replace(

@@ -117,8 +117,19 @@ def solve_impact(
         words = "must not be below zero; it points into the half-space."
         raise wrong_argument("gravity", gravity, words, "negative")
     most = whole_number(rebounds, "rebounds", 1, _MOST_CONTACTS)
-    wanted = _checked_accuracy(accuracy)
-    falling = _Falling.of(material, indenter, kilograms, pull, indenter_modulus, indenter_poisson_ratio, wanted)
+    if not TIGHTEST <= (wanted := number(accuracy, "accuracy")) <= LOOSEST:
+        words = f"must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-4."
+        raise wrong_argument("accuracy", accuracy, words, "out-of-range")
+    insist_on_material(material)
+    insist_on_indenter(indenter)
+    if not is_body_of_revolution(indenter):
+        raise InputError(
+            f"indenter: the {indenter.noun} is no body of revolution; available: a ball, a cone or another body of "
+            "revolution that falls along its axis.",
+            code="not-available",
+        )
+    counterface = indenter_compliance(indenter_modulus, indenter_poisson_ratio)
+    falling = _Falling(material, indenter, kilograms, pull, counterface, wanted)
     return falling.solve(touching, most, temperature)
 
 
@@ -198,14 +209,6 @@ def restitution_curve(
     )  # fmt: skip
 
 
-def _checked_accuracy(accuracy: Quantity) -> float:
-    if not TIGHTEST <= (found := number(accuracy, "accuracy")) <= LOOSEST:
-        raise wrong_argument(
-            "accuracy", accuracy, f"must be a number from {TIGHTEST:g} to {LOOSEST:g}, such as 1e-4.", "out-of-range"
-        )
-    return found
-
-
 class _Falling(NamedTuple):
     """An indenter of given mass above a material."""
 
@@ -215,27 +218,6 @@ class _Falling(NamedTuple):
     gravity: float
     counterface: float  # compliance of the indenter, 1/Pa
     accuracy: float
-
-    @classmethod
-    def of(
-        cls,
-        material: Material,
-        indenter: Indenter,
-        mass: float,
-        gravity: float,
-        modulus: Quantity | None,
-        poisson_ratio: float,
-        accuracy: float,
-    ) -> _Falling:
-        insist_on_material(material)
-        insist_on_indenter(indenter)
-        if not is_body_of_revolution(indenter):
-            raise InputError(
-                f"indenter: the {indenter.noun} is no body of revolution; available: a ball, a cone or another body of "
-                "revolution that falls along its axis.",
-                code="not-available",
-            )
-        return cls(material, indenter, mass, gravity, indenter_compliance(modulus, poisson_ratio), accuracy)
 
     def solve(self, speed: float, rebounds: int, temperature: Quantity | None) -> ImpactSolution:
         indenter, spectrum = self.indenter, self.material.modes_at(temperature)

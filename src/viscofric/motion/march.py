@@ -33,11 +33,10 @@ from viscofric.motion.chains import (
     errors_of_steps,
     faded,
     field_of,
-    floor_of,
     moment_of,
     over_scales,
 )
-from viscofric.motion.mover import QUICK, SHARE, Mover, Scales, State
+from viscofric.motion.mover import QUICK, SHARE, Mover, Sizes, State
 from viscofric.motion.schedule import Instant, Schedule
 
 _MOST_MARCHES = 6
@@ -144,7 +143,7 @@ class _March(Generic[State]):
     def _taken_up(self, begin: Reached[State]) -> Reached[State]:
         self._scales = self.mover.scales
         if begin.scales is not None:
-            self._scales = Scales(*map(max, zip(begin.scales, self._scales, strict=True)))
+            self._scales = Sizes(*map(max, zip(begin.scales, self._scales, strict=True)))
         self._pace, self._spread, self._limited = begin.pace, begin.spread, begin.limited
         self._stored = begin.pair.fine.seen.stored if begin.stored is None else begin.stored
         time = self.schedule.start if begin.time is None else begin.time
@@ -348,10 +347,10 @@ class _March(Generic[State]):
             self.progress(instant.time, self.schedule.end)
         return pair
 
-    def _with(self, pair: Pair[State]) -> Scales:
+    def _with(self, pair: Pair[State]) -> Sizes:
         """Return the scales with the values of a state."""
         seen, old = pair.fine.seen, self._scales
-        return Scales(
+        return Sizes(
             max(old.load, abs(seen.load)),
             max(old.depth, abs(seen.depth)),
             max(old.friction, math.hypot(*seen.friction_force)),
@@ -388,7 +387,7 @@ class _March(Generic[State]):
         if not asked and self.times is not None:
             return
         held = field_of(self.mover, pair) if self.fields else None
-        floor = floor_of(self.mover.floor(self._scales), instant)
+        floor = self.mover.floor(self._scales)
         early = self.mover.early(self.schedule.since_jump(instant))
         self.moments += times * [
             moment_of(pair, instant, held, self._spread, floor, early=early, extrapolate=self.extrapolate)

@@ -20,6 +20,15 @@ QUICK = 100.0
 SHARE = 0.05
 
 
+class Sizes(NamedTuple):
+    """Estimated errors, absolute, or sizes that they are compared with: accuracies are relative to the latter."""
+
+    load: float
+    depth: float
+    friction: float
+    energy: float
+
+
 class Observation(NamedTuple):
     """Observed quantities of a contact at one time.
 
@@ -38,19 +47,9 @@ class Observation(NamedTuple):
     extents: Mapping[str, float]  # ``contact_radius``, or ``front``, ``rear`` and ``half_width``, m
     #: Errors of load, depth, friction and dissipated energy that shorter steps do not reduce: by the number of
     #: springs, and by merged modes
-    left_out: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    left_out: Sizes = Sizes(0.0, 0.0, 0.0, 0.0)
     #: Friction from the pressure on the indenter's slopes, of contacts on cells; zero for others
     force_on_slopes: tuple[float, float] = (0.0, 0.0)
-
-
-class Scales(NamedTuple):
-    """Sizes below which errors of a contact are not resolved: accuracies are relative to these, or to larger values."""
-
-    #: load, depth, friction, energy: Above zero; of the stiffest response for a depth, of the softest one for a load
-    load: float
-    depth: float
-    friction: float
-    energy: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,13 +84,13 @@ class Mover(Protocol[State]):
     share: float = SHARE
 
     @property
-    def scales(self) -> Scales:
-        """Sizes that errors are compared with."""
+    def scales(self) -> Sizes:
+        """Least sizes to compare with, above zero: depth of the stiffest response, load of the softest one."""
         ...
 
-    def floor(self, largest: Scales) -> Scales:
+    def floor(self, largest: Sizes) -> Sizes:
         """Return the errors by contact conditions that are met to a tolerance, from the largest values so far."""
-        return Scales(0.0, 0.0, 0.0, 0.0)
+        return Sizes(0.0, 0.0, 0.0, 0.0)
 
     @property
     def can_tighten(self) -> bool:

@@ -26,7 +26,7 @@ from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.motion.memory import StepParts, quickest_time, recovery_at_depth, step_parts
-from viscofric.motion.mover import QUICK, Field, Mover, Observation, Scales
+from viscofric.motion.mover import QUICK, Field, Mover, Observation, Sizes
 from viscofric.motion.problem import Problem
 from viscofric.motion.schedule import Instant, Schedule
 from viscofric.motion.springs import both_sides, elastic_radius, graded_row, quadrature_error
@@ -75,10 +75,9 @@ class NormalMotion(Mover[SpringState]):
         indenter, schedule = problem.indenter, problem.schedule
         assert isinstance(indenter, Indenter)
         spectrum = schedule.spectrum
-        plane_strain = 1.0 - problem.material.poisson_ratio**2
-        glassy = plane_strain / spectrum.E_inf + problem.counterface
+        glassy = problem.plane_strain / spectrum.E_inf + problem.counterface
         keep = spectrum.C > 0.0
-        compliances = plane_strain * spectrum.C[keep]
+        compliances = problem.plane_strain * spectrum.C[keep]
         soft = 1.0 / (glassy + float(compliances.sum()))
         largest = schedule.largest
         if largest <= 0.0:
@@ -100,17 +99,17 @@ class NormalMotion(Mover[SpringState]):
         return quickest_time(self.glassy, self.compliances, self.tau)
 
     @cached_property
-    def scales(self) -> Scales:
+    def scales(self) -> Sizes:
         """Load at E0 of the largest depth, depth at E∞ of the largest load."""
         largest = self.schedule.largest
         if largest <= 0.0:
-            return Scales(1.0, 1.0, 1.0, 1.0)
+            return Sizes(1.0, 1.0, 1.0, 1.0)
         soft = self.glassy + float(self.compliances.sum())
         if self.schedule.control == "load":
             depth, load = self._depth(self.g, self.glassy, largest), largest
         else:
             depth, load = largest, self._load(self._force(self.g, soft, largest))
-        return Scales(load, depth, load, load * depth)
+        return Sizes(load, depth, load, load * depth)
 
     def begin(self) -> SpringState:
         """Return untouched springs, or springs at equilibrium under the first load or depth."""
@@ -178,22 +177,20 @@ class NormalMotion(Mover[SpringState]):
         squares = self.glassy * np.square(state.force) + np.square(state.memory) @ self.compliances
         return 0.5 * float(self.weights @ squares)
 
-    def _left_out(self, state: SpringState) -> tuple[float, float, float, float]:
+    def _left_out(self, state: SpringState) -> Sizes:
         """Return the discretisation errors of the springs, caused by a force that is not smooth at the contact edge."""
         if self.indenter.has_walls:
-            return 0.0, 0.0, 0.0, 0.0
+            return Sizes(0.0, 0.0, 0.0, 0.0)
         least = (self.spacing / self.radius) ** 2
         load = quadrature_error(state.force, self.s)
         energy = 2.0 * least * state.dissipated + state.lost_error
-        if self.schedule.control != "load":
-            return load, 0.0, 0.0, energy
         depth = least * abs(state.depth)
-        if load > 0.0:
+        if load > 0.0 and state.load > 0.0:
             # Where a load has nearly gone, its error moves only the few springs that touch.
             soft = self.glassy + float(self.compliances.sum())
             now = load * soft / float(self.weights @ (state.force > 0.0))
             depth = max(depth, min(load / state.load * abs(state.depth), now))
-        return 0.0, depth, 0.0, energy
+        return Sizes(load, depth, 0.0, energy)
 
     def pressure(self, state: SpringState) -> Field:
         """Return p(r) between the springs, of forces that nowhere rise outwards."""

@@ -25,7 +25,7 @@ from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.motion.memory import Modes, quickest_time, recovery_at_depth
-from viscofric.motion.mover import QUICK, Field, Mover, Observation, Scales
+from viscofric.motion.mover import QUICK, Field, Mover, Observation, Sizes
 from viscofric.motion.problem import Problem
 from viscofric.motion.schedule import Instant
 from viscofric.motion.wave_contact import StepContact, Target
@@ -112,16 +112,16 @@ class PeriodicMover(Mover[PeriodicState]):
         self._steps: dict[tuple[float, ...], _Step] = {}
 
     @property
-    def scales(self) -> Scales:
+    def scales(self) -> Sizes:
         """Sizes that errors are compared with."""
         highest = self.schedule.largest
         pressure = self.pressure_unit if self.schedule.control == "gap" else highest
         slope = max(float(self.surface.slope(axis).std()) for axis in ((1.0, 0.0), (0.0, 1.0)))
-        return Scales(pressure, self.depth_unit, _LEAST_FRICTION * slope * pressure, pressure * self.depth_unit)
+        return Sizes(pressure, self.depth_unit, _LEAST_FRICTION * slope * pressure, pressure * self.depth_unit)
 
-    def floor(self, largest: Scales) -> Scales:
+    def floor(self, largest: Sizes) -> Sizes:
         """Return the errors by the contact conditions: a part of the largest values."""
-        return Scales(*(self._tightness * one for one in largest))
+        return Sizes(*(self._tightness * one for one in largest))
 
     @property
     def can_tighten(self) -> bool:
@@ -223,11 +223,11 @@ class PeriodicMover(Mover[PeriodicState]):
         work = self.pressure_unit * self.depth_unit
         loaded = np.count_nonzero(state.pressure > 0.0)
         load, depth = self.pressure_unit * float(state.pressure.mean()), self.depth_unit * abs(state.depth)
-        free, part = self.schedule.control == "pressure", self.modes.error
+        part = self.modes.error
         # Errors of the displacement need not cancel over a contact as those of an elastic one do.
         friction = self.pressure_unit * float(np.vdot(state.pressure, self._steepness))
         energy = work * (state.stored + state.dissipated)
-        left_out = (0.0 if free else part * load, part * depth if free else 0.0, part * friction, part * energy)
+        left_out = Sizes(part * load, part * depth, part * friction, part * energy)
         return Observation(
             load=load,
             depth=self.depth_unit * state.depth,

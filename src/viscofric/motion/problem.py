@@ -23,6 +23,11 @@ class Problem:
     counterface: float  # (1 − ν_i²)/E_i of an elastic indenter, 1/Pa
 
     @property
+    def plane_strain(self) -> float:
+        """1 − ν²."""
+        return 1.0 - self.material.poisson_ratio**2
+
+    @property
     def kind(self) -> str:
         """Kind of contact: "point", "line" or "periodic"."""
         geometry = getattr(self.indenter, "geometry", None)

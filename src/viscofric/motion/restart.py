@@ -125,13 +125,12 @@ class Restart:
         from viscofric.motion.free.stored import level_of
 
         self._insist_on_times(times)
-        spectrum, ratio, end = problem.schedule.spectrum, problem.material.poisson_ratio, float(self.reached.time)  # type: ignore[arg-type]
+        end = float(self.reached.time)  # type: ignore[arg-type]
         now = with_fewer_kinks(problem.schedule, problem.accuracy)
         then = with_fewer_kinks(self.history.schedule(problem.material, problem.kind), problem.accuracy).kinks
         kinks = np.concatenate([then[then < end], now.kinks[now.kinks >= end]])
         problem = replace(problem, schedule=replace(now, kinks=kinks))
-        every, indenter = Modes.of(spectrum), problem.indenter
-        setting = Setting.of(problem.schedule, every, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
+        setting = Setting.of(problem, Modes.of(problem.schedule.spectrum))
         levels = []
         for track, basis in self.marches:
             level = level_of(problem, setting, basis, track)

@@ -17,11 +17,11 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import LARGEST_FILE, LARGEST_UNPACKED, file_path, insist_on_size, read_bytes, write_atomically
-from viscofric.motion.chains import Difference, Errors, Link, Moment, Pair, Reached, Track
+from viscofric.motion.chains import Difference, Link, Moment, Pair, Reached, Track
 from viscofric.motion.free.state import FreeState
 from viscofric.motion.free.stored import packed, unpacked
 from viscofric.motion.history import History
-from viscofric.motion.mover import Field, Observation, Scales
+from viscofric.motion.mover import Field, Observation, Sizes
 from viscofric.motion.normal import SpringState
 from viscofric.motion.periodic import PeriodicState
 from viscofric.motion.restart import NUMBERS, Begun, Restart
@@ -149,7 +149,7 @@ def _begun(named: Mapping[str, Any], method: str) -> Begun:
         raise KeyError("basis")
     pair = Pair(*(_link(named, name, method) for name in Pair._fields))
     values: dict[str, Any] = {name: named[f"reached/{name}"].item() for name in _REACHED if f"reached/{name}" in named}
-    values |= {"scales": Scales(*named["reached/scales"]), "spread": Difference(*named["reached/spread"])}
+    values |= {"scales": Sizes(*named["reached/scales"]), "spread": Difference(*named["reached/spread"])}
     last = Reached(pair, **values)
     steps, rejected, begun = named["counts"].tolist()
     track = Track(_moments(named), int(steps), int(rejected), True, last, begun)
@@ -211,8 +211,8 @@ def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
             {one: value[place] for one, value in columns.items()},
             {one: value[place] for one, value in extents.items()},
         )
-        seen = seen._replace(left_out=tuple(left_out[place].tolist()))
-        errors = Errors(*named["moments/errors"][place].tolist())
+        seen = seen._replace(left_out=Sizes(*left_out[place].tolist()))
+        errors = Sizes(*named["moments/errors"][place].tolist())
         work = float(named["moments/work"][place])
         moments.append(Moment(instant, seen, work, errors, field, float(rubbed[place]), float(slopes[place])))
     return moments

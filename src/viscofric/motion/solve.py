@@ -272,37 +272,20 @@ def checked_problem(
     return Problem(material, indenter, schedule, accuracy, Layer.of(layer), counterface)
 
 
-def mover_of(problem: Problem, history: History, times: Sequence[float] | None = None) -> tuple[Mover[Any], str]:
-    """Return the mover for this contact, and the name of the method."""
-    indenter = problem.indenter
-    if isinstance(indenter, Indenter) and not history.moves and problem.layer is None:
-        from viscofric.motion.normal import NormalMotion
-        from viscofric.motion.springs import is_body_of_revolution
-
-        if is_body_of_revolution(indenter):
-            return NormalMotion.of(problem), "springs"
-    if isinstance(indenter, PeriodicSurface):
-        from viscofric.motion.periodic import PeriodicMover
-
-        return PeriodicMover(problem, times=times or ()), "waves"
-    noun = indenter.noun
-    moving = "in sliding motion" if history.moves else "in normal motion"
-    where = "a layer" if problem.layer is not None else "a half-space"
-    raise InputError(
-        f"indenter: the transient contact of a {noun} {moving} on {where} is not available here; "
-        "available: a ball, a cone or another body of revolution in normal motion on a half-space.",
-        code="not-available",
-    )
-
-
 def mover_or_grid(
     problem: Problem, history: History, times: Sequence[float] | None
 ) -> tuple[Mover[Any] | None, str, tuple[Note, ...]]:
     """Return the mover for this contact, or None if it is solved on cells; the name of the method, and notes."""
+    if isinstance(problem.indenter, PeriodicSurface):
+        from viscofric.motion.periodic import PeriodicMover
+
+        return PeriodicMover(problem, times=times or ()), "waves", ()
     if needs_grid(problem, history):
         return None, "grid", ()
+    from viscofric.motion.normal import NormalMotion
+
     try:
-        return *mover_of(problem, history, times), ()
+        return NormalMotion.of(problem), "springs", ()
     except InputError as error:
         if error.code != "not-one-disc":
             raise

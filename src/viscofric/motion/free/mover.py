@@ -24,7 +24,7 @@ from viscofric.motion.free.past import NO_PAST, Far, Past, parted
 from viscofric.motion.free.state import FreeState, Place, Products
 from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import Modes, StepCoefficients, recovery_at_depth
-from viscofric.motion.mover import Field, Mover, Observation, Scales
+from viscofric.motion.mover import Field, Mover, Observation, Sizes
 from viscofric.motion.schedule import Instant
 
 # Space by which the box of the memory is wider than it must be, as a part of it.
@@ -45,15 +45,15 @@ class FreeMover(Cells, Mover[FreeState]):
     _swept: Box | None = field(default=None, init=False)  # cells of all memories that were read
 
     @property
-    def scales(self) -> Scales:
+    def scales(self) -> Sizes:
         """Sizes that errors are compared with, SI."""
         return self.setting.scales
 
-    def floor(self, largest: Scales) -> Scales:
+    def floor(self, largest: Sizes) -> Sizes:
         """Return the errors by the contact conditions: a part of the largest values, of the load of a relaxed one."""
         # Gaps are closed to a part of what the body yields in a step, so that a glassy load leaves no error behind.
         relaxed = self.setting.scale.force * self.setting.geometry.parabolic_load
-        return Scales(*(self.tolerance * one for one in largest._replace(load=min(largest.load, relaxed))))
+        return Sizes(*(self.tolerance * one for one in largest._replace(load=min(largest.load, relaxed))))
 
     @property
     def quickest(self) -> float:
@@ -173,13 +173,8 @@ class FreeMover(Cells, Mover[FreeState]):
         along, across = state.force
         area, extents = self._footprint(state, window)
         work, stored = scale.force * scale.depth, self._stored(state)
-        free = setting.schedule.control == "load"
-        left_out = (
-            0.0 if free else scale.force * load,
-            scale.depth * abs(state.depth) if free else 0.0,
-            force * self._sheared(state, window),
-            work * (stored + state.dissipated),
-        )
+        friction, energy = force * self._sheared(state, window), work * (stored + state.dissipated)
+        left_out = scale.force * load, scale.depth * abs(state.depth), friction, energy
         return Observation(
             load=scale.force * load,
             depth=scale.depth * (state.depth - self.datum),
@@ -188,7 +183,7 @@ class FreeMover(Cells, Mover[FreeState]):
             stored=work * stored,
             dissipated=work * state.dissipated,
             extents=extents,
-            left_out=tuple(setting.body.merged * one for one in left_out),  # type: ignore[arg-type]
+            left_out=Sizes(*(setting.body.merged * one for one in left_out)),
             force_on_slopes=setting.unturned(*(force * one for one in self._on_slopes(state, window))),
         )
 

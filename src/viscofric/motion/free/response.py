@@ -9,7 +9,6 @@ import numpy as np
 import scipy.fft
 
 from viscofric.arrays import Array, ComplexArray
-from viscofric.contact.free.geometry import LINE
 from viscofric.contact.influence.layer_potentials import LayerCell, LayerStrip
 from viscofric.contact.influence.line import HalfSpaceStrip
 from viscofric.contact.influence.potentials import CellPotential, HalfSpaceCell
@@ -122,6 +121,3 @@ def step_operator(window: object, response: Response, facing: Response | None, s
 def response_of(line: bool, spacing: float, aspect: float, layer: ScaledLayer | None, level: float) -> Response:
     """Return the response of a half-space or a layer; the level counts where there is no far field."""
     return Response(line, spacing, aspect, layer, level if line and layer is None else 0.0)
-
-
-__all__ = ["LINE", "Response", "StepOperator", "response_of", "step_operator"]

@@ -11,7 +11,6 @@ from functools import cached_property
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.contact.bodies import Layer
 from viscofric.contact.free.geometry import Geometry
 from viscofric.contact.free.grids import Grid
 from viscofric.contact.free.scale import Scale, ScaledIndenter
@@ -20,7 +19,7 @@ from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.errors import InputError
 from viscofric.motion.free.response import Response, response_of
 from viscofric.motion.memory import Modes, StepCoefficients, quickest_time, step_coefficients
-from viscofric.motion.mover import Scales
+from viscofric.motion.mover import Sizes
 from viscofric.motion.problem import Problem
 from viscofric.motion.schedule import Instant, Schedule
 
@@ -37,12 +36,11 @@ class Body:
     merged: float = 0.0  # error of the compliance by merged modes, relative to it
 
     @classmethod
-    def of(cls, modes: Modes, plane_strain: float, counterface: float) -> Body:
-        """Return modes (1/Pa) in these units; `counterface` (1/Pa) is the indenter's compliance."""
-        unit = plane_strain * modes.relaxed + counterface
-        scale = plane_strain / unit
-        at_once = scale * modes.at_once
-        instant, counterface = scale * modes.instantaneous, counterface / unit
+    def of(cls, modes: Modes, problem: Problem) -> Body:
+        """Return modes (1/Pa) and the compliance of the indenter in these units."""
+        unit = problem.plane_strain * modes.relaxed + problem.counterface
+        scale = problem.plane_strain / unit
+        instant, counterface, at_once = scale * modes.instantaneous, problem.counterface / unit, scale * modes.at_once
         return cls(instant, scale * modes.C, modes.tau.copy(), counterface, at_once, modes.error)
 
     @property
@@ -97,22 +95,16 @@ class Setting:
     shape: ScaledIndenter
     toward: tuple[float, float]  # of the lattice's x over the indenter's axes
     layer: ScaledLayer | None
-    known: Scales | None = None  # sizes that errors are compared with, where a march has found them
+    known: Sizes | None = None  # sizes that errors are compared with, where a march has found them
     distance: float | None = None  # `level`, where it is that of a shorter history
 
     @classmethod
-    def of(
-        cls,
-        schedule: Schedule,
-        modes: Modes,
-        poisson_ratio: float,
-        indenter: Indenter,
-        layer: Layer | None,
-        counterface: float,
-    ) -> Setting:
-        """Return the setting of an indenter with a history; `counterface` as of `Problem`."""
-        plane_strain = 1.0 - poisson_ratio**2
-        compliance = plane_strain * modes.relaxed + counterface
+    def of(cls, problem: Problem, modes: Modes, known: Sizes | None = None) -> Setting:
+        """Return the setting of an indenter with a history."""
+        schedule, indenter, layer = problem.schedule, problem.indenter, problem.layer
+        assert isinstance(indenter, Indenter)
+        body, counterface = Body.of(modes, problem), problem.counterface
+        compliance = problem.plane_strain * modes.relaxed + counterface
         largest = schedule.largest
         if largest <= 0.0:
             raise InputError(
@@ -138,14 +130,13 @@ class Setting:
         if toward != (0.0, 0.0):
             insist_on_round_edges(indenter)
         toward = toward if toward != (0.0, 0.0) else (1.0, 0.0)
-        scaled = None if layer is None else ScaledLayer.of(layer, scale.length, poisson_ratio)
-        body = Body.of(modes, plane_strain, counterface)
-        return cls(schedule, modes, body, indenter, scale, ScaledIndenter(indenter, scale, toward), toward, scaled)
+        scaled = None if layer is None else ScaledLayer.of(layer, scale.length, problem.material.poisson_ratio)
+        shape = ScaledIndenter(indenter, scale, toward)
+        return cls(schedule, modes, body, indenter, scale, shape, toward, scaled, known)
 
     def with_modes(self, modes: Modes, problem: Problem) -> Setting:
         """Return this setting with other modes of the same material."""
-        body = Body.of(modes, 1.0 - problem.material.poisson_ratio**2, problem.counterface)
-        return replace(self, modes=modes, body=body)
+        return replace(self, modes=modes, body=Body.of(modes, problem))
 
     @property
     def geometry(self) -> Geometry:
@@ -182,13 +173,13 @@ class Setting:
         )
 
     @property
-    def scales(self) -> Scales:
+    def scales(self) -> Sizes:
         """Sizes that errors are compared with, SI."""
         if self.known is not None:
             return self.known
         force, work = self.scale.force, self.scale.force * self.scale.depth
         load = self.geometry.parabolic_load
-        return Scales(force * load, self.scale.depth, 0.2 * force * load * self.scale.slope, 0.2 * work)
+        return Sizes(force * load, self.scale.depth, 0.2 * force * load * self.scale.slope, 0.2 * work)
 
     def responses(self, grid: Grid) -> tuple[Response, Response | None]:
         """Return the response of the body, and that of an elastic indenter on a layer; None where they are the same."""

@@ -20,13 +20,13 @@ from scipy.interpolate import PchipInterpolator
 from viscofric.arrays import Array
 from viscofric.contact.free.grids import Extent, Grid
 from viscofric.errors import ConvergenceError
-from viscofric.motion.chains import Errors, Moment, Reached, Track
+from viscofric.motion.chains import Moment, Reached, Track
 from viscofric.motion.free.mover import FreeMover
 from viscofric.motion.free.setting import Setting, with_fewer_kinks
 from viscofric.motion.free.stored import Level
 from viscofric.motion.march import march
 from viscofric.motion.memory import Modes
-from viscofric.motion.mover import Scales
+from viscofric.motion.mover import Sizes
 from viscofric.motion.problem import Problem
 from viscofric.motion.progress import Progress
 from viscofric.notes import Note
@@ -78,16 +78,16 @@ class _Task:
     follow: Callable[..., Track[Any]]
     units: Setting | None  # of a shorter history that is continued
 
-    def setting(self, spacing: float, largest: Scales | None = None) -> Setting:
+    def setting(self, spacing: float, largest: Sizes | None = None) -> Setting:
         """Return the setting with the modes that matter on a grid, the more of them the smaller a known friction is."""
         problem = self.problem
-        one = replace(_with_modes(problem, Modes.of(problem.schedule.spectrum)), known=largest)
+        one = Setting.of(problem, Modes.of(problem.schedule.spectrum), largest)
         times = one.shortest_time(spacing, self.times), one.longest_time
         modes = Modes.for_history(problem.schedule.spectrum, *times, _MERGED * problem.accuracy * _smallness(one))
-        found = replace(_with_modes(problem, modes), known=largest)
+        found = Setting.of(problem, modes, largest)
         return found if self.units is None else found.in_units_of(self.units)
 
-    def march(self, grid: Grid, largest: Scales | None, steps: float, size: float | None = None) -> Level:
+    def march(self, grid: Grid, largest: Sizes | None, steps: float, size: float | None = None) -> Level:
         """March on a grid, from the start."""
         setting = self.setting(grid.spacing, largest)
         mover = FreeMover(setting, grid, _TOLERANCE * self.problem.accuracy * _smallness(setting))
@@ -193,11 +193,6 @@ def _smallness(setting: Setting) -> float:
     return min(1.0, max(_SMALLEST, setting.known.friction / typical)) if typical > 0.0 else 1.0
 
 
-def _with_modes(problem: Problem, modes: Modes) -> Setting:
-    ratio, indenter = problem.material.poisson_ratio, problem.indenter
-    return Setting.of(problem.schedule, modes, ratio, indenter, problem.layer, problem.counterface)  # type: ignore[arg-type]
-
-
 def _around(level: Level, spacing: float) -> Grid:
     """Return a window around all contacts of a march, with cells of another length."""
     mover = level.mover
@@ -214,7 +209,7 @@ def _fitted(setting: Setting, spacing: float) -> float:
     return setting.stroke / math.ceil(setting.stroke / spacing - 1e-9) if setting.stroke > spacing else spacing
 
 
-def _largest(level: Level) -> Scales:
+def _largest(level: Level) -> Sizes:
     """Return the largest values of a march, as scales of errors; of the friction not below a part of the slope."""
     # A contact that does not move has hardly any friction to be compared with.
     seen = [one.seen for one in level.track.moments]
@@ -223,7 +218,7 @@ def _largest(level: Level) -> Scales:
     # In plane strain only a change of the depth is known, which may be none.
     least_depth = 0.0 if setting.is_levelled else _LEAST_DEPTH * setting.scale.depth
     least_friction = _LEAST_FRICTION if setting.path_length > 0.0 else _TYPICAL_FRICTION
-    return Scales(
+    return Sizes(
         load=load,
         depth=max(least_depth, max((abs(one.depth) for one in seen), default=0.0)),
         friction=max(
@@ -255,7 +250,7 @@ def _compared(level: Level, coarser: Level, judged: Sequence[int]) -> list[Momen
         of_cells = load[place], depth[place], friction[place], energy[place]
         known = one.on_slopes() if on_slopes else one
         parts = zip(known.errors, one.seen.left_out, of_cells, strict=True)
-        errors = Errors(*(_STEPS_LEFT * (steps - rest) + rest + float(cells) for steps, rest, cells in parts))
+        errors = Sizes(*(_STEPS_LEFT * (steps - rest) + rest + float(cells) for steps, rest, cells in parts))
         found.append(replace(known, errors=errors, work=one.work + float(left[place, 7])))
     return found
 
@@ -297,7 +292,7 @@ def _resolved(level: Level, coarser: Level) -> list[int]:
 
 
 def _after_starts(
-    moments: Sequence[Moment[Any]], judged: Sequence[Moment[Any]], largest: Scales, accuracy: float
+    moments: Sequence[Moment[Any]], judged: Sequence[Moment[Any]], largest: Sizes, accuracy: float
 ) -> tuple[Note, ...]:
     """Return a note where errors soon after a start or a turn are larger than the accuracy."""
     early = {id(one) for one in moments} - {id(one) for one in judged}
@@ -328,7 +323,7 @@ def _order(times: list[float]) -> Array:
     return found
 
 
-def _worst(moments: list[Moment[Any]], largest: Scales) -> float:
+def _worst(moments: list[Moment[Any]], largest: Sizes) -> float:
     """Return the largest error relative to the largest values."""
     scales = [scale if scale > 0.0 else 1.0 for scale in largest]
     return max(max(error / scale for error, scale in zip(one.errors, scales, strict=True)) for one in moments)

@@ -20,7 +20,7 @@ from viscofric.motion.free.setting import Setting
 from viscofric.motion.free.state import FreeState, Place, Products
 from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import Modes
-from viscofric.motion.mover import Scales
+from viscofric.motion.mover import Sizes
 from viscofric.motion.problem import Problem
 
 
@@ -65,7 +65,7 @@ def level_of(problem: Problem, setting: Setting, basis: Mapping[str, Array], tra
     ratio, layer = problem.material.poisson_ratio, None
     if problem.layer is not None:
         layer = ScaledLayer.of(problem.layer, scale.length, ratio)
-    known = Scales(*basis["known"].tolist()) if basis["known"].size else None
+    known = Sizes(*basis["known"].tolist()) if basis["known"].size else None
     shape = ScaledIndenter(setting.indenter, scale, toward)
     setting = replace(
         setting, scale=scale, shape=shape, toward=toward, layer=layer, known=known, distance=basis["level"].item()
