@@ -372,6 +372,16 @@ def test_a_contact_returns_to_memory_that_was_far(monkeypatch):
     assert pieces.dissipated == pytest.approx(cells.dissipated, rel=1e-7)
 
 
+def test_times_that_differ_by_rounding_have_the_same_friction():
+    """Also next to a jump, of which both sides are asked for, and far from it: no two of them are told apart."""
+    history = vf.motion.History([0.0, 1e-3, 1e-3, 1e-2], load=LOAD, speed=[0.0, 0.0, 0.2, 0.2], before="at rest")
+    times = [1e-3, 1e-3, np.nextafter(1e-3, 1.0), *[5e-3 * (1.0 + 2e-16 * part) for part in (0, 1)], 1e-2]
+    run = vf.motion.solve_transient(RUBBER, CYLINDER, history, times=times, accuracy=0.1)
+    assert run.friction_force[:3] == pytest.approx(0.0, abs=1e-9 * LOAD)
+    assert run.friction_force[3] == pytest.approx(run.friction_force[4], rel=1e-12)
+    assert 0.0 < run.errors.friction_force[4] < 0.1 * run.friction_force[4]
+
+
 def test_a_path_too_long_for_the_memory_is_refused_before_it_is_full(monkeypatch):
     monkeypatch.setattr(mover, "MOST_BYTES", 8 * 350)
     history = vf.motion.History([0.0, 3.0 * A0 / SPEED], load=LOAD, speed=SPEED, before="at rest")

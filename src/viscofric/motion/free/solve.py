@@ -266,7 +266,8 @@ def _interpolated(clock: Array, given: Array, values: Array, kinks: Array) -> Ar
         if np.count_nonzero(inside) > 1:
             first, second = given[inside][:2]
             since, then = (np.log1p((one - first) / (second - first)) for one in (given[inside], clock[wanted]))
-            found[wanted] = PchipInterpolator(since, values[inside])(then)
+            since, rows = np.unique(since, return_index=True)  # times that differ by rounding have one logarithm
+            found[wanted] = PchipInterpolator(since, values[inside][rows])(then)
         else:
             found[wanted] = values[inside]
     return found
@@ -317,9 +318,9 @@ def _values(moment: Moment[Any]) -> tuple[float, ...]:
 def _order(times: list[float]) -> Array:
     """Return times that increase: of those given twice, at a jump, the second ones are a little later."""
     found = np.array(times)
-    for i, (one, two) in enumerate(itertools.pairwise(times)):
-        if two <= one:
-            found[i + 1] = np.nextafter(max(found[i], one), math.inf)
+    for i in range(1, len(found)):
+        if found[i] <= found[i - 1]:
+            found[i] = np.nextafter(found[i - 1], math.inf)
     return found
 
 
