@@ -21,7 +21,7 @@ from contact.made_surfaces import self_affine
 from refusals import refused
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.complementarity import solve_complementarity
-from viscofric.contact.free.grids import Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.operators.convolution import SteadyMaterial, both_halves, is_even, upper_half
 from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.periodic.operator import PeriodicOperator
@@ -185,7 +185,7 @@ def test_readonly_and_mirrored_arrays_are_taken(backend: Backend) -> None:
 
 
 def test_solver_leaves_what_it_is_given(backend: Backend) -> None:
-    window = Window.around(1.0, 1.0, 1.0, 16)
+    window = Grid.around(1.0, 1.0, 1.0, 16)
     operator = HalfSpaceOperator(window, SteadyMaterial(1.0, np.empty(0), np.empty(0)), backend=backend)
     height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
     guess = np.ones(window.shape)
@@ -299,7 +299,7 @@ def test_threads_change_no_digit(name: str) -> None:
 @pytest.mark.parametrize("name", ["scipy", "ducc0"])
 def test_even_pressures_need_the_cells_on_one_side_only(name: str, beside: int) -> None:
     """Their products, also with the transposed and damped matrices, under shear, and the inverse, as on all cells."""
-    window = Window(spacing=0.25, behind=23, ahead=20, beside=beside)
+    window = Grid(spacing=0.25, behind=23, ahead=20, beside=beside)
     dragged = replace(TWO_MODES, drag=0.4, coupling=0.3)
     whole = HalfSpaceOperator(window, dragged, shift=0.3, backend=available(name))
     half = np.random.default_rng(4).standard_normal((window.shape[0], beside))
@@ -312,7 +312,7 @@ def test_even_pressures_need_the_cells_on_one_side_only(name: str, beside: int) 
 
 
 def test_the_dissipated_force_takes_no_more_threads_than_those_given(monkeypatch: pytest.MonkeyPatch) -> None:
-    window = Window(spacing=0.25, behind=9, ahead=7, beside=8)
+    window = Grid(spacing=0.25, behind=9, ahead=7, beside=8)
     operator = HalfSpaceOperator(window, TWO_MODES, backend=Backend("scipy", threads=1))
     expected = operator.dissipated_force(np.ones(window.shape))
     monkeypatch.setattr("viscofric.threads._LARGE", 1)

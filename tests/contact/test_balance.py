@@ -14,7 +14,7 @@ from viscofric.arrays import gauss
 from viscofric.contact.free.balance import lag, opening
 from viscofric.contact.free.estimates import FEWEST_GRIDS, FRICTION_FLOOR, friction_estimate
 from viscofric.contact.free.geometry import LINE, POINT, Geometry
-from viscofric.contact.free.grids import Strip, Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.free.nested import find_window, refine
 from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.stage import Stage
@@ -69,8 +69,8 @@ def test_opening_counts_gaps_beside_pressures() -> None:
     pressure[2, 1], pressure[3, 1] = 2.0, 3.0
     gap[2:4, 1] = 1e-9  # what the solver's tolerance leaves under pressure counts for nothing
     gap[1, 1], gap[4, 1] = 0.5, 0.25
-    assert opening(Window(0.1, 3, 3, 2), pressure, gap) == pytest.approx(2.0 * 0.5 + 3.0 * 0.25)
-    strip = Strip(0.1, 3, 3)
+    assert opening(Grid(0.1, 3, 3, 2), pressure, gap) == pytest.approx(2.0 * 0.5 + 3.0 * 0.25)
+    strip = Grid(0.1, 3, 3)
     assert opening(strip, pressure[:, 1:2], gap[:, 1:2]) == pytest.approx((2.0 * 0.5 + 3.0 * 0.25) / 0.1)
 
 

@@ -32,7 +32,7 @@ from gallery import (
 from marks import apart, slow
 from refusals import refused
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
-from viscofric.contact.free.grids import Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.indenters.shapes import Ball
 from viscofric.contact.operators import convolution
 from viscofric.contact.operators.convolution import SteadyMaterial
@@ -83,7 +83,7 @@ def test_extreme_speeds_approach_hertz(memory_length: float, modulus_ratio: floa
 def hertz_on_grid(cells: int, compliance: float) -> tuple[float, float, float]:
     """Relative errors of indentation, contact radius and largest pressure of Hertz's contact on one grid."""
     a0 = compliance ** (1.0 / 3.0)
-    window = Window.around(1.3 * a0, 1.3 * a0, 1.3 * a0, cells)
+    window = Grid.around(1.3 * a0, 1.3 * a0, 1.3 * a0, cells)
     x, y = window.x[:, None], window.y
     operator = HalfSpaceOperator(window, SteadyMaterial(compliance, np.empty(0), np.empty(0)))
     load = 4.0 / 3.0 / window.cell_area

@@ -22,7 +22,7 @@ from viscofric.contact.complementarity import (
     solve_on_contact,
 )
 from viscofric.contact.extension import Extension
-from viscofric.contact.free.grids import Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.periodic.operator import PeriodicOperator
@@ -37,7 +37,7 @@ MATERIALS = {
     ),
 }
 #: A paraboloid of unit curvature over 26 cells of a tenth each way.
-WINDOW = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+WINDOW = Grid(spacing=0.1, behind=13, ahead=13, beside=13)
 PARABOLOID = 0.5 * (WINDOW.x[:, None] ** 2 + WINDOW.y**2)
 
 
@@ -45,7 +45,7 @@ PARABOLOID = 0.5 * (WINDOW.x[:, None] ** 2 + WINDOW.y**2)
 @pytest.mark.slow
 def test_pressure_is_that_of_dense_pivoting(name: str) -> None:
     material = MATERIALS[name]
-    window = Window(spacing=2.4 / 28, behind=14, ahead=14, beside=12)
+    window = Grid(spacing=2.4 / 28, behind=14, ahead=14, beside=12)
     nx, ny = window.shape
     height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
     load = 4.0 / 3.0 / window.cell_area
@@ -104,7 +104,7 @@ def test_given_indentation_and_given_load_meet(name: str) -> None:
 
 
 def test_too_little_indentation_leaves_no_contact() -> None:
-    window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+    window = Grid(spacing=0.1, behind=13, ahead=13, beside=13)
     height = 1.0 + 0.5 * (window.x[:, None] ** 2 + window.y**2)
     operator = HalfSpaceOperator(window, MATERIALS["one mode"])
     solution = solve_complementarity(operator, height, None, np.zeros(window.shape), indentation=0.9)
@@ -221,7 +221,7 @@ def test_single_precision_takes_the_steps_of_double_where_long_waves_yield_a_mil
 
 
 def test_pressures_that_are_not_numbers_do_not_converge() -> None:
-    window = Window(spacing=0.1, behind=13, ahead=13, beside=13)
+    window = Grid(spacing=0.1, behind=13, ahead=13, beside=13)
     operator = HalfSpaceOperator(window, MATERIALS["one mode"])
     solution = solve_complementarity(operator, np.zeros(window.shape), 100.0, np.full(window.shape, math.nan))
     assert not solution.converged

@@ -18,7 +18,7 @@ from viscofric.contact.derivatives.adjoint import friction_adjoint
 from viscofric.contact.derivatives.moving_cells import Motion
 from viscofric.contact.free.balance import lag, lag_changes
 from viscofric.contact.free.geometry import LINE, POINT
-from viscofric.contact.free.grids import Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.free.nested import find_window
 from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.stage import Stage
@@ -432,7 +432,7 @@ def test_friction_on_a_layer_changes_with_speed_and_load_as_its_derivatives_tell
 
 def test_transposed_operator_has_the_transposed_matrix() -> None:
     solid = SteadyMaterial(0.1, np.array([0.5, 0.4]), np.array([0.3, 5.0]))
-    operator = HalfSpaceOperator(Window(0.1, 5, 7, 4), solid, shift=0.2)
+    operator = HalfSpaceOperator(Grid(0.1, 5, 7, 4), solid, shift=0.2)
     a, b = np.random.default_rng(4).normal(size=(2, 12, 8))
     assert np.vdot(operator.transposed()(a), b) == pytest.approx(np.vdot(a, operator(b)), rel=1e-12)
     assert np.vdot(operator.transposed().precondition(a), b) == pytest.approx(

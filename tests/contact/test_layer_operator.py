@@ -7,7 +7,7 @@ import pytest
 
 from marks import slow
 from refusals import refused
-from viscofric.contact.free.grids import Strip, Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.influence.layer_potentials import LayerCell
 from viscofric.contact.influence.potentials import cell_potential
 from viscofric.contact.operators.convolution import SteadyMaterial, bent_share
@@ -34,7 +34,7 @@ def test_waves_of_the_influence_are_those_of_the_layer(layer: ScaledLayer, shift
     To it the cells add those of their reciprocal lattice, each spread over a cell: Poisson's sum formula.
     """
     reach = int(16.0 * layer.thickness + 4.0)
-    window = Window(1.0, 60 + 2 * reach, reach, reach)
+    window = Grid(1.0, 60 + 2 * reach, reach, reach)
     load = np.zeros(window.shape)
     load[-reach, reach] = 1.0  # memory of 3 cells fades to 1e-9 behind it, and so does what the base leaves
     displacement = LayerOperator(window, TWO_MODES, shift, layer=layer)(load)
@@ -52,7 +52,7 @@ def test_waves_of_the_influence_are_those_of_the_layer(layer: ScaledLayer, shift
 @pytest.mark.parametrize(("layer", "shift"), zip(LAYERS, (0.3, 0.0, 0.5), strict=True))
 def test_waves_of_a_strips_influence_are_those_of_the_layer(layer: ScaledLayer, shift: float) -> None:
     reach = int(30.0 * layer.thickness + 4.0)
-    strip = Strip(1.0, 90 + 2 * reach, reach)
+    strip = Grid(1.0, 90 + 2 * reach, reach)
     load = np.zeros(strip.shape)
     load[-reach] = 1.0
     displacement = LineLayerOperator(strip, TWO_MODES, shift, layer=layer)(load)[:, 0]
@@ -88,14 +88,14 @@ def test_dissipated_energy_is_that_of_the_waves(memory_length: float, bonded: bo
     spectrum = taken * (2.0 * np.pi * np.exp(-0.5 * q**2)) ** 2
     across = sinc(h * q * np.cos(angle))
     expected = float((weight * spectrum * loss(q * np.sin(angle)) * across).sum()) / (4000.0 * 2.0 * np.pi)
-    window = Window(h, 40, 40, 40)
+    window = Grid(h, 40, 40, 40)
     pressure = np.exp(-0.5 * (window.x[:, None] ** 2 + window.y**2))
     on_layer = LayerOperator(window, material, layer=layer).dissipated_force(pressure)
     found = HalfSpaceOperator(window, material).dissipated_force(pressure) - on_layer
     # A memory much shorter than a cell is taken at its leading term, right to 1e-6 of the half-space's whole.
     assert found == pytest.approx(expected, rel=1e-5)
     expected = 2.0 * float((weight * taken * np.exp(-(q**2)) / q * loss(q)).sum())
-    strip = Strip(h, 40, 40)
+    strip = Grid(h, 40, 40)
     pressure = np.exp(-0.5 * strip.x[:, None] ** 2)
     on_layer = LineLayerOperator(strip, material, layer=layer).dissipated_force(pressure)
     found = LineOperator(strip, material).dissipated_force(pressure) - on_layer
@@ -110,7 +110,7 @@ def test_deep_layer_is_a_half_space_but_for_its_level(bonded: bool) -> None:
     # The base takes what is the same everywhere, about 1/H, to (r/H)² of it.
     np.testing.assert_allclose(lowered, lowered[0, 0], rtol=1e-7)
     assert 0.1e-6 < lowered[0, 0] < 3e-6
-    strip = Strip(0.1, 20, 20)
+    strip = Grid(0.1, 20, 20)
     pressure = np.random.default_rng(1).random(strip.shape)
     on_layer = LineLayerOperator(strip, TWO_MODES, layer=ScaledLayer(1e6, bonded, 0.3))(pressure)
     on_half_space = LineOperator(strip, TWO_MODES)(pressure)
@@ -127,7 +127,7 @@ def test_rectangle_of_a_layer_is_a_row_of_smaller_ones() -> None:
 
 
 def test_elastic_indenter_is_a_half_space_on_a_layer_too() -> None:
-    window = Window(0.25, 6, 5, 4)
+    window = Grid(0.25, 6, 5, 4)
     pressure = np.random.default_rng(3).random(window.shape)
     layer = ScaledLayer(0.4, True, 0.5)
     alone = LayerOperator(window, TWO_MODES, 0.2, layer=layer)(pressure)
@@ -143,7 +143,7 @@ def test_elastic_indenter_is_a_half_space_on_a_layer_too() -> None:
 
 @pytest.mark.parametrize("layer", [ScaledLayer(0.25, True, 0.5), *LAYERS], ids=name)
 def test_every_pressure_on_a_layer_does_work_and_dissipates(layer: ScaledLayer) -> None:
-    window, strip = Window(0.25, 6, 5, 4), Strip(0.25, 12, 10)
+    window, strip = Grid(0.25, 6, 5, 4), Grid(0.25, 12, 10)
     generator = np.random.default_rng(2)
     for memory_length in (1e-5, 0.3, 30.0):
         material = SteadyMaterial(0.1, np.array([0.9]), np.array([memory_length]))
@@ -156,4 +156,4 @@ def test_every_pressure_on_a_layer_does_work_and_dissipates(layer: ScaledLayer) 
 
 def test_layer_thinner_than_the_grid_resolves_is_refused() -> None:
     with refused("layer-too-thin", ConvergenceError):
-        LayerOperator(Window(1.0, 4, 4, 4), TWO_MODES, layer=ScaledLayer(0.2, True, 0.3))
+        LayerOperator(Grid(1.0, 4, 4, 4), TWO_MODES, layer=ScaledLayer(0.2, True, 0.3))

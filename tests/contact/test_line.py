@@ -22,7 +22,7 @@ from gallery import (
 )
 from marks import apart, slow
 from refusals import refused
-from viscofric.contact.free.grids import Strip
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.indenters.height_map import Profile
 from viscofric.contact.indenters.shapes import Cylinder
 from viscofric.contact.influence.line import line_memory_influence, scaled_exponential_integral, strip_potential
@@ -101,7 +101,7 @@ MODES = SteadyMaterial(0.01, np.array([0.3, 0.2, 0.2, 0.1, 0.19]), np.array([1e-
 
 
 def test_line_product_is_the_direct_sum() -> None:
-    strip = Strip(0.1, 13, 12)
+    strip = Grid(0.1, 13, 12)
     operator = LineOperator(strip, MODES)
     pressure = np.random.default_rng(1).random(strip.shape)
     offsets = (strip.x[:, None] - strip.x) / strip.spacing
@@ -117,7 +117,7 @@ def test_line_product_is_the_direct_sum() -> None:
 
 @pytest.mark.parametrize("memory_length", [1e-6, 1e-2, 1.0, 1e2, 1e8])
 def test_every_line_pressure_does_work_and_dissipates(memory_length: float) -> None:
-    strip = Strip(0.05, 40, 30)
+    strip = Grid(0.05, 40, 30)
     operator = LineOperator(strip, SteadyMaterial(0.1, np.array([0.9]), np.array([memory_length])))
     generator = np.random.default_rng(2)
     alternating = (-1.0) ** np.arange(70)[:, None]

@@ -25,7 +25,7 @@ from viscofric.contact.free.estimates import (
     settled,
 )
 from viscofric.contact.free.geometry import LINE, POINT
-from viscofric.contact.free.grids import Extent, Strip, Window
+from viscofric.contact.free.grids import Extent, Grid
 from viscofric.contact.free.nested import GivenGrid, find_window, refine
 from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.proximal import proximal_points
@@ -146,7 +146,7 @@ def test_displacements_are_given_at_the_cell_centres() -> None:
 
 def test_contact_that_is_cut_by_every_window_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     first = find_window(PROBLEM, 0.7)
-    monkeypatch.setattr(Window, "cuts", lambda window, mask: True)
+    monkeypatch.setattr(Grid, "cuts", lambda window, mask: True)
     with refused("no-window", ConvergenceError):
         refine(first, 1e-3, 512)
 
@@ -197,7 +197,7 @@ def test_given_indentation_finds_the_load() -> None:
 
 
 def test_strip_is_a_window_of_one_row() -> None:
-    strip = Strip.around(1.0, 2.0, 9.0, 30)
+    strip = LINE.around(1.0, 2.0, 9.0, 30)
     assert strip.shape == (30, 1)
     assert strip.cell_area == strip.spacing == pytest.approx(0.1, rel=1e-12)
     np.testing.assert_allclose(strip.x[[0, -1]], [-0.95, 1.95], rtol=1e-12)
@@ -209,8 +209,8 @@ def test_strip_is_a_window_of_one_row() -> None:
     assert strip.extent(loaded) == pytest.approx((0.7, 0.2, 0.0), abs=1e-12)
 
 
-@pytest.mark.parametrize("grid", [Strip.around(1.0, 2.0, 0.0, 30), Window.around(1.0, 2.0, 1.0, 30)], ids=["1", "2"])
-def test_refinement_keeps_the_load(grid: Strip | Window) -> None:
+@pytest.mark.parametrize("grid", [Grid.around(1.0, 2.0, 0.0, 30), Grid.around(1.0, 2.0, 1.0, 30)], ids=["1", "2"])
+def test_refinement_keeps_the_load(grid: Grid) -> None:
     pressure = np.random.default_rng(5).random(grid.shape)
     finer = grid.refined()
     carried = grid.resample(pressure, finer)
@@ -220,7 +220,7 @@ def test_refinement_keeps_the_load(grid: Strip | Window) -> None:
 
 
 def test_rectangular_cells_keep_their_shape_and_their_edges() -> None:
-    window = Window.around(1.0, 2.0, 12.0, 32, 4.0)
+    window = Grid.around(1.0, 2.0, 12.0, 32, 4.0)
     assert window.aspect == 4.0
     assert window.width == pytest.approx(4.0 * window.spacing)
     assert max(window.shape) == 32

@@ -12,7 +12,7 @@ from contact.dense_reference import displacement_coefficients, displacement_matr
 from marks import apart, slow
 from viscofric.arrays import Array
 from viscofric.contact.complementarity import solve_complementarity
-from viscofric.contact.free.grids import Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.operators import convolution
 from viscofric.contact.operators.convolution import (
     SteadyMaterial,
@@ -24,7 +24,7 @@ from viscofric.contact.operators.convolution import (
 )
 from viscofric.contact.operators.half_space import HalfSpaceOperator
 
-WINDOW = Window(spacing=0.25, behind=6, ahead=5, beside=4)
+WINDOW = Grid(spacing=0.25, behind=6, ahead=5, beside=4)
 ONE_MODE = SteadyMaterial(0.1, np.array([0.9]), np.array([0.7]))
 SIX_MODES = SteadyMaterial(0.01, np.array([0.3, 0.2, 0.2, 0.1, 0.1, 0.09]), np.array([1e-5, 1e-3, 0.1, 1.0, 30.0, 1e4]))
 
@@ -44,7 +44,7 @@ def test_product_is_the_direct_sum(material: SteadyMaterial) -> None:
 
 def test_shift_looks_behind_the_cell_centres() -> None:
     """On a smooth pressure, displacements half a cell behind lie between those at the centres."""
-    window = Window(spacing=0.02, behind=60, ahead=60, beside=60)
+    window = Grid(spacing=0.02, behind=60, ahead=60, beside=60)
     pressure = np.exp(-8.0 * (window.x[:, None] ** 2 + window.y**2))
     centred, behind = (HalfSpaceOperator(window, SIX_MODES, shift=shift)(pressure) for shift in (0.0, 0.5))
     between = (-centred[:-3] + 9.0 * centred[1:-2] + 9.0 * centred[2:-1] - centred[3:]) / 16.0
@@ -86,7 +86,7 @@ def test_every_pressure_dissipates(memory_length: float) -> None:
 
 
 def test_displacement_is_greater_behind_the_load() -> None:
-    window = Window(0.1, 10, 10, 5)
+    window = Grid(0.1, 10, 10, 5)
     pressure = np.zeros(window.shape)
     pressure[9:11, 4:6] = 1.0
     displacement = HalfSpaceOperator(window, ONE_MODE)(pressure)
@@ -97,7 +97,7 @@ def test_displacement_is_greater_behind_the_load() -> None:
 
 def test_memory_at_a_point_comes_from_the_load_ahead() -> None:
     """Just one load, far ahead: the displacement of a mode is Eq. 8 for a point load, u(ξ) from ξ + vτz."""
-    window = Window(1.0, 50, 50, 1)
+    window = Grid(1.0, 50, 50, 1)
     length = 20.0
     operator = HalfSpaceOperator(window, SteadyMaterial(0.0, np.array([1.0]), np.array([length])))
     pressure = np.zeros(window.shape)
@@ -175,7 +175,7 @@ def aliased_energy(material: SteadyMaterial, spacing: float, reach: int = 40) ->
 
 def gaussian_energy(material: SteadyMaterial, spacing: float) -> float:
     cells = round(8.0 / spacing)
-    window = Window(spacing, cells, cells, cells)
+    window = Grid(spacing, cells, cells, cells)
     pressure = np.exp(-0.5 * (window.x[:, None] ** 2 + window.y**2))
     return HalfSpaceOperator(window, material).dissipated_force(pressure)
 
@@ -236,8 +236,8 @@ def test_products_are_counted() -> None:
 @pytest.mark.parametrize("aspect", [0.25, 3.0])
 def test_rectangular_cells_answer_as_the_smaller_squares_they_are_made_of(aspect: float) -> None:
     wide = aspect > 1.0
-    window = Window(0.3 if wide else 1.2, 6, 5, 4, aspect)
-    squares = Window(0.3, 6, 5, 12) if wide else Window(0.3, 24, 20, 4)
+    window = Grid(0.3 if wide else 1.2, 6, 5, 4, aspect)
+    squares = Grid(0.3, 6, 5, 12) if wide else Grid(0.3, 24, 20, 4)
     pressure = np.random.default_rng(6).random(window.shape)
     parts = (1, 3) if wide else (4, 1)
     fine = np.kron(pressure, np.ones(parts))
@@ -257,7 +257,7 @@ def test_rectangular_cells_answer_as_the_smaller_squares_they_are_made_of(aspect
 def test_dissipated_energy_of_a_smooth_pressure_is_the_same_on_rectangles(aspect: float) -> None:
     material = ENERGY_CASES[3]
     spacing = 0.125 / max(1.0, aspect / 4.0)
-    window = Window.around(8.0, 8.0, 8.0, round(16.0 / (spacing * min(1.0, aspect))), aspect)
+    window = Grid.around(8.0, 8.0, 8.0, round(16.0 / (spacing * min(1.0, aspect))), aspect)
     pressure = np.exp(-0.5 * (window.x[:, None] ** 2 + window.y**2))
     # Cells spread the pressure over their length and width, at most 1/2 here: (q h)²/24 of the result each; and bends
     # along the motion are found from second differences, (q h)²/12.
@@ -288,7 +288,7 @@ def test_even_indenters_are_solved_on_one_side_and_others_on_both(monkeypatch: p
         return solve_complementarity(operator, height, *arguments, **settings)
 
     monkeypatch.setattr(convolution, "solve_complementarity", watched)
-    window = Window(spacing=0.02, behind=70, ahead=64, beside=64)
+    window = Grid(spacing=0.02, behind=70, ahead=64, beside=64)
     operator, y = HalfSpaceOperator(window, SIX_MODES), window.y
     height = 0.5 * (window.x[:, None] ** 2 + y**2)
     for load, indentation in ((4.0 / 3.0 / window.cell_area, None), (None, 0.8)):
@@ -313,7 +313,7 @@ def test_even_indenters_are_solved_on_one_side_and_others_on_both(monkeypatch: p
 @pytest.mark.parametrize("tilt", [0.0, 0.3])
 def test_dissipated_force_is_half_of_the_pressures_times_its_gradient(tilt: float) -> None:
     """It is a quadratic form of the pressures, also of those that are even, which take half of the FFTs."""
-    window = Window(spacing=0.1, behind=13, ahead=11, beside=9)
+    window = Grid(spacing=0.1, behind=13, ahead=11, beside=9)
     operator = HalfSpaceOperator(window, SIX_MODES)
     pressure = np.random.default_rng(5).random((24, 9))
     pressure = both_halves(pressure) * (1.0 + tilt * window.y)

@@ -23,7 +23,7 @@ from gallery import (
 from marks import slow
 from refusals import refused
 from viscofric.contact.complementarity import solve_complementarity
-from viscofric.contact.free.grids import Strip, Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.contact.reference import hunter_line
@@ -41,10 +41,10 @@ def test_any_first_guess_leads_to_the_one_solution(kind: str, control: str) -> N
     """One cell at the window's corner, noise, everything: the operator is positive definite, so there is one answer."""
     material = SteadyMaterial(0.1, np.array([0.6, 0.3]), np.array([1.0, 0.05]))
     if kind == "point":
-        window = Window.around(1.3, 1.3, 1.3, 24)
+        window = Grid.around(1.3, 1.3, 1.3, 24)
         operator, load = HalfSpaceOperator(window, material), 4.0 / 3.0
     else:
-        window = Strip.around(1.3, 1.3, 1.3, 96)
+        window = Grid.around(1.3, 1.3, 0.0, 96)
         operator, load = LineOperator(window, material), 0.25 * math.pi
     height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
     hertz = np.sqrt(np.maximum(0.0, 1.0 - 2.0 * height))

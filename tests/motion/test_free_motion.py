@@ -7,7 +7,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
-from viscofric.contact.free.grids import Strip, Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.motion.free import mover, past, solve
@@ -436,10 +436,10 @@ def test_line_contacts_refuse_a_depth_and_a_path_across():
 def test_response_is_that_of_the_steady_operators_without_memory():
     solid = SteadyMaterial(1.0, np.empty(0), np.empty(0))
     pressure = np.random.default_rng(1).random((12, 8))
-    point = HalfSpaceOperator(Window(0.1, 6, 6, 4), solid)
+    point = HalfSpaceOperator(Grid(0.1, 6, 6, 4), solid)
     assert response_of(False, 0.1, 1.0, None, 0.0)(pressure) == pytest.approx(point(pressure), rel=1e-12)
     row = pressure[:, :1]
-    line = LineOperator(Strip(0.1, 6, 6), solid)(row) - response_of(True, 0.1, 1.0, None, 7.0)(row)
+    line = LineOperator(Grid(0.1, 6, 6), solid)(row) - response_of(True, 0.1, 1.0, None, 7.0)(row)
     assert line == pytest.approx(np.full(row.shape, line[0, 0]), rel=1e-12)  # but for the level
 
 

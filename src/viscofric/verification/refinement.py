@@ -57,7 +57,7 @@ class _Parabola:
 def stages(geometry: Geometry, solid: SteadyMaterial, extent: tuple[float, float, float], grids: int) -> list[Stage]:
     """Solve on nested grids of 32, 64, … cells over −rear … front and ±side, in units of Hertz's contact at E0."""
     problem = Problem(geometry, solid, _Parabola(), Control(load=geometry.parabolic_load), 1e-9, backend())
-    window = geometry.grid.around(*extent, 32)
+    window = geometry.around(*extent, 32)
     pressure = np.ones(window.shape)
     found: list[Stage] = []
     for _ in range(grids):

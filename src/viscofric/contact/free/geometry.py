@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from viscofric.contact.free.grids import Grid, Strip, Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 
 if TYPE_CHECKING:
@@ -21,7 +21,6 @@ class Geometry:
 
     name: str
     dimension: int  # of the surface that the contact covers: loads are pressures times lengths to this power
-    grid: type[Grid]
     operator: Callable[..., ConvolutionOperator]  # grid, material and collocation shift to the influence operator
     # Load on an elastic half-space under the paraboloid or the parabolic cylinder, in units of Hertz's contact (K. L.
     # Johnson, Contact Mechanics (1985), Eqs. 4.22 and 4.43).
@@ -37,6 +36,10 @@ class Geometry:
     # 1e6; of point contacts from solutions of random ones on finer grids.
     cuts: tuple[float, float, float]
 
+    def around(self, rear: float, front: float, side: float, cells: int, aspect: float = 1.0) -> Grid:
+        """Return the grid over −rear … front and ±side, without sides for a line contact; see `Grid.around`."""
+        return Grid.around(rear, front, side if self.dimension > 1 else 0.0, cells, aspect)
 
-POINT: Final = Geometry("point", 2, Window, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, (0.8, 1.3, 2.0))
-LINE: Final = Geometry("line", 1, Strip, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536, (0.6, 1.0, 1.6))
+
+POINT: Final = Geometry("point", 2, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, (0.8, 1.3, 2.0))
+LINE: Final = Geometry("line", 1, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536, (0.6, 1.0, 1.6))

@@ -156,7 +156,7 @@ def _start(found: Stage, given: GivenGrid) -> Stage:
     kept = found.window.whole if given.window is None else given.window
     aspect = found.window.width / found.window.spacing
     cells = given.start(_coarsest(found.problem))
-    stage = _solve_in_window(found.problem.geometry.grid.around(*kept, cells, aspect), found)
+    stage = _solve_in_window(found.problem.geometry.around(*kept, cells, aspect), found)
     if given.window is not None and stage.window.cuts(stage.result.pressure > 0.0):
         raise InputError(_TOUCHES, code="touches-window")
     return stage
@@ -179,14 +179,14 @@ def find_window(problem: Problem, size: float) -> Stage:
 
 
 def _fitted_window(problem: Problem, size: float) -> Stage:
-    window = problem.geometry.grid.around(1.5 * size, 1.5 * size, 1.5 * size, _coarsest(problem))
+    window = problem.geometry.around(1.5 * size, 1.5 * size, 1.5 * size, _coarsest(problem))
     guess = np.sqrt(np.maximum(0.0, 1.0 - (window.x[:, None] ** 2 + window.y**2) / size**2))
     stage = _solve_on(window, problem, guess)
     for _ in range(_MOST_WINDOWS):
         old = stage.window
         if old.cuts(stage.result.pressure > 0.0):
             wider = old.whole.widened(0.3 * old.spacing * max(old.shape))
-            window = problem.geometry.grid.around(*wider, _coarsest(problem))
+            window = problem.geometry.around(*wider, _coarsest(problem))
         else:
             window = _around(stage)
             if window.spacing > 0.8 * old.spacing:
@@ -207,15 +207,15 @@ def _coarsest(problem: Problem) -> int:
 
 
 def _around(stage: Stage) -> Grid:
-    contact, grid, cells = stage.extent, stage.problem.geometry.grid, _coarsest(stage.problem)
+    contact, geometry, cells = stage.extent, stage.problem.geometry, _coarsest(stage.problem)
     length, width = contact.rear + contact.front, 2.0 * contact.side
     if (wide := 0.5 * width / length) > _WIDE:
         # Along the motion much changes within the contact's length, across it little within the same distance.
         margins = contact.widened(MARGIN * length)._replace(side=(1.0 + 2.0 * MARGIN) * contact.side)
-        return grid.around(*margins, cells, 2.0 ** min(round(math.log2(wide)), _WIDEST))
+        return geometry.around(*margins, cells, 2.0 ** min(round(math.log2(wide)), _WIDEST))
     narrow = min(length, width) or contact.longest
     slender = min(_MOST_SLENDER, max(1, int(0.5 * contact.longest / narrow)))
-    return grid.around(*contact.widened(MARGIN * contact.longest), cells * slender)
+    return geometry.around(*contact.widened(MARGIN * contact.longest), cells * slender)
 
 
 def _solve_in_window(window: Grid, before: Stage, *, last: bool = False) -> Stage:

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.arrays import Array, Mask
 from viscofric.contact.complementarity import ComplementaritySolution
-from viscofric.contact.free.grids import Grid, Window
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.operators.convolution import solve_on_cells
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
@@ -104,7 +104,7 @@ class Cells:
         behind, ahead = bool(rows[: margin + 1].any()), bool(rows[-margin - 1 :].any())
         more = math.ceil(_WIDER * len(rows))
         grid = replace(self.grid, behind=self.grid.behind + more * behind, ahead=self.grid.ahead + more * ahead)
-        if isinstance(grid, Window) and (columns[: margin + 1].any() or columns[-margin - 1 :].any()):
+        if not grid.is_strip and (columns[: margin + 1].any() or columns[-margin - 1 :].any()):
             grid = replace(grid, beside=grid.beside + math.ceil(0.5 * _WIDER * len(columns)))
         changed = grid != self.grid
         self.grid = grid

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.contact.free.grids import Extent, Grid, Window
+from viscofric.contact.free.grids import Extent, Grid
 from viscofric.contact.free.stage import Footprint
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box, Lattice
@@ -280,7 +280,7 @@ class FreeMover(Cells, Mover[FreeState]):
     def _grid_of(self, state: FreeState) -> Grid:
         behind = state.place.i - state.window.i
         sized = replace(self.grid, behind=behind, ahead=state.window.nx - behind)
-        return replace(sized, beside=state.window.ny // 2) if isinstance(sized, Window) else sized
+        return sized if sized.is_strip else replace(sized, beside=state.window.ny // 2)
 
     def _guess(self, state: FreeState, window: Box, place: Place, duration: float) -> Array:
         """Return the last pressure with its trend, moved with the indenter."""

@@ -174,7 +174,7 @@ def _first(task: _Task, cells: int, level: Level | None) -> Level:
             setting = task.setting(2.0 * size / cells)
             half = _FIRST_WINDOW * size
             spacing = _fitted(setting, 2.0 * size / cells)
-            grid = setting.geometry.grid.around(half, half, half, math.ceil(2.0 * half / spacing))
+            grid = setting.geometry.around(half, half, half, math.ceil(2.0 * half / spacing))
             level = task.march(replace(grid, spacing=spacing), None, task.problem.accuracy, size)
         longest = level.mover.longest
         fits = level.size is None or longest == 0.0 or _SHORT < 0.5 * longest / level.size < 1.0 / _SHORT
@@ -201,7 +201,7 @@ def _around(level: Level, spacing: float) -> Grid:
     margin = 4.0 * mover.grid.spacing
     whole: Extent = mover.reach.widened(margin)
     longest = max(whole.rear + whole.front, 2.0 * whole.side)
-    return replace(mover.setting.geometry.grid.around(*whole, math.ceil(longest / spacing)), spacing=spacing)
+    return replace(mover.setting.geometry.around(*whole, math.ceil(longest / spacing)), spacing=spacing)
 
 
 def _fitted(setting: Setting, spacing: float) -> float:

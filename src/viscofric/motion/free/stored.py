@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.contact.free.grids import Extent
+from viscofric.contact.free.grids import Extent, Grid
 from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.motion.chains import Track
@@ -71,8 +71,8 @@ def level_of(problem: Problem, setting: Setting, basis: Mapping[str, Array], tra
         setting, scale=scale, shape=shape, toward=toward, layer=layer, known=known, distance=basis["level"].item()
     ).with_modes(modes, problem)
     spacing, *counts = basis["grid"].tolist()
-    # Cells behind, ahead and beside; the last one of a window is the shape of its cells.
-    grid = setting.geometry.grid(spacing, *map(int, counts[:3]), *counts[3:])
+    # Cells behind, ahead and beside, and the shape of a cell.
+    grid = Grid(spacing, *map(int, counts[:3]), *counts[3:])
     tolerance, longest, datum, steps = basis["numbers"].tolist()
     mover = FreeMover(setting, grid, tolerance)
     mover.reach, mover.longest, mover.datum = Extent(*basis["reach"].tolist()), longest, datum
