@@ -82,7 +82,7 @@ class FrictionIsotherm:
         They are the curve, (c, k, m), and those without the first and without the last point, where determined.
         """
         coefficients, inverse = self._coefficients
-        basis = self.curves.smoother.basis(np.clip(speed, self.speed[0], self.speed[-1]).ravel())
+        basis = self.basis.at(np.clip(speed, self.speed[0], self.speed[-1]).ravel(), orders=1)[0]
         shape = len(inverse), *speed.shape
         onto = (basis @ inverse).reshape(*shape, -1)
         return (basis @ coefficients).reshape(shape), onto @ np.swapaxes(basis.reshape(*speed.shape, -1), -1, -2)

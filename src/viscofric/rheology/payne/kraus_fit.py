@@ -293,7 +293,7 @@ def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
     smoother = CorrelatedSmoother.along(logarithm, storage[:, None], same, _SELDOM_CORRELATED)
     fine = np.linspace(logarithm[0], logarithm[-1], 2001)
     curves = smoother.curve(0, logarithm, storage)[0]
-    rows = smoother.basis(fine)
+    rows = smoother.basis.at(fine, orders=1)[0]
     rows = rows - rows[0]
     fallen = rows @ curves.coefficients[:, 0] - math.log10(1.0 - part)
     below = np.flatnonzero(fallen < 0.0)

@@ -26,12 +26,10 @@ from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.rheology.superposition.common_curve import (
     KNOT_SPACING,
+    Basis,
     Curves,
     Smoother,
-    knots_for,
     restricted_likelihood,
-    roughness,
-    splines,
 )
 from viscofric.rheology.superposition.isotherm_offsets import BEFORE, Offsets, estimated
 from viscofric.rheology.superposition.shift_problem import inverse_curvature
@@ -56,22 +54,18 @@ class CorrelatedSmoother(Smoother):
     @classmethod
     def along(cls, frequency: Array, moduli: Array, same: Mask, prior: Array = EQUALLY_LIKELY) -> CorrelatedSmoother:
         """Place knots for points, ramp by ramp, and choose smoothing and correlation of each quantity."""
-        knots, degree = knots_for(frequency, POINTS_PER_KNOT)
-        penalty = roughness(knots, degree)
-        basis = splines(knots, degree, frequency)[0]
-        criteria = np.array([_likelihood(basis, penalty, moduli, same, alike)[2] for alike in CORRELATIONS])
+        basis = Basis.of(frequency, POINTS_PER_KNOT)
+        criteria = np.array([_likelihood(basis, moduli, same, alike)[2] for alike in CORRELATIONS])
         alike = np.array([expected_correlation(one, prior) for one in criteria.T])
-        chosen = [
-            _likelihood(basis, penalty, moduli[:, [number]], same, float(one)) for number, one in enumerate(alike)
-        ]
+        chosen = [_likelihood(basis, moduli[:, [number]], same, float(one)) for number, one in enumerate(alike)]
         smoothing, scatter = (np.array([one[place][0] for one in chosen]) for place in (0, 1))
-        return cls(knots, degree, penalty, smoothing, scatter, same, alike)
+        return cls(basis, smoothing, scatter, same, alike)
 
     def curve(self, modulus: int, frequency: Array, values: Array) -> tuple[Curves, Array, Array]:
         """Draw the curve of one quantity through its values (n,), whitened; return its slopes, and values minus it."""
-        found = splines(self.knots, self.degree, frequency)
+        found = self.basis.at(frequency)
         alike = float(self.alike[modulus])
-        own = Smoother(self.knots, self.degree, self.penalty, self.smoothing[[modulus]], self.scatter[[modulus]])
+        own = Smoother(self.basis, self.smoothing[[modulus]], self.scatter[[modulus]])
         lifted = np.array([whitened(one, self.same, alike) for one in found])
         curves = own.drawn(lifted, whitened(values, self.same, alike)[:, None], None)
         coefficients = curves.coefficients[:, 0]
@@ -86,10 +80,10 @@ def whitened(values: Array, same: Mask, alike: float) -> Array:
     return found
 
 
-def _likelihood(basis: Array, penalty: Array, moduli: Array, same: Mask, alike: float) -> tuple[Array, Array, Array]:
+def _likelihood(basis: Basis, moduli: Array, same: Mask, alike: float) -> tuple[Array, Array, Array]:
     """Return smoothing, scatter and −2 log of the restricted likelihood of each quantity at a correlation."""
     smoothing, scatter, criterion = restricted_likelihood(
-        whitened(basis, same, alike), penalty, whitened(moduli, same, alike)
+        whitened(basis.splines[0], same, alike), basis.penalty, whitened(moduli, same, alike)
     )
     return smoothing, scatter, criterion + np.count_nonzero(same) * np.log1p(-(alike**2))
 
@@ -235,7 +229,7 @@ class _Problem:
     def misfit(self, logs: Array) -> float:
         """Return the sum of the logarithms of both scatters, infinite where the law does not hold."""
         try:
-            return float(np.sum(np.log(Smoother.fitted(self.reduced(logs), self.points.moduli).scatter)))
+            return float(np.sum(np.log(Basis.of(self.reduced(logs)).smoother(self.points.moduli).scatter)))
         except (ValueError, np.linalg.LinAlgError):  # `InputError` is one: below the pole
             return np.inf
 

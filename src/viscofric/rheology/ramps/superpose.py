@@ -18,7 +18,7 @@ from viscofric.rheology.ramps.result import GlassTransition, RampCheck, RampSupe
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
-from viscofric.rheology.superposition.common_curve import Smoother
+from viscofric.rheology.superposition.common_curve import Basis
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, checked_poisson_ratio, kelvin_hint, plain, positive, shown_celsius, to_si
@@ -288,7 +288,7 @@ def _check(points: RampPoints, found: CommonLaw) -> RampCheck:
     own, offsets = [], []
     for number in range(int(points.ramp[-1]) + 1):
         inside = points.ramp == number
-        own.append(np.count_nonzero(inside) * Smoother.fitted(reduced[inside], points.moduli[inside]).scatter ** 2)
+        own.append(np.count_nonzero(inside) * Basis.of(reduced[inside]).smoother(points.moduli[inside]).scatter ** 2)
         away = found.residual[inside].mean(axis=0)
         offsets.append(float(away[np.argmax(np.abs(away))]))
     within = np.sqrt(np.mean(np.sum(own, axis=0)) / len(reduced))

@@ -30,7 +30,7 @@ SMALLEST_SCATTER = 1e-6  # decades; noise-free data would have none
 
 @dataclass(frozen=True, eq=False)
 class Basis:
-    """K basis functions of smoothing splines at n points, which do not depend on values and weights of the points."""
+    """K basis functions of smoothing splines placed for n points, whatever the values and weights of these are."""
 
     knots: Array  # (k,), log10 of the reduced frequency, ends repeated
     degree: int  # 3, or less where the points are very few
@@ -39,15 +39,19 @@ class Basis:
 
     @classmethod
     def of(cls, frequency: Array, points: int = POINTS_PER_KNOT) -> Basis:
-        """Place knots for points at log10 frequencies (n,)."""
-        knots, degree = knots_for(frequency, points)
-        return cls(knots, degree, roughness(knots, degree), splines(knots, degree, frequency))
+        """Place knots for points at log10 frequencies (n,), so many of them in every interval."""
+        knots, degree = _knots_for(frequency, points)
+        return cls(knots, degree, _roughness(knots, degree), _splines(knots, degree, frequency))
+
+    def at(self, frequency: Array, orders: int = 3) -> Array:
+        """Return the functions at other places (n,), with their derivatives of the lowest orders: (orders, n, K)."""
+        return _splines(self.knots, self.degree, frequency, orders)
 
     def smoother(self, moduli: Array, weights: Array | None = None) -> Smoother:
-        """Choose the smoothing for moduli (n, m) with weights (n,)."""
+        """Choose the smoothing for moduli (n, m), such as log10 of E' and E'', with weights (n,), inverse variances."""
         root = _roots(moduli, weights)
         smoothing, scatter, _ = restricted_likelihood(self.splines[0] * root, self.penalty, moduli * root)
-        return Smoother(self.knots, self.degree, self.penalty, smoothing, scatter)
+        return Smoother(self, smoothing, scatter)
 
     def curves(self, moduli: Array, weights: Array | None = None) -> Curves:
         """Choose the smoothing for moduli (n, m) with weights (n,), and draw the curves through them."""
@@ -58,29 +62,13 @@ class Basis:
 class Smoother:
     """Smoothing splines to be drawn through points: K basis functions, m quantities such as log E' and log E''."""
 
-    knots: Array  # (k,), log10 of the reduced frequency, ends repeated
-    degree: int  # 3, or less where the points are very few
-    penalty: Array  # (K, K), integrals of products of third derivatives of the basis functions, 1/decades⁵
+    basis: Basis
     smoothing: Array  # (m,), factor of the penalty
     scatter: Array  # (m,), standard deviation of a point of weight 1 about its curve; decades for logarithms
 
-    @classmethod
-    def fitted(
-        cls, frequency: Array, moduli: Array, weights: Array | None = None, points: int = POINTS_PER_KNOT
-    ) -> Smoother:
-        """Place knots for points and choose the smoothing by restricted maximum likelihood."""
-        # `frequency` (n,) is log10 of the reduced angular frequency; `moduli` (n, m) are log10 of E' and E'' without
-        # vertical shifts, or other quantities; `weights` (n,) are the inverse variances of the points relative to each
-        # other, all equal if None; every interval of the splines holds so many `points`.
-        return Basis.of(frequency, points).smoother(moduli, weights)
-
-    def basis(self, frequency: Array) -> Array:
-        """Return the basis functions (…, K) at other places (…)."""
-        return np.asarray(splines(self.knots, self.degree, frequency, orders=1)[0])
-
     def curves(self, frequency: Array, moduli: Array, weights: Array | None = None) -> Curves:
-        """Draw the curves through points; shapes as for `fitted`."""
-        return self.drawn(splines(self.knots, self.degree, frequency), moduli, weights)
+        """Draw the curves through points at log10 frequencies (n,); moduli and weights as for `Basis.smoother`."""
+        return self.drawn(self.basis.at(frequency), moduli, weights)
 
     def drawn(self, at_points: Array, moduli: Array, weights: Array | None) -> Curves:
         """Draw the curves through points where the basis functions and their derivatives are known, (3, n, K)."""
@@ -88,8 +76,8 @@ class Smoother:
         found = at_points * root
         basis = found[0]
         moduli = moduli * root
-        square = ridged(basis.T @ basis)
-        inverse = np.linalg.inv(square + self.smoothing[:, None, None] * self.penalty)
+        square = _ridged(basis.T @ basis)
+        inverse = np.linalg.inv(square + self.smoothing[:, None, None] * self.basis.penalty)
         coefficients = np.einsum("mij,jm->im", inverse, basis.T @ moduli)
         return Curves(self, root, found, np.asarray(inverse), coefficients, moduli - basis @ coefficients)
 
@@ -107,7 +95,7 @@ class Curves:
 
     def cost(self, weights: Array) -> float:
         """Return the objective of the fit: squared residuals and penalised roughness, with weights (m,)."""
-        rough = np.sum(self.coefficients * (self.smoother.penalty @ self.coefficients), axis=0)
+        rough = np.sum(self.coefficients * (self.smoother.basis.penalty @ self.coefficients), axis=0)
         return float(weights @ (np.sum(self.residual**2, axis=0) + self.smoother.smoothing * rough))
 
     @property
@@ -136,7 +124,7 @@ def _roots(moduli: Array, weights: Array | None) -> Array:
     return np.ones((len(moduli), 1)) if weights is None else np.sqrt(weights)[:, None]
 
 
-def knots_for(frequency: Array, points: int = POINTS_PER_KNOT) -> tuple[Array, int]:
+def _knots_for(frequency: Array, points: int) -> tuple[Array, int]:
     """Place knots so that every interval holds so many measured points; return them with the degree of the splines."""
     frequency = np.sort(frequency)
     inner, last = [float(frequency[0])], 0
@@ -149,7 +137,7 @@ def knots_for(frequency: Array, points: int = POINTS_PER_KNOT) -> tuple[Array, i
     return np.concatenate([frequency[0] * ends, inner[1:], frequency[-1] * ends]), degree
 
 
-def splines(knots: Array, degree: int, at: Array, orders: int = 3) -> Array:
+def _splines(knots: Array, degree: int, at: Array, orders: int = 3) -> Array:
     """Return basis functions at points (n,), with their derivatives of the lowest orders: (orders, n, K)."""
     from scipy.interpolate import BSpline
 
@@ -161,7 +149,7 @@ def splines(knots: Array, degree: int, at: Array, orders: int = 3) -> Array:
     return found
 
 
-def roughness(knots: Array, degree: int) -> Array:
+def _roughness(knots: Array, degree: int) -> Array:
     """Integrate products of third derivatives, which are step functions for cubics."""
     size = len(knots) - degree - 1
     if degree < ROUGHNESS:
@@ -173,7 +161,7 @@ def roughness(knots: Array, degree: int) -> Array:
     return np.asarray((rough * np.diff(inner)[:, None]).T @ rough)
 
 
-def ridged(square: Array) -> Array:
+def _ridged(square: Array) -> Array:
     """Return BᵀB with a small multiple of the identity, for bases that the points do not determine."""
     found = square.copy()
     np.fill_diagonal(found, found.diagonal() + RIDGE * np.mean(found.diagonal()))
@@ -185,7 +173,7 @@ def restricted_likelihood(basis: Array, penalty: Array, moduli: Array) -> tuple[
     # In the basis that makes BᵀB the identity and the penalty diagonal (d), the likelihood of all smoothings λ is −2
     # log L = (n − q) log S + Σ log(1 + λd) − (K − q) log λ, with S the penalised squares and q the number of
     # coefficients without penalty; S/(n − q) is the squared scatter.
-    factor = np.linalg.cholesky(ridged(basis.T @ basis))
+    factor = np.linalg.cholesky(_ridged(basis.T @ basis))
     inverse = np.linalg.inv(factor)
     whitened = inverse @ penalty @ inverse.T
     rough, modes = np.linalg.eigh(0.5 * (whitened + whitened.T))

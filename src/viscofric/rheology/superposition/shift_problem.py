@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from viscofric.arrays import Array, Indices, Mask
-from viscofric.rheology.superposition.common_curve import Smoother
+from viscofric.rheology.superposition.common_curve import Basis, Smoother
 from viscofric.rheology.superposition.overlap import Join, LogSweep, failures
 
 
@@ -285,7 +285,7 @@ class ShiftProblem:
         found = []
         for piece in self.pieces:
             frequency, moduli, weights = piece.reduced(*self.split(parameters))
-            found.append(Smoother.fitted(frequency, moduli - piece.own(less), weights))
+            found.append(Basis.of(frequency).smoother(moduli - piece.own(less), weights))
         return found
 
     def with_offsets(
