@@ -393,6 +393,27 @@ def velocity(value: Quantity, name: str = "speed") -> float:
     return number
 
 
+def checked_modes(strengths: object, name: str, unit: str, tau: object) -> tuple[Array, Array]:
+    """Return the strengths of modes, called `name`, and their times, s: read-only copies (n,), none below zero."""
+    columns = []
+    for values, called, of in ((strengths, name, unit), (tau, "tau", "s")):
+        column = np.atleast_1d(np.array(in_si(values, of, called)))
+        if column.ndim != 1:
+            raise InputError(f"{called} must be one row of finite numbers in {of}, one per mode.", code="not-a-number")
+        column.flags.writeable = False
+        columns.append(column)
+    sizes, times = columns
+    if sizes.shape != times.shape:
+        raise InputError(
+            f"{name} and tau must be as many: there are {len(sizes)} and {len(times)}.", code="wrong-length"
+        )
+    if np.any(sizes < 0.0) or np.any(times <= 0.0):
+        raise InputError(
+            f"{name} must not be below zero and tau must be above zero in every mode.", code="not-positive"
+        )
+    return sizes, times
+
+
 def celsius(kelvin: float) -> float:
     """Convert kelvin to degrees Celsius."""
     return kelvin - CELSIUS_ZERO

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Protocol
 
 import numpy as np
 import scipy.fft
@@ -21,27 +20,15 @@ from viscofric.units import Quantity, positive, to_si
 _ROUNDING = 1e-9
 
 
-class Gridded(Protocol):
-    """A surface on a grid."""
-
-    @property
-    def spacing(self) -> tuple[float, float]:
-        """Distance of neighbouring points along x and y, m."""
-
-    @property
-    def periodic(self) -> bool:
-        """Whether it is periodic."""
-
-
-def gradient(heights: Array, grid: Gridded) -> tuple[Array, ...]:
+def gradient(heights: Array, spacing: tuple[float, float], periodic: bool) -> tuple[Array, ...]:
     """Return the slopes along the axes that have points: from the Fourier series if periodic, else differences."""
     axes = [axis for axis, points in enumerate(heights.shape) if points > 1]
-    if not grid.periodic:
-        return tuple(np.gradient(heights, grid.spacing[axis], axis=axis) for axis in axes)
+    if not periodic:
+        return tuple(np.gradient(heights, spacing[axis], axis=axis) for axis in axes)
     found = []
     for axis in axes:
         points = heights.shape[axis]
-        q: Array = 2.0 * np.pi * np.fft.rfftfreq(points, grid.spacing[axis]).astype(np.float64)
+        q: Array = 2.0 * np.pi * np.fft.rfftfreq(points, spacing[axis]).astype(np.float64)
         factor = 1j * without_nyquist(q, points)
         series = scipy.fft.rfft(heights, axis=axis) * (factor[:, None] if axis == 0 else factor)
         found.append(scipy.fft.irfft(series, points, axis=axis))

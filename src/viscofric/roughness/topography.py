@@ -168,7 +168,8 @@ class Topography(Plotted):
         InputError
             If heights are missing.
         """
-        return math.sqrt(sum(float(np.square(one).mean()) for one in preparation.gradient(self.complete(), self)))
+        slopes = preparation.gradient(self.complete(), self.spacing, self.periodic)
+        return math.sqrt(sum(float(np.square(one).mean()) for one in slopes))
 
     def complete(self) -> Array:
         """Return the heights, m.

@@ -11,7 +11,9 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.contact.free.geometry import LINE, POINT, Geometry
 from viscofric.contact.free.problem import Control, Problem
+from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.free.stage import Stage
+from viscofric.contact.indenters.shapes import Ball
 from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
 from viscofric.errors import ConvergenceError
 from viscofric.verification.ball import ball_references
@@ -39,24 +41,10 @@ class Refinement:
         return float(-np.polyfit(np.log(self.cells[significant]), np.log(size[significant]), 1)[0])
 
 
-class _Parabola:
-    """r²/2, in units of Hertz's contact."""
-
-    has_tip = False
-
-    def height(self, x: Array, y: Array) -> Array:
-        return np.asarray(0.5 * (x**2 + y**2))
-
-    def slope(self, x: Array, y: Array) -> Array:
-        return np.asarray(x + 0.0 * y)
-
-    def slope_across(self, x: Array, y: Array) -> Array:
-        return np.asarray(y + 0.0 * x)
-
-
 def stages(geometry: Geometry, solid: SteadyMaterial, extent: tuple[float, float, float], grids: int) -> list[Stage]:
     """Solve on nested grids of 32, 64, … cells over −rear … front and ±side, in units of Hertz's contact at E0."""
-    problem = Problem(geometry, solid, _Parabola(), Control(load=geometry.parabolic_load), 1e-9, backend())
+    shape = ScaledIndenter(Ball(1.0), Scale(geometry, 1.0, 1.0, 1.0))  # whose section at y = 0 is that of a cylinder
+    problem = Problem(geometry, solid, shape, Control(load=geometry.parabolic_load), 1e-9, backend())
     window = geometry.around(*extent, 32)
     pressure = np.ones(window.shape)
     found: list[Stage] = []

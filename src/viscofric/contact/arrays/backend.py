@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import numpy as np
 
 from viscofric.arguments import whole_number
-from viscofric.contact.arrays.transforms import DuccTransforms, ScipyTransforms, StandardTransforms
+from viscofric.contact.arrays.transforms import DuccTransforms, ScipyTransforms, Transforms
 from viscofric.errors import InputError, not_imported, wrong_argument
 from viscofric.showing import Shown
 from viscofric.threads import THREADS, in_parts, usable_threads
@@ -131,7 +131,7 @@ class Backend(Shown):
             return ScipyTransforms(self._imported("scipy.fft"), threads)
         if self._library == "ducc0":
             return DuccTransforms(self._imported("ducc0.fft"), threads)
-        return StandardTransforms(self.xp.fft)
+        return Transforms(self.xp.fft)
 
     @cached_property
     def device(self) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -25,32 +25,7 @@ _LARGE, _BLOCK = 2**22, 2**19
 _FEW_COSINES = 64
 
 
-class Transforms(Protocol):
-    """Real FFTs of a library.
-
-    Spectra are (nx, ny//2 + 1).  What is transformed back may be overwritten.
-    """
-
-    def forward(self, values: Any) -> Any:
-        """Spectrum of real values."""
-
-    def inverse(self, spectrum: Any, shape: Shape) -> Any:
-        """Real values of the given shape."""
-
-    def forward_padded(self, values: Any, padded: Shape) -> Any:
-        """Spectrum of real values with zeros behind them up to a shape; zeros are not transformed along y."""
-
-    def inverse_cropped(self, spectrum: Any, padded: Shape, shape: Shape) -> Any:
-        """First `shape` of the real values whose spectrum, of the padded shape, is given."""
-
-    def convolved(self, values: Any, factor: Any, padded: Shape) -> Any:
-        """First of the real values, as many as are given, whose spectrum is the factor times that of those given."""
-        waves = self.forward_padded(values, padded)
-        waves *= factor
-        return self.inverse_cropped(waves, padded, values.shape)
-
-
-class StandardTransforms(Transforms):
+class Transforms:
     """FFTs of the array standard's ``fft`` namespace: PyTorch, CuPy and whatever else has one.
 
     Spectra are (nx, ny//2 + 1).  What is transformed back may be overwritten.
@@ -75,6 +50,12 @@ class StandardTransforms(Transforms):
         """First `shape` of the real values whose spectrum, of the padded shape, is given."""
         lines = self._fft.ifft(spectrum, axis=0)[: shape[0], :]
         return self._fft.irfft(lines, n=padded[1], axis=1)[:, : shape[1]]
+
+    def convolved(self, values: Any, factor: Any, padded: Shape) -> Any:
+        """First of the real values, as many as are given, whose spectrum is the factor times that of those given."""
+        waves = self.forward_padded(values, padded)
+        waves *= factor
+        return self.inverse_cropped(waves, padded, values.shape)
 
 
 class ScipyTransforms(Transforms):

@@ -18,7 +18,7 @@ from viscofric.contact.influence.mixtures import memory_influence
 from viscofric.contact.influence.potentials import HalfSpaceCell
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
-from viscofric.units import checked_poisson_ratio, in_si, positive, to_si, velocity
+from viscofric.units import checked_modes, checked_poisson_ratio, in_si, positive, to_si, velocity
 
 if TYPE_CHECKING:
     import xarray
@@ -191,14 +191,7 @@ class _Modes:
 
     @classmethod
     def at(cls, speed: float, E_inf: float, C: ArrayLike, tau: ArrayLike, step: float) -> _Modes:
-        compliances, times = in_si(C, "1/Pa", "C"), in_si(tau, "s", "tau")
-        if compliances.ndim != 1 or compliances.shape != times.shape:
-            raise InputError(
-                f"C and tau must be as many: their shapes are {compliances.shape} and {times.shape}.",
-                code="wrong-length",
-            )
-        if np.any(compliances < 0.0) or np.any(times <= 0.0):
-            raise InputError("tau must be above zero, and C must not be below it.", code="not-positive")
+        compliances, times = checked_modes(C, "C", "1/Pa", tau)
         glassy = 1.0 / positive(E_inf, "Pa", "E_inf")
         if speed == 0.0:
             glassy += float(compliances.sum())

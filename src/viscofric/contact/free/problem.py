@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.free.geometry import Geometry
     from viscofric.contact.free.grids import Grid
+    from viscofric.contact.free.scale import ScaledIndenter
     from viscofric.contact.operators.convolution import ConvolutionOperator, SteadyMaterial
     from viscofric.contact.operators.layer import ScaledLayer
 
@@ -25,23 +26,6 @@ if TYPE_CHECKING:
 # count as it.
 _LOG_SIZES, _LEAST_COMPLIANCE = (-50.0, 1.0), 1e-300
 COARSEST = 32  # cells along the longer edge of the window on the coarsest grid
-
-
-class Shape(Protocol):
-    """An indenter in these units."""
-
-    @property
-    def has_tip(self) -> bool:
-        """Whether the slope jumps at the lowest point."""
-
-    def height(self, x: Array, y: Array) -> Array:
-        """Height above the lowest point."""
-
-    def slope(self, x: Array, y: Array) -> Array:
-        """Slope of the height along x."""
-
-    def slope_across(self, x: Array, y: Array) -> Array:
-        """Slope of the height along y."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +51,7 @@ class Problem:
 
     geometry: Geometry
     solid: SteadyMaterial
-    shape: Shape
+    shape: ScaledIndenter
     control: Control
     tolerance: float  # of the contact conditions
     backend: Backend = field(default_factory=Backend)

@@ -17,10 +17,9 @@ import numpy as np
 
 from viscofric.contact.reference.hertz import hertz_ball, hertz_line
 from viscofric.errors import InputError
-from viscofric.units import positive, to_si, to_si_array
+from viscofric.units import checked_modes, positive, to_si
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array
     from viscofric.units import Quantities, Quantity
 
 
@@ -32,7 +31,7 @@ def low_speed_friction(speed: Quantity, radius: Quantity, E0: Quantity, C: Quant
     The error is about v τ/a0, relative (with one retardation time and a cylinder: −v τ/(2a0) for E∞ ≫ E0).  Raises
     InputError if a value is out of range.
     """
-    compliance, time = _modes(C, tau)
+    compliance, time = checked_modes(C, "C", "1/Pa", tau)
     rubber = positive(E0, "Pa", "E0")
     return to_si(speed, "m/s", "speed") / positive(radius, "m", "radius") * rubber * float(compliance @ time)
 
@@ -55,7 +54,7 @@ def high_speed_friction(
     of range.
     """
     hertz = hertz_ball(load, radius, E_inf, poisson_ratio)
-    compliance, time = _modes(C, tau)
+    compliance, time = checked_modes(C, "C", "1/Pa", tau)
     rate = float(np.sum(compliance / time)) / _moving(speed)
     return 0.8 * hertz.indentation * positive(E_inf, "Pa", "E_inf") * rate
 
@@ -79,7 +78,7 @@ def high_speed_line_friction(
     Raises InputError if a value is out of range.
     """
     hertz = hertz_line(load_per_length, radius, E_inf, poisson_ratio)
-    compliance, time = _modes(C, tau)
+    compliance, time = checked_modes(C, "C", "1/Pa", tau)
     speed_si = _moving(speed)
     reach = np.log(2.0 * abs(speed_si) * time / hertz.half_width) + 0.25 - np.euler_gamma
     depth = hertz.half_width**2 / (2.0 * positive(radius, "m", "radius"))
@@ -91,14 +90,3 @@ def _moving(speed: Quantity) -> float:
     if value == 0.0:
         raise InputError("speed = 0: the law of high speed needs a speed.", code="no-speed")
     return value
-
-
-def _modes(C: Quantities, tau: Quantities) -> tuple[Array, Array]:
-    compliance, time = to_si_array(C, "1/Pa", "C"), to_si_array(tau, "s", "tau")
-    if compliance.shape != time.shape:
-        raise InputError(
-            f"C and tau must be as many: there are {len(compliance)} and {len(time)}.", code="wrong-length"
-        )
-    if np.any(compliance < 0.0) or np.any(time <= 0.0):
-        raise InputError("C must not be below zero and tau must be above zero in every mode.", code="not-positive")
-    return compliance, time

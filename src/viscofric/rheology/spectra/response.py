@@ -116,15 +116,6 @@ def checked_shift(alpha: float, b: float) -> tuple[float, float]:
     return positive(alpha, "dimensionless", "alpha"), positive(b, "dimensionless", "b")
 
 
-def mode_column(values: ArrayLike, name: str, unit: str) -> Array:
-    """Return one value for each mode, as a read-only copy."""
-    column = np.atleast_1d(np.array(in_si(values, unit, name)))
-    if column.ndim != 1:
-        raise InputError(f"{name} must be one row of finite numbers in {unit}, one per mode.", code="not-a-number")
-    column.flags.writeable = False
-    return column
-
-
 def shown_modulus(modulus: float) -> str:
     """Return a modulus in Pa as text for users."""
     for unit, size in (("GPa", 1e9), ("MPa", 1e6), ("kPa", 1e3)):

@@ -16,10 +16,10 @@ from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, wrong_argument
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
 from viscofric.rheology.spectra.quality import SpectrumFit
-from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times, mode_column
+from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times
 from viscofric.showing import Items, Rows, rows_of
 from viscofric.step_tests import StepMasterCurve, step_columns
-from viscofric.units import Quantity, in_si, positive, to_si
+from viscofric.units import Quantity, checked_modes, in_si, positive, to_si
 
 #: Largest difference of 1/E_inf + ΣC from 1/E0, relative to 1/E0.
 BALANCE = 1e-6
@@ -32,15 +32,7 @@ class ModeSpectrum(FrequencyResponse, Items[tuple[float, float]]):
 
     def _set_modes(self, name: str, strengths: ArrayLike, unit: str, tau: ArrayLike) -> None:
         """Set the strengths, called `name`, and the times of the modes."""
-        values, times = mode_column(strengths, name, unit), mode_column(tau, "tau", "s")
-        if values.shape != times.shape:
-            raise InputError(
-                f"{name} and tau must be as many: there are {len(values)} and {len(times)}.", code="wrong-length"
-            )
-        if np.any(values < 0.0) or np.any(times <= 0.0):
-            raise InputError(
-                f"{name} must not be below zero and tau must be above zero in every mode.", code="not-positive"
-            )
+        values, times = checked_modes(strengths, name, unit, tau)
         object.__setattr__(self, name, values)
         object.__setattr__(self, "tau", times)
 
