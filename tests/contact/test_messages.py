@@ -31,8 +31,8 @@ SENTENCES: list[tuple[Callable[[], object], str, str]] = [
         lambda: solve(BOWL),
         "beyond-indenter",
         (
-            "under 1 N the contact reaches the edge of the height map; give a map of a larger piece of the surface, or "
-            "reduce the load."
+            "under 1 N the contact reaches the edge of the height map; give the heights of a larger piece of the "
+            "surface, or reduce the load."
         ),
     ),
     (

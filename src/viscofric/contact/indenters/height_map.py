@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from abc import abstractmethod
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
     from scipy.interpolate import PPoly, RectBivariateSpline
 
-    from viscofric.arrays import Array, Mask
+    from viscofric.arrays import Array, Indices
     from viscofric.contact.free.grids import Extent
     from viscofric.showing import Rows
 
@@ -31,8 +32,80 @@ _UNRESOLVED = 2.0
 _BENT = 9  # points along a line in contact from which on curvatures are compared
 
 
+class _Heights(Indenter):
+    """A surface through heights at points along x, and along y where it varies; the lowest one is the origin."""
+
+    z: ArrayLike
+
+    @property
+    @abstractmethod
+    def _steps(self) -> tuple[float, ...]:
+        """Distances of neighbouring points along each axis, m."""
+
+    @abstractmethod
+    def _derivative(self, along: int, across: int, x: Array, y: Array) -> Array:
+        """Return a derivative of the spline through the heights at (x, y), within the points."""
+
+    @cached_property
+    def _points(self) -> tuple[Array, ...]:
+        """Positions of the points along each axis, from the lowest one, m."""
+        z = np.asarray(self.z)
+        lowest = np.unravel_index(int(np.argmin(z)), z.shape)
+        axes = zip(self._steps, z.shape, lowest, strict=True)
+        return tuple(np.asarray(step * (np.arange(count) - start)) for step, count, start in axes)
+
+    def _at(self, along: int, across: int, x: Array, y: Array, beyond: float) -> Array:
+        places = list(np.broadcast_arrays(x, y))
+        inside = np.full(places[0].shape, True)
+        for axis, points in enumerate(self._points):
+            inside &= (places[axis] >= points[0]) & (places[axis] <= points[-1])
+            places[axis] = np.clip(places[axis], points[0], points[-1])
+        return np.where(inside, self._derivative(along, across, *places), beyond)
+
+    def height(self, x: Array, y: Array) -> Array:
+        """Height (m) above the lowest point at (x, y), in m; infinite beyond the points."""
+        return self._at(0, 0, x, y, np.inf)
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the height along x at (x, y); zero beyond the points."""
+        return self._at(1, 0, x, y, 0.0)
+
+    def slope_across(self, x: Array, y: Array) -> Array:
+        """Slope of the height along y at (x, y); zero beyond the points."""
+        return self._at(0, 1, x, y, 0.0)
+
+    def check(self, contact: Extent, held: str, reduce: str = "load") -> None:
+        """Raise an error for a contact (m) that reaches the outermost points; `held` begins its message."""
+        far = (contact.rear, contact.front), (contact.side, contact.side)
+        axes = zip(self._points, self._steps, far, strict=False)
+        if any(back > -points[0] - step or ahead > points[-1] - step for points, step, (back, ahead) in axes):
+            raise InputError(
+                f"{held} the contact reaches the edge of the {self.noun}; ",
+                code="beyond-indenter",
+                remedy=Remedy(f"give the heights of a larger piece of the surface, or reduce the {reduce}."),
+            )
+
+    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
+        """Return a note where the assumption of small strain is doubtful."""
+        z = np.asarray(self.z)
+        slopes = np.array([np.gradient(z, step, axis=axis) for axis, step in enumerate(self._steps)])
+        steepness = np.linalg.norm(slopes, axis=0)[self._within(contact)]
+        return too_steep(float(steepness.max(initial=0.0)))
+
+    def resolution_warning(self, contact: Extent) -> Note | None:
+        """Return a note where noise, or roughness that the points do not resolve, bends the surface."""
+        z = np.asarray(self.z)[self._within(contact)]
+        return _unresolved(max(_sharpening(np.moveaxis(z, axis, 0)) for axis in range(z.ndim)), self.noun)
+
+    def _within(self, contact: Extent) -> tuple[Indices, ...]:
+        """Return the index of the points within a contact."""
+        x, *y = self._points
+        inside = (x >= -contact.rear) & (x <= contact.front), *(np.abs(one) <= contact.side for one in y)
+        return np.ix_(*(np.flatnonzero(one) for one in inside))
+
+
 @dataclass(frozen=True, eq=False)
-class HeightMap(Indenter):
+class HeightMap(_Heights):
     """A free surface given by its heights on a rectangular grid, x along the first axis, y along the second.
 
     Between the points it is the bicubic spline through them (no smoothing), beyond the outermost ones there is no
@@ -64,15 +137,10 @@ class HeightMap(Indenter):
     noun: ClassVar[str] = "height map"
     z: ArrayLike
     spacing: Quantity | tuple[Quantity, Quantity]
-    _origin: tuple[float, float] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        z = _heights(self.z, 2)
-        spacing = two_lengths(self.spacing)
-        lowest = np.unravel_index(int(np.argmin(z)), z.shape)
-        object.__setattr__(self, "z", z)
-        object.__setattr__(self, "spacing", spacing)
-        object.__setattr__(self, "_origin", (spacing[0] * float(lowest[0]), spacing[1] * float(lowest[1])))
+        object.__setattr__(self, "z", _heights(self.z, 2))
+        object.__setattr__(self, "spacing", two_lengths(self.spacing))
 
     def _shown(self) -> Rows:
         return (
@@ -80,83 +148,23 @@ class HeightMap(Indenter):
             ("spacing", self._steps[0], "m"),
         )
 
-    def height(self, x: Array, y: Array) -> Array:
-        """Height (m) above the lowest point at (x, y), in m; infinite beyond the map."""
-        return np.where(self._inside(x, y), self._spline(*self._on_map(x, y), grid=False), np.inf)
-
-    def slope(self, x: Array, y: Array) -> Array:
-        """Slope of the height along x at (x, y); zero beyond the map."""
-        return np.where(self._inside(x, y), self._spline(*self._on_map(x, y), dx=1, grid=False), 0.0)
-
-    def slope_across(self, x: Array, y: Array) -> Array:
-        """Slope of the height along y at (x, y); zero beyond the map."""
-        return np.where(self._inside(x, y), self._spline(*self._on_map(x, y), dy=1, grid=False), 0.0)
-
-    def check(self, contact: Extent, held: str, reduce: str = "load") -> None:
-        """Raise an error for a contact (m) that reaches the outermost points of the map; `held` begins its message."""
-        (rear, front), side = self._ends[0], min(self._ends[1])
-        if contact.rear > rear or contact.front > front or contact.side > side:
-            raise InputError(
-                f"{held} the contact reaches the edge of the height map; ",
-                code="beyond-indenter",
-                remedy=Remedy(f"give a map of a larger piece of the surface, or reduce the {reduce}."),
-            )
-
-    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
-        """Return a note where the assumption of small strain is doubtful."""
-        x = self._points[0]
-        y = self._points[1]
-        within = np.ix_((x >= -contact.rear) & (x <= contact.front), np.abs(y) <= contact.side)
-        steepness = np.hypot(*np.gradient(np.asarray(self.z), *self._steps))[within]
-        return too_steep(float(steepness.max(initial=0.0)))
-
-    def resolution_warning(self, contact: Extent) -> Note | None:
-        """Return a note where noise, or roughness that the points do not resolve, bends the surface."""
-        x, y = self._points
-        z = np.asarray(self.z)[np.ix_((x >= -contact.rear) & (x <= contact.front), np.abs(y) <= contact.side)]
-        return _unresolved(max(_sharpening(z), _sharpening(z.T)), self.noun)
-
     @property
-    def _steps(self) -> tuple[float, float]:
+    def _steps(self) -> tuple[float, ...]:
         return self.spacing  # type: ignore[return-value]
-
-    @cached_property
-    def _points(self) -> tuple[Array, Array]:
-        """Positions of the points along x and y, from the lowest one, m."""
-        x, y = (
-            step * np.arange(count) - start
-            for step, count, start in zip(self._steps, np.shape(self.z), self._origin, strict=True)
-        )
-        return x, y
-
-    @property
-    def _ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Distances from the lowest point to the ends of the map, less one point, along x and along y."""
-        x, y = (
-            (-float(points[0]) - step, float(points[-1]) - step)
-            for points, step in zip(self._points, self._steps, strict=True)
-        )
-        return x, y
 
     @cached_property
     def _spline(self) -> RectBivariateSpline:
         from scipy.interpolate import RectBivariateSpline
 
-        z = np.asarray(self.z)
-        return RectBivariateSpline(*self._points, z - z.min(), kx=3, ky=3, s=0)
+        (x, y), z = self._points, np.asarray(self.z)
+        return RectBivariateSpline(x, y, z - z.min(), kx=3, ky=3, s=0)
 
-    def _inside(self, x: Array, y: Array) -> Mask:
-        px, py = self._points
-        return np.asarray((x >= px[0]) & (x <= px[-1]) & (y >= py[0]) & (y <= py[-1]))
-
-    def _on_map(self, x: Array, y: Array) -> tuple[Array, Array]:
-        px, py = self._points
-        a, b = np.broadcast_arrays(np.clip(x, px[0], px[-1]), np.clip(y, py[0], py[-1]))
-        return a, b
+    def _derivative(self, along: int, across: int, x: Array, y: Array) -> Array:
+        return np.asarray(self._spline(x, y, along, across, grid=False))
 
 
 @dataclass(frozen=True, eq=False)
-class Profile(Indenter):
+class Profile(_Heights):
     """A free surface that is the same all along y, given by heights along x: a line contact in plane strain.
 
     Between the points it is the cubic spline through them, beyond the outermost ones there is no surface; a contact
@@ -198,52 +206,19 @@ class Profile(Indenter):
             ("spacing", self.spacing, "m"),
         )
 
-    def height(self, x: Array, y: Array) -> Array:
-        """Height (m) above the lowest point at (x, y), in m; infinite beyond the profile."""
-        return np.where(self._inside(x), self._spline(x), np.inf) + 0.0 * y
-
-    def slope(self, x: Array, y: Array) -> Array:
-        """Slope of the height along x at (x, y); zero beyond the profile."""
-        return np.where(self._inside(x), self._spline(x, 1), 0.0) + 0.0 * y
-
-    def slope_across(self, x: Array, y: Array) -> Array:
-        """Slope of the height along y at (x, y): zero."""
-        return 0.0 * x + 0.0 * y
-
-    def check(self, contact: Extent, held: str, reduce: str = "load") -> None:
-        """Raise an error for a contact (m) that reaches the outermost points of the profile; `held` begins it."""
-        x, step = self._points, float(self.spacing)
-        if contact.rear > -x[0] - step or contact.front > x[-1] - step:
-            raise InputError(
-                f"{held} the contact reaches the end of the profile; ",
-                code="beyond-indenter",
-                remedy=Remedy(f"give a longer one, or reduce the {reduce}."),
-            )
-
-    def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
-        """Return a note where the assumption of small strain is doubtful."""
-        within = (self._points >= -contact.rear) & (self._points <= contact.front)
-        return too_steep(float(np.abs(self._spline(self._points[within], 1)).max(initial=0.0)))
-
-    def resolution_warning(self, contact: Extent) -> Note | None:
-        """Return a note where noise, or roughness that the points do not resolve, bends the surface."""
-        within = (self._points >= -contact.rear) & (self._points <= contact.front)
-        return _unresolved(_sharpening(np.asarray(self.z)[within, None]), self.noun)
-
-    @cached_property
-    def _points(self) -> Array:
-        z = np.asarray(self.z)
-        return np.asarray(float(self.spacing) * (np.arange(len(z)) - np.argmin(z)))
+    @property
+    def _steps(self) -> tuple[float, ...]:
+        return (float(self.spacing),)
 
     @cached_property
     def _spline(self) -> PPoly:
         from scipy.interpolate import CubicSpline
 
         z = np.asarray(self.z)
-        return CubicSpline(self._points, z - z.min())
+        return CubicSpline(self._points[0], z - z.min())
 
-    def _inside(self, x: Array) -> Mask:
-        return np.asarray((x >= self._points[0]) & (x <= self._points[-1]))
+    def _derivative(self, along: int, across: int, x: Array, y: Array) -> Array:
+        return np.zeros(x.shape) if across else np.asarray(self._spline(x, along))
 
 
 def _sharpening(z: Array) -> float:

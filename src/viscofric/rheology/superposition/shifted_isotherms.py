@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, Generic
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.superposition.common_shifts import CommonShifts, common_shifts
 from viscofric.rheology.superposition.consistency import drift, neighbour_distances
-from viscofric.rheology.superposition.isotherm_offsets import IsothermOffsets
 from viscofric.rheology.superposition.joined_isotherms import (
     BOTH,
     JoinedIsotherms,
@@ -143,20 +142,6 @@ def _gauge(temperatures: Array, reference: float, held: dict[int, float], free: 
 OTHER_MODEL = 0.5
 
 
-@dataclass(frozen=True, eq=False)
-class ShiftedIsotherms(Generic[Tested]):
-    """Isotherms of any kind with the shifts found or given, and notes on them."""
-
-    joined: JoinedIsotherms[Tested]  # free of the vertical shift
-    factors: ShiftFactors
-    quality: OverlapQuality
-    notes: tuple[str, ...]
-    vertical: VerticalShift | None
-    cross: Array | None  # of log10 α with log10 b, where b was fitted
-    offsets: IsothermOffsets | None
-    unidentified: tuple[tuple[float, float], ...]
-
-
 def shifted_isotherms(
     isotherms: tuple[Tested, ...],
     logs: list[LogSweep],
@@ -166,8 +151,11 @@ def shifted_isotherms(
     shift: ShiftLaw | None,
     fixed: Mapping[Any, float] | None,
     quantities: Quantities,
-) -> ShiftedIsotherms[Tested]:
-    """Join and shift isotherms given by their logarithms; `known` is b(T) where it is not fitted."""
+) -> tuple[JoinedIsotherms[Tested], dict[str, Any]]:
+    """Join and shift isotherms given by their logarithms; `known` is b(T) where it is not fitted.
+
+    Returns them free of the vertical shift, and the attributes of a `Superposed` but for its master curve.
+    """
     usable(isotherms)
     levels = [0.0 if known is None else known.log10(isotherm.temperature) for isotherm in isotherms]
     logs = [replace(one, moduli=one.moduli - by) for one, by in zip(logs, levels, strict=True)]
@@ -210,8 +198,16 @@ def shifted_isotherms(
         notes += badly_given(joined.logs, factors.log10_values)
     quality = overlap_quality(joined.logs, factors.log10_values)
     notes += without_overlap(temperatures, quality)
-    cross = found.cross_covariance if free else None
-    return ShiftedIsotherms(joined, factors, quality, tuple(notes), known, cross, found.offsets, unidentified)
+    return joined, {
+        "shift_factors": factors,
+        "quality": quality,
+        "notes": tuple(notes),
+        "isotherms": joined.isotherms,
+        "vertical_shift": known,
+        "cross_covariance": found.cross_covariance if free else None,
+        "offsets": found.offsets,
+        "unidentified": unidentified,
+    }
 
 
 def _drifts(isotherms: Sequence[Isotherm | StepTest], log10_b: Array) -> bool:

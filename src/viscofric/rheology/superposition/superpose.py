@@ -199,23 +199,21 @@ def superpose(
         tests = read.thinned(PER_DECADE)
         weights_of = weights_of_averages(read.tests, tests.kind)
         logs = [LogSweep.of_step(one, tests.kind, own) for one, own in zip(tests.tests, weights_of, strict=True)]
-        steps = shifted_isotherms(tests.tests, logs, kelvin, known, vertical == "free", shift, fixed, STEP)
-        notes = (*tests.notes, *steps.notes, *(flowing(steps.joined.isotherms) if tests.kind == "creep" else []))
-        curve = _step_master_curve(steps.joined, steps.factors, tests.kind)
-        rest = steps.joined.isotherms, steps.vertical, steps.cross, steps.offsets, steps.unidentified
-        return StepSuperposition(steps.factors, curve, steps.quality, notes, *rest)
+        steps, found = shifted_isotherms(tests.tests, logs, kelvin, known, vertical == "free", shift, fixed, STEP)
+        found["notes"] = (*tests.notes, *found["notes"], *(flowing(steps.isotherms) if tests.kind == "creep" else []))
+        return StepSuperposition(master_curve=_step_master_curve(steps, found["shift_factors"], tests.kind), **found)
     assert isinstance(sweeps, IsothermalSweeps)
     tensile = sweeps.in_tension(ratio)
     quantities = Quantities.chosen(by, weights)
     quantities.insist_on_use(vertical, shift)
     logs = [LogSweep.of(isotherm) for isotherm in tensile.isotherms]
-    found = shifted_isotherms(tensile.isotherms, logs, kelvin, known, vertical == "free", shift, fixed, quantities)
-    notes = (*tensile.notes, *quantities.notes, *found.notes)
-    return Superposition(
-        found.factors, _master_curve(found.joined, found.factors), found.quality, notes,
-        found.joined.isotherms, found.vertical, found.cross, found.offsets, found.unidentified,
-        quantities.by, None if weights is None else (float(quantities.weights[0]), float(quantities.weights[1])),
-    )  # fmt: skip
+    joined, found = shifted_isotherms(
+        tensile.isotherms, logs, kelvin, known, vertical == "free", shift, fixed, quantities
+    )
+    found["notes"] = (*tensile.notes, *quantities.notes, *found["notes"])
+    unequal = None if weights is None else (float(quantities.weights[0]), float(quantities.weights[1]))
+    curve = _master_curve(joined, found["shift_factors"])
+    return Superposition(master_curve=curve, shifted_by=quantities.by, weights=unequal, **found)
 
 
 def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None, kelvin: float) -> VerticalShift | None:
