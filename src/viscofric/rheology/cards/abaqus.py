@@ -19,14 +19,14 @@ from viscofric.rheology.cards.card import (
     Solid,
     Writing,
     first_of_several,
+    long_term_share,
     number_in,
     number_text,
-    poisson_ratio_of,
     relative_series,
     tensile,
     unread_shift,
 )
-from viscofric.rheology.cards.native import contents_of, number_of
+from viscofric.rheology.cards.native import contents_of, number_of, share_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
@@ -132,19 +132,14 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     shares = [row[0] for row in rows], [row[1] for row in rows]
     times = [row[2] * reading.second for row in rows]
     shear, bulk, instantaneous = _elasticity(chosen, reading, notes)
+    stated = share_of(content)
     if not instantaneous:
-        shear = shear / _left(shares[0], viscoelastic.row)
-        bulk = None if bulk is None else bulk / _left(shares[1], viscoelastic.row)
-    poisson = 0.5 if bulk is None else poisson_ratio_of(shear, bulk)
-    if not instantaneous:
-        shear, bulk = _as_stated(shear, bulk, poisson, content)
-    stated = number_of(content, "E0")
-    long_term = None if stated is None else stated / (2.0 * (1.0 + poisson))
-    series = relative_series(shear, shares[0], times, long_term)
+        shear = shear / _left(shares[0], viscoelastic.row, stated)
+        bulk = None if bulk is None else bulk / _left(shares[1], viscoelastic.row, stated)
+    series = relative_series(shear, shares[0], times, stated)
     bulk_series = None
     if bulk is not None:
-        scaled = None if long_term is None or shares[0] != shares[1] else long_term * bulk / shear
-        bulk_series = relative_series(bulk, shares[1], times, scaled)
+        bulk_series = relative_series(bulk, shares[1], times, stated)
         kept = bulk_series.E > 0.0
         bulk_series = RelaxationSpectrum(bulk_series.E0, bulk_series.E[kept], bulk_series.tau[kept])
     spectrum, ratio, found = tensile(series, bulk_series)
@@ -210,9 +205,9 @@ def _only(blocks: list[_Block], keyword: str) -> _Block | None:
     return next((block for block in blocks if block.keyword == keyword), None)
 
 
-def _left(shares: list[float], row: int) -> float:
+def _left(shares: list[float], row: int, stated: float | None) -> float:
     """Return the long-term modulus over the instantaneous one."""
-    left = 1.0 - sum(shares)
+    left = long_term_share(shares, stated)
     if left <= 0.0:
         raise InputError(
             f"line {row}: the relative moduli add up to {1.0 - left:.6g}; with long-term moduli given they must stay "
@@ -220,19 +215,6 @@ def _left(shares: list[float], row: int) -> float:
             code="relative-moduli",
         )
     return left
-
-
-def _as_stated(
-    shear: float, bulk: float | None, poisson: float, content: dict[str, Any] | None
-) -> tuple[float, float | None]:
-    """Return the instantaneous moduli of the comments where they equal those of the card, except for the last digit."""
-    stated = number_of(content, "E_inf")
-    tensile_modulus = 2.0 * (1.0 + poisson) * shear
-    # Division by 1 − Σg loses as many digits as relaxed and glassy modulus differ by decades.
-    if stated is None or abs(stated - tensile_modulus) > 1e-9 * tensile_modulus:
-        return shear, bulk
-    scale = stated / tensile_modulus
-    return scale * shear, None if bulk is None else scale * bulk
 
 
 def _elasticity(blocks: list[_Block], reading: Reading, notes: list[str]) -> tuple[float, float | None, bool]:

@@ -27,7 +27,7 @@ from viscofric.rheology.cards.card import (
     tensile,
     unread_shift,
 )
-from viscofric.rheology.cards.native import contents_of, number_of
+from viscofric.rheology.cards.native import contents_of, number_of, share_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT
@@ -164,17 +164,14 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     unknown = sorted(set(series) - {"SHEAR", "BULK"})
     if unknown or "SHEAR" not in series:
         raise InputError("needs TB,PRONY,…,SHEAR (and BULK); other options of TB,PRONY are not read.", code="no-terms")
-    stated = number_of(content, "E0")
+    stated = share_of(content)
     shear = modulus / (2.0 * (1.0 + ratio))
     bulk = modulus / (3.0 * (1.0 - 2.0 * ratio))
-    alike = series["SHEAR"] == series.get("BULK")
-    share = None if stated is None or not alike else stated / modulus
-    shear_series = relative_series(shear, *series["SHEAR"], None if share is None else share * shear)
-    bulk_series = relative_series(bulk, *series.get("BULK", ([], [])), None if share is None else share * bulk)
+    shear_series = relative_series(shear, *series["SHEAR"], stated)
+    bulk_series = relative_series(bulk, *series.get("BULK", ([], [])), stated)
     spectrum, poisson, found = tensile(shear_series, bulk_series)
     shift = _shift(next((table for table in tables if table.name == "SHIFT"), None), reading, content, notes)
-    # With equal series the ratio of the card is exact.
-    return Solid(spectrum, ratio if alike else poisson, shift, "", (*notes, *found))
+    return Solid(spectrum, poisson, shift, "", (*notes, *found))
 
 
 def _commands(text: str) -> tuple[dict[str, dict[str, _Command]], list[_Table], set[str], str | None]:

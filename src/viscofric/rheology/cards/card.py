@@ -214,9 +214,8 @@ def unread_shift(command: str, option: str, constants: Sequence[float] = ()) -> 
 
 
 def poisson_ratio_of(shear: float, bulk: float) -> float:
-    """Return ν = (3K − 2G)/(2(3K + G)); zero where it differs from zero by rounding only."""
-    ratio = (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
-    return 0.0 if abs(ratio) < _ALIKE else ratio
+    """Return ν = (3K − 2G)/(2(3K + G)), without the digits that it has by rounding."""
+    return round((3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear)), 12)
 
 
 #: Shear and bulk modes of a card whose times and ratios agree within this are one relaxation.
@@ -275,18 +274,20 @@ def _alike(shear: RelaxationSpectrum, bulk: RelaxationSpectrum) -> bool:
     )
 
 
-def relative_series(modulus: float, ratios: Any, times: Any, long_term: float | None = None) -> RelaxationSpectrum:
+def long_term_share(ratios: Any, stated: float | None) -> float:
+    """Return the long-term modulus over the instantaneous one, 1 − Σg; as `stated` where that is the same number."""
+    share = 1.0 - float(np.sum(ratios))  # loses digits
+    if stated is not None and abs(stated - share) <= _ALIKE:
+        return stated
+    return 0.0 if abs(share) < 1e-12 else share
+
+
+def relative_series(modulus: float, ratios: Any, times: Any, stated: float | None = None) -> RelaxationSpectrum:
     """Return a Prony series from its instantaneous modulus (Pa), relative moduli g_i and relaxation times (s)."""
-    # Abaqus and ANSYS store it so. `long_term` is the long-term modulus where it is known more accurately than by
-    # modulus (1 − Σg), which loses digits.
-    share = 1.0 - float(np.sum(ratios))
-    rubber = modulus * share
-    if long_term is not None and abs(long_term - rubber) <= 1e-9 * modulus:
-        rubber = long_term
-    if abs(share) < 1e-12:
-        rubber = 0.0
-    if share < -1e-12:
+    # Abaqus and ANSYS store it so.
+    share = long_term_share(ratios, stated)
+    if share < 0.0:
         raise InputError(
             f"the relative moduli add up to {1.0 - share:.6g}; they must stay below 1.", code="relative-moduli"
         )
-    return RelaxationSpectrum(rubber, modulus * np.asarray(ratios, dtype=float), times)
+    return RelaxationSpectrum(modulus * share, modulus * np.asarray(ratios, dtype=float), times)

@@ -166,9 +166,8 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     ratio = _value(values, "nu", "dimensionless")
     factor = 2.0 * (1.0 + ratio)
     notes += _bulk_note(values, ratio)
-    E0 = _long_term(factor * _value(values, "G_long_term", "Pa"), content)
     spectrum = RelaxationSpectrum(
-        E0,
+        factor * _value(values, "G_long_term", "Pa"),
         [factor * _value(values, f"G_{number}", "Pa") for number in branches],
         [_value(values, f"tau_{number}", "s") for number in branches],
     ).to_retardation()
@@ -226,9 +225,3 @@ def _value(values: dict[str, str], name: str, unit: str) -> float:
         return to_si(float(given), unit, name)
     except ValueError:
         raise InputError(f"{name} = {given!r}: is not a number.", code="not-a-number") from None
-
-
-def _long_term(E0: float, content: dict[str, Any] | None) -> float:
-    """Return E0 of the comments where it equals that of the card, except for the last digit."""
-    stated = number_of(content, "E0")
-    return stated if stated is not None and abs(stated - E0) <= 1e-12 * abs(E0) else E0

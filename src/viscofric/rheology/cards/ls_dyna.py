@@ -112,9 +112,6 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
             "the bulk modulus BULK and all KI are zero; one of them must be above zero.", code="not-positive"
         )
     spectrum, poisson, found = tensile(shear, bulk)
-    stated = number_of(content, "poisson_ratio")
-    if stated is not None and abs(stated - poisson) <= 1e-9:
-        poisson = stated
     return Solid(spectrum, poisson, _shift(reference, A, B, reading, content, notes), name, (*notes, *found))
 
 

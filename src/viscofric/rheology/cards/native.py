@@ -294,6 +294,12 @@ def number_of(content: dict[str, Any] | None, name: str) -> float | None:
     raise InputError(f"the lines marked {_MARK!r} are damaged: {name} is no number.", code="damaged")
 
 
+def share_of(content: dict[str, Any] | None) -> float | None:
+    """Return the long-term modulus over the instantaneous one by the comments, if they have both."""
+    E0, E_inf = number_of(content, "E0"), number_of(content, "E_inf")
+    return E0 / E_inf if E0 is not None and E_inf else None
+
+
 def modulus_unit_of(content: dict[str, Any] | None) -> str | None:
     """Return the unit of moduli that `contents_of` put into the comments, if there is one."""
     unit = None if content is None else content["card"].get("unit_system")
