@@ -35,6 +35,8 @@ _ENDED = "a process ended before its contact was solved, usually for lack of mem
 ONE_BLAS_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 # Waiting without a limit cannot be interrupted everywhere (Windows).
 _LONGEST_WAIT = 1.0  # s
+#: Processes that may end during a call of `as_they_come`.
+_TRIES = 3
 
 
 class Reply(NamedTuple):
@@ -270,16 +272,16 @@ def call_all(
 
 
 def as_they_come(
-    function: Callable[..., Any], calls: Sequence[dict[str, Any]], *, workers: Workers, tries: int = 3
+    function: Callable[..., Any], calls: Sequence[dict[str, Any]], *, workers: Workers
 ) -> Generator[tuple[int, str, Any]]:
     """Yield index of the call, kind and value at the begin and the end of each call, see `call_all`.
 
-    Kinds are ``"begun"``, ``"result"``, ``"error"`` (its exception) and ``"ended"`` (given up after `tries` processes
+    Kinds are ``"begun"``, ``"result"``, ``"error"`` (its exception) and ``"ended"`` (given up after three processes
     ended during it; an exception that states this).  Unlike in `call_all`, an error of one call does not stop the
     others, and a process that ended is replaced by another, which repeats its call.  An interrupt, or closing the
     iterator, ends the processes at once.
     """
-    return _replies(function, calls, workers, tries, stops=False)
+    return _replies(function, calls, workers, _TRIES, stops=False)
 
 
 def _replies(

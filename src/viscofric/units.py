@@ -344,7 +344,7 @@ def positive(value: Quantity, unit: str, name: str) -> float:
         least = "absolute zero" if unit == "K" else "zero"
         raise _wrong("not-positive", name, value, unit, f"must be above {least}")
     if number < 1.0 / LARGEST:
-        raise _wrong("too-small", name, value, unit, f"is below {1.0 / LARGEST:g}, too small for computations")
+        raise _wrong("too-small", "speed", value, unit, f"is below {1.0 / LARGEST:g}, too small for computations")
     return number
 
 
@@ -383,13 +383,13 @@ def two_lengths(value: Quantity | tuple[Quantity, Quantity]) -> tuple[float, flo
     return positive(pair[0], "m", "spacing"), positive(pair[1], "m", "spacing")
 
 
-def velocity(value: Quantity, name: str = "speed") -> float:
+def velocity(value: Quantity) -> float:
     """Convert like `to_si`, but accept infinite speeds, one of the elastic limits."""
     if isinstance(value, float) and math.isinf(value):
         return value
-    number = to_si(value, "m/s", name)
+    number = to_si(value, "m/s", "speed")
     if 0.0 < abs(number) < 1.0 / LARGEST:
-        raise _wrong("too-small", name, value, "m/s", f"is below {1.0 / LARGEST:g}, too small for computations")
+        raise _wrong("too-small", "speed", value, "m/s", f"is below {1.0 / LARGEST:g}, too small for computations")
     return number
 
 

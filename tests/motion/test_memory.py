@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import viscofric as vf
-from viscofric.motion.memory import Modes, phi, step_coefficients, step_parts
+from viscofric.motion import wave_memory
+from viscofric.motion.memory import Modes, StepCoefficients, phi, step_coefficients, step_parts
 
 NODES, WEIGHTS = (0.5 * (part + [1.0, 0.0][i]) for i, part in enumerate(np.polynomial.legendre.leggauss(60)))
 
@@ -43,10 +44,17 @@ def test_step_under_a_linear_pressure_is_exact(kappa: float) -> None:
     assert decay.dtype == np.float64
 
 
+def of_waves(kappa: list[float], turn: list[float]) -> StepCoefficients:
+    """Return the coefficients (steps, 1, waves) of steps in the indenter's frame, where waves turn by an angle."""
+    steps = np.array(kappa)
+    decay, functions = wave_memory._functions(steps, np.broadcast_to(turn, (len(kappa), 1, len(turn))), 2)
+    return wave_memory._coefficients(steps, decay, functions)
+
+
 def test_steps_divide() -> None:
     # A step is the same as two, with the pressure between them; in the indenter's frame as well.
-    kappa, turn = np.array([1e-4, 0.2, 5.0])[:, None], np.array([0.0, 0.01, 1.0, 40.0])
-    whole, half = step_coefficients(kappa, turn), step_coefficients(0.5 * kappa, 0.5 * turn)
+    kappa, turn = np.array([1e-4, 0.2, 5.0]), np.array([0.0, 0.01, 1.0, 40.0])
+    whole, half = of_waves(list(kappa), list(turn)), of_waves(list(0.5 * kappa), list(0.5 * turn))
     q0, p0, p1 = 0.4 - 0.1j, 1.0 + 0.5j, -0.7 + 0.2j
     between = half.decay * q0 + half.start * p0 + half.end * 0.5 * (p0 + p1)
     assert half.decay * between + half.start * 0.5 * (p0 + p1) + half.end * p1 == pytest.approx(
@@ -58,14 +66,14 @@ def test_steps_divide() -> None:
 def test_steady_sliding_is_a_fixed_point_of_any_step(step: float) -> None:
     # A steady wave has q = p/(1 − i τ q·v), whatever the step.
     turn = np.array([0.0, 1e-6, 0.4, 7.0]) * step
-    decay, start, end = step_coefficients(step, turn)
+    decay, start, end = of_waves([step], list(turn))
     steady = 1.0 / (1.0 - 1j * turn / step)
-    assert decay * steady + start + end == pytest.approx(steady, rel=1e-12)
+    assert decay * steady + start + end == pytest.approx(np.broadcast_to(steady, decay.shape), rel=1e-12)
 
 
 def test_jump_moves_the_memory_only() -> None:
-    decay, start, end = step_coefficients(np.zeros(3), np.array([0.0, 0.3, -2.0]))
-    assert decay == pytest.approx(np.exp(1j * np.array([0.0, 0.3, -2.0])))
+    decay, start, end = of_waves([0.0], [0.0, 0.3, -2.0])
+    assert decay.ravel() == pytest.approx(np.exp(1j * np.array([0.0, 0.3, -2.0])))
     assert not start.any()
     assert not end.any()
 

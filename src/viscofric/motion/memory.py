@@ -68,14 +68,12 @@ class StepCoefficients(NamedTuple):
     end: NDArray[Any]
 
 
-def step_coefficients(steps: ArrayLike, turn: ArrayLike = 0.0) -> StepCoefficients:
+def step_coefficients(steps: ArrayLike) -> StepCoefficients:
     """Return the exact coefficients of a step."""
-    # `steps` are κ = Δt/τ, not below zero; zero is a jump, which does not change q. `turn` is q·Δs in the indenter's
-    # frame, zero in the solid's; both broadcast. The coefficients are real without `turn`.
-    kappa, angle = np.asarray(steps, dtype=np.float64), np.asarray(turn, dtype=np.float64)
-    z = -kappa + 1j * angle if np.any(angle != 0.0) else np.broadcast_to(-kappa, np.broadcast(kappa, angle).shape)
-    first, second = phi(z)
-    return StepCoefficients(np.exp(z), kappa * (first - second), kappa * second)
+    # `steps` are κ = Δt/τ, not below zero; zero is a jump, which does not change q.
+    kappa = np.asarray(steps, dtype=np.float64)
+    first, second = phi(-kappa)
+    return StepCoefficients(np.exp(-kappa), kappa * (first - second), kappa * second)
 
 
 #: Where series replace differences that would cancel.

@@ -18,6 +18,8 @@ SHARE = 0.25
 MOST, BESIDE = 6, 3
 # Factor on their differences, for an error that holds in 95 % of all places also on steep curves.
 _CAUTION = 2.0
+#: Largest distance of connected nodes, in steps.
+FURTHEST = 64
 # Where polynomials are compared, from one end of an interval to the other.
 _WITHIN = np.array([0.15, 0.35, 0.5, 0.65, 0.85])
 
@@ -30,13 +32,13 @@ class Stencil(NamedTuple):
     fewer: tuple[tuple[int, ...], ...]  # rows of the polynomials of lower degree, which estimate the truncation error
 
 
-def stencil(low: int, high: int, known: Sequence[int], furthest: int) -> Stencil:
+def stencil(low: int, high: int, known: Sequence[int]) -> Stencil:
     """Choose the nodes of the polynomial over an interval whose two ends are known."""
     # Their distances are not below the length of the interval, where a curve was refined nearby: closer nodes would add
-    # little and magnify their errors. Neighbours more than `furthest` apart are not connected.
+    # little and magnify their errors.
     least = high - low
-    below = _walk([node for node in reversed(known) if node < low], low, -1, least, furthest)
-    above = _walk([node for node in known if node > high], high, 1, least, furthest)
+    below = _walk([node for node in reversed(known) if node < low], low, -1, least)
+    above = _walk([node for node in known if node > high], high, 1, least)
     # If there are few on one side, take more on the other.
     left = min(len(below), max(BESIDE, MOST - len(above)))
     right = min(len(above), MOST - left)
@@ -48,11 +50,11 @@ def stencil(low: int, high: int, known: Sequence[int], furthest: int) -> Stencil
     return Stencil((low, high), nodes, (inner, every[1:], every[:-1]))
 
 
-def _walk(beyond: list[int], first: int, toward: int, least: int, furthest: int) -> list[int]:
+def _walk(beyond: list[int], first: int, toward: int, least: int) -> list[int]:
     found = [first]
     for node in beyond:
         away = toward * (node - found[-1])
-        if away > furthest or len(found) == MOST - 1:
+        if away > FURTHEST or len(found) == MOST - 1:
             break
         if away >= least:
             found.append(node)

@@ -30,8 +30,6 @@ from viscofric.friction.cases.interpolation import (
 STEP = 1.0 / 32.0
 # Length of the first intervals, in steps, at accuracies up to and above the limit.
 _FINE_START, _COARSE_START, _COARSE_FROM = 32, 64, 1e-2
-#: Largest distance of connected nodes, in steps.
-FURTHEST = 64
 # Least factor by which halving an interval reduces the error, by the number of nodes of its polynomial: in the limit it
 # is 2 to the power of their number.  Between nodes further apart than the first ones at high accuracy, where peaks of
 # single modes fit between, no reduction is certain.
@@ -151,7 +149,7 @@ class Curve:
 
     def between(self, one: Interval) -> Between:
         """Interpolate the cases of a closed interval."""
-        chosen = stencil(one.low, one.high, sorted(self._nodes), FURTHEST)
+        chosen = stencil(one.low, one.high, sorted(self._nodes))
         nodes = [(STEP * node, self._nodes[node].record) for node in chosen.nodes]
         ends = self._nodes[one.low].record, self._nodes[one.high].record
         return Between(one.cases.tolist(), nodes, ends, self._at(chosen, self._places[one.cases]))
@@ -171,7 +169,7 @@ class Curve:
 
     def _predicts(self, one: Interval, known: list[int]) -> bool:
         """Whether friction at the midpoint agrees with the value predicted by the earlier nodes."""
-        chosen = stencil(one.low, one.high, known, FURTHEST)
+        chosen = stencil(one.low, one.high, known)
         expected = self._at(chosen, np.array([STEP * one.middle]))
         solved = self._nodes[one.middle]
         value, error = solved.values[FRICTION], solved.errors[FRICTION]
@@ -183,7 +181,7 @@ class Curve:
 
     def _agrees(self, one: Interval, known: list[int]) -> bool:
         """Whether polynomials of different degree agree on friction in the middle of an interval."""
-        chosen = stencil(one.low, one.high, known, FURTHEST)
+        chosen = stencil(one.low, one.high, known)
         middle = self._at(chosen, np.array([0.5 * STEP * (one.low + one.high)]))
         noise = middle.from_nodes[0, FRICTION]
         allowed = _GAIN[len(chosen.nodes) - 1] * self._allowed(middle.values[0, FRICTION])

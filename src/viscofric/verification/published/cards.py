@@ -39,11 +39,12 @@ def card_numbers() -> tuple[float, float, Array, tuple[float, float, float]]:
     return modulus, ratio, np.array(blocks["*VISCOELASTIC"]), (reference, C1, C2)
 
 
-def held_element(seconds: float, kelvin: float, strain: float = 1e-6) -> float:
+def held_element(seconds: float, kelvin: float) -> float:
     """Axial stress, Pa, of a bar element with free sides: only the deviator relaxes, the bulk modulus stays.
 
     The strain rises over the first of 100 equal increments, each integrated exactly for a linear rise.
     """
+    strain = 1e-6
     modulus, ratio, prony, (reference, C1, C2) = card_numbers()
     shear, bulk = modulus / (2.0 * (1.0 + ratio)), modulus / (3.0 * (1.0 - 2.0 * ratio))
     g, tau = prony[:, 0], prony[:, 2]

@@ -31,6 +31,8 @@ _READ = frozenset(
 _AMPLITUDE = re.compile(r"amplitude|(strain|stress|force|displacement) sweep", re.IGNORECASE)
 #: Relative range of the measured values of one set frequency; every sweep is wider.
 _SAME_FREQUENCY = 0.05
+#: Number of names that are listed.
+_NAMED = 6
 #: A temperature ramp ranges over more than this (K or °C), an amplitude sweep over more than this factor.
 RAMP, SWEPT = 5.0, 2.0
 
@@ -247,6 +249,6 @@ def _passed_over(steps: Sequence[Step], test: Test) -> list[str]:
     return [Note(f"no-{TESTS[test].replace(' ', '-')}", f"{what} skipped: {_listed(others)}.", values=values)]
 
 
-def _listed(names: Sequence[str], most: int = 6) -> str:
+def _listed(names: Sequence[str]) -> str:
     """Name the first few."""
-    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
+    return ", ".join(names[:_NAMED]) + (f" and {len(names) - _NAMED} more" if len(names) > _NAMED else "")
