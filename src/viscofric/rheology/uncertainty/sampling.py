@@ -16,6 +16,7 @@ from viscofric.arrays import Array, Integers
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
+from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
@@ -257,8 +258,6 @@ Fit: TypeAlias = Superposition | StepSuperposition
 FEWEST_SAMPLES = 20
 #: Relative tolerance of the ranges that a spectrum states of its master curve; files round.
 SAME = 1e-3
-#: Negligible scatter of shift factors about a law, and scatter that explains any misfit; decades.
-SCATTER = 1e-7, 10.0
 
 
 @one_blas_thread
@@ -448,27 +447,13 @@ def _errors(random: np.random.Generator, fit: Fit, samples: int) -> tuple[Array,
 
 def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: ParametricLaw) -> list[ShiftLaw]:
     """Return the law of every sample: its constants follow linearly from the errors of the shift factors."""
-    # The law's own covariance shows the scatter of the table about it beyond its uncertainty (`ShiftFactors.law`); this
-    # scatter is drawn too.
-    differences = np.diff(np.eye(len(shifts.temperatures)), axis=0)
-    gradient = differences @ law.gradient(shifts.temperatures)
+    # The scatter of the table about the law beyond its uncertainty is drawn too.
+    table = law_fitting.FactorTable.of(shifts.temperatures, shifts.log10_values, shifts.covariance, shifts.reference)
+    scatter = law_fitting.fitted(law.kind, table, len(law.parameters) if law.kind == "polynomial" else None).scatter
     constants = law.parameters
     scale = np.abs(constants) + 1e-300
-
-    def covariance_and_gain(scatter: float) -> tuple[Array, Array]:
-        spread = differences @ (shifts.covariance + scatter**2 * np.eye(len(shifts.temperatures))) @ differences.T
-        weighted = np.linalg.solve(spread, gradient * scale)
-        covariance = np.linalg.inv(weighted.T @ (gradient * scale))
-        return np.asarray(covariance), np.asarray(covariance @ weighted.T @ differences)
-
-    wanted = np.linalg.slogdet(np.asarray(law.covariance) / np.outer(scale, scale))[1]
-    low, high = np.log(SCATTER)
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        above = np.linalg.slogdet(covariance_and_gain(float(np.exp(middle)))[0])[1] > wanted
-        low, high = (low, middle) if above else (middle, high)
-    scatter = float(np.exp(low))
-    gain = covariance_and_gain(scatter)[1]
+    whiten = table.whitening(scatter**2)
+    gain = np.linalg.pinv(whiten(law.gradient(shifts.temperatures) * scale)) @ whiten(np.eye(len(shifts.temperatures)))
     errors = (moved + scatter * random.standard_normal(moved.shape)) @ gain.T
     drawn = constants * np.exp(errors) if np.all(constants > 0.0) else constants + scale * errors
     # A sample is valid at the same temperatures as the law.
