@@ -37,7 +37,7 @@ from viscofric.contact.bodies import half_space_coupling
 from viscofric.contact.coupling import SurfaceCoupling
 from viscofric.contact.heated_result import INTERFACE, beyond
 from viscofric.datasets import Dataset, dataset
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.heat.heating import Heating
 from viscofric.heat.interface import SlidingInterface
 from viscofric.heat.result import HeatColumns
@@ -272,7 +272,7 @@ def persson_theory(
     insist_on(spectrum, "spectrum", PowerSpectrum, right="a PowerSpectrum; see power_spectrum(topography)")
     velocities, kelvins = states(speeds, temperatures)
     if not np.all(velocities >= 0.0):
-        raise InputError("speeds must hold at least one value, none of them below zero.", code="empty-list")
+        raise wrong_argument("speeds", speeds, "must not be below zero.", "negative")
     sharing = to_si(gamma, "dimensionless", "gamma")
     if not 0.0 <= sharing <= 1.0:
         raise InputError(f"gamma = {sharing:g}: must lie between 0 and 1.", code="out-of-range")
@@ -420,13 +420,7 @@ def _columns(isothermal: Found, cold: Found, hot: Found, branch: str) -> dict[st
 def _hottest(material: Material, kelvin: float) -> float:
     """Return a rise of temperature, K, at which α is known, from which a hot state is looked for."""
     assert material.shift is not None
-    for rise in _HOT:
-        try:
-            material.shift.log10(kelvin + rise)
-        except InputError:
-            continue
-        return rise
-    return 0.0
+    return next((rise for rise in _HOT if material.shift.valid_at(kelvin + rise)), 0.0)
 
 
 def _flash(
