@@ -56,33 +56,15 @@ OTHER_REMEDY = (
 
 @dataclass(frozen=True)
 class ShearedContact:
-    """A contact solved without shear, and the shear of its Coulomb friction.
+    """A contact solved without shear, and the shear of its Coulomb friction."""
 
-    Attributes
-    ----------
-    stress : float
-        Mean shear stress of the contact, Pa.
-    friction : float
-        Viscoelastic friction coefficient.
-    compliance : float
-        (1 − ν²)|<X S(q v)>|, 1/Pa.
-    line : bool
-        Whether it is a line contact.
-    filled : float
-        Contact area over the nominal one, zero for indenters.
-    where : str
-        Its conditions in words.
-    solved : float
-        Mean shear stress that it was solved with, Pa.
-    """
-
-    stress: float
-    friction: float
-    compliance: float
-    line: bool = False
-    filled: float = 0.0
-    where: str = ""
-    solved: float = 0.0
+    stress: float  # mean shear stress of the contact, Pa
+    friction: float  # viscoelastic friction coefficient
+    compliance: float  # (1 − ν²)|<X S(q v)>|, 1/Pa
+    line: bool = False  # whether it is a line contact
+    filled: float = 0.0  # contact area over the nominal one, zero for indenters
+    where: str = ""  # its conditions in words
+    solved: float = 0.0  # mean shear stress that it was solved with, Pa
 
     @property
     def left_out(self) -> float:
@@ -163,21 +145,11 @@ def sheared_compliance(
 
 @dataclass(frozen=True)
 class SurfaceCoupling:
-    """What the shear of contacts on a rough surface depends on.
+    """What the shear of contacts on a rough surface depends on."""
 
-    Attributes
-    ----------
-    slope : float
-        Rms slope of the surface.
-    coupling : float
-        |<X>| over the mean of Θ, over its waves, weighted with their slopes.
-    profile : bool
-        Whether it is the same everywhere across the motion.
-    """
-
-    slope: float
-    coupling: float
-    profile: bool = False
+    slope: float  # rms slope of the surface
+    coupling: float  # |<X>| over the mean of Θ, over its waves, weighted with their slopes
+    profile: bool = False  # whether it is the same everywhere across the motion
 
     @classmethod
     def of(cls, surface: PeriodicSurface, poisson_ratio: float, layer: Layer | None) -> SurfaceCoupling:

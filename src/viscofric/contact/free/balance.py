@@ -81,11 +81,10 @@ def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
 def _left_out(material: SteadyMaterial, spacing: float, cut: float) -> tuple[Array, ComplexArray, Array, Array]:
     """Return, of the waves beyond the cut: wavenumber, S, what of the loss is found from bends, over q, and weight."""
     wavenumber = cut / spacing * np.exp(_LOGARITHMS)
-    lengths, compliances = material.memory_lengths, material.compliances
-    phase = np.outer(lengths, wavenumber)
-    wave = 1.0 / (1.0 + phase**2)
-    loss = (bent_share(lengths / spacing) * compliances * lengths) @ wave
-    symbol = material.glassy + material.counterface + compliances @ wave + 1j * (compliances @ (phase * wave))
+    lengths, symbol = material.memory_lengths, material.symbol(wavenumber)
+    loss = (bent_share(lengths / spacing) * material.compliances * lengths) @ (
+        1.0 / (1.0 + np.outer(lengths, wavenumber) ** 2)
+    )
     weight = _WEIGHTS * (wavenumber * np.abs(symbol)) ** -2.0  # w q Δ(ln q) / |S|², without the constant
     return wavenumber, symbol, loss, weight
 
