@@ -138,8 +138,8 @@ def _dma() -> dict[str, xr.Dataset]:
             {
                 "E0": 3.021e6,
                 "E_inf": 1.507e9,
-                "E0_remark": "extrapolated: beyond what the sweeps reach",
-                "E_inf_remark": "reached by the sweeps",
+                "E0_remark": "extrapolated: beyond what was measured",
+                "E_inf_remark": "reached by the measurement",
                 "E_inf_at_limit": 0,
                 "statements": json.dumps(["E0 lies below what the sweeps reach & is extrapolated."]),
             },

@@ -171,7 +171,7 @@ def test_answer_names_the_key_numbers(tree: xr.DataTree, tmp_path: Path) -> None
         "10.040 ± 0.050",
         "89.60 ± 0.60 K",
         "3.02 MPa",
-        "extrapolated: beyond what the sweeps reach",
+        "extrapolated: beyond what was measured",
         "1.51 GPa",
         "3.2 %",
         "+0.4 % on average",

@@ -446,7 +446,7 @@ def test_plain_numbers_are_named_to_users_of_python_only() -> None:
 @pytest.mark.parametrize(
     ("known", "remarks"),
     [
-        ({}, ("reached by the sweeps", "reached by the sweeps")),
+        ({}, ("reached by the measurement", "reached by the measurement")),
         (
             {"method": FROM_FRICTION, "E_inf_extrapolated": True},
             (None, "extrapolated: beyond the range of the friction"),
@@ -454,15 +454,15 @@ def test_plain_numbers_are_named_to_users_of_python_only() -> None:
         (
             {"E0_missed": True, "E_inf_missed": True, "measured_storage": (2.838e6, 5e8)},
             (
-                "the fit lies above the softest measured E', 2.838 MPa",
-                "the fit lies below the stiffest measured E', 500 MPa",
+                "the fit lies above the smallest measured modulus, 2.838 MPa",
+                "the fit lies below the largest measured modulus, 500 MPa",
             ),
         ),
         (
             {"E_inf_at_limit": True},
             (
                 None,
-                "not known: the sweeps do not reach it, and the fit stopped at 30 times the largest measured E'",
+                "not known: the measurement does not reach it, and the fit stopped at 30 times the largest modulus",
             ),
         ),
     ],

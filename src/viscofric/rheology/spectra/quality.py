@@ -14,12 +14,12 @@ from viscofric.notes import Note
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.showing import Rows, Shown
 
-_EXTRAPOLATED = "extrapolated: beyond what the sweeps reach"
+_EXTRAPOLATED = "extrapolated: beyond what was measured"
 _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
 #: Methods of spectra that were inferred from friction, and from indentation.
 FROM_FRICTION, FROM_INDENTATION = "friction", "indentation"
 _BEYOND_INDENTATION = "extrapolated: beyond the range of the indentation"
-_REACHED = "reached by the sweeps"
+_REACHED = "reached by the measurement"
 #: Code of the note on contacts at frequencies at which the material was not measured.
 BEYOND = "beyond-measured"
 _LITTLE = 0.01  # part of the friction that may rest on the extrapolated modulus without a note
@@ -162,16 +162,16 @@ class SpectrumFit(Shown):
     def E0_remark(self) -> str:
         """Short remark on how well E0 is known."""
         if self.E0_missed:
-            return f"the fit lies above the softest measured E'{self._measured(0)}"
+            return f"the fit lies above the smallest measured modulus{self._measured(0)}"
         return self._beyond if self.E0_extrapolated else _REACHED
 
     @property
     def E_inf_remark(self) -> str:
         """Short remark on how well E_inf is known."""
         if self.E_inf_at_limit:
-            return "not known: the sweeps do not reach it, and the fit stopped at 30 times the largest measured E'"
+            return "not known: the measurement does not reach it, and the fit stopped at 30 times the largest modulus"
         if self.E_inf_missed:
-            return f"the fit lies below the stiffest measured E'{self._measured(1)}"
+            return f"the fit lies below the largest measured modulus{self._measured(1)}"
         return self._beyond if self.E_inf_extrapolated else _REACHED
 
     @property
