@@ -110,7 +110,7 @@ def test_moments_are_sums_of_influence_coefficients_and_change_with_the_memory(
     def sums(logarithm: float) -> Array:
         lengths = LENGTHS * np.exp(logarithm)
         modes = np.eye(len(lengths))
-        found = memory_influence((15, 20), modes, lengths, shift, potential=cell, aspect=cell.aspect)
+        found = memory_influence((15, 20), modes, lengths, shift, potential=cell)
         return np.asarray(np.einsum("kij,mij->km", weights, found))
 
     moments, sensitivities = memory_moments(weights, LENGTHS, shift, cell)

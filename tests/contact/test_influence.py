@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -14,7 +13,7 @@ from scipy.special import gammainc
 from contact.dense_reference import memory_panels, square_potential
 from viscofric.contact.influence.memory_rules import ORDER, lattice_interpolation, product_weights
 from viscofric.contact.influence.mixtures import memory_influence
-from viscofric.contact.influence.potentials import cell_potential
+from viscofric.contact.influence.potentials import HalfSpaceCell, cell_potential
 
 WINDOW = (32, 24)
 # Where the loaded cell lies: under the point, just behind and ahead of it, beside it, near and far.
@@ -238,15 +237,12 @@ def test_rectangle_is_a_row_of_smaller_ones(aspect: float) -> None:
 @pytest.mark.parametrize("aspect", [0.2, 0.5, 3.0])
 def test_memory_on_rectangles_is_the_sum_of_that_on_smaller_cells(aspect: float) -> None:
     """A cell of three by one thirds of itself, along the motion, and looked at in the middle of the middle one."""
-    coarse = memory_influence(
-        (8, 30), np.ones((1, 1)), np.array([1.7]), potential=partial(cell_potential, aspect=aspect), aspect=aspect
-    )[0]
+    coarse = memory_influence((8, 30), np.ones((1, 1)), np.array([1.7]), potential=HalfSpaceCell(aspect))[0]
     fine = memory_influence(
         (26, 30),
         np.ones((1, 1)),
         np.array([5.1]),
-        potential=partial(cell_potential, aspect=3.0 * aspect),
-        aspect=3.0 * aspect,
+        potential=HalfSpaceCell(3.0 * aspect),
     )[0]
     places = 3 * np.arange(-7, 8) + 25
     summed = (fine[places - 1] + fine[places] + fine[places + 1]) / 3.0

@@ -218,9 +218,7 @@ def _influence(modes: _Modes, shape: tuple[int, ...], cell: CellPotential) -> Ar
     """Influence of the unit cell at offsets −(nx−1) … nx−1 and −(ny−1) … ny−1."""
     nx, ny = shape
     instant = np.array([modes.glassy])
-    (half,) = memory_influence(
-        (nx, ny), modes.compliances[None], modes.lengths, instant=instant, potential=cell, aspect=cell.aspect
-    )
+    (half,) = memory_influence((nx, ny), modes.compliances[None], modes.lengths, instant=instant, potential=cell)
     return np.concatenate([half[:, :0:-1], half], axis=1)
 
 

@@ -39,7 +39,7 @@ from viscofric.contact.influence.potentials import HalfSpaceCell
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
-    from viscofric.contact.influence.parts import Potential
+    from viscofric.contact.influence.potentials import CellPotential
 
 
 _HALF_SPACE = HalfSpaceCell()
@@ -52,9 +52,7 @@ def memory_influence(
     shift: float = 0.0,
     *,
     instant: Array | None = None,
-    potential: Potential = _HALF_SPACE,
-    aspect: float = 1.0,
-    even: bool = True,
+    potential: CellPotential = _HALF_SPACE,
 ) -> Array:
     """Return delayed displacements (k, 2 nx − 1, ny) around one loaded cell, for k mixtures of m modes.
 
@@ -65,14 +63,13 @@ def memory_influence(
     the coefficients c_m; `memory_lengths` (m,) are λ_m = v τ_m / h > 0, in cells, for motion towards +x.  Displacements
     are taken `shift` cells (0 to 0.5) behind the cell centres.  `instant` (k,), zero by default, is each mixture's
     factor of the displacement without memory, L; `potential` is L(x, y) of a cell as long as the unit of length, by
-    default of the half-space under a square cell, and `even` says whether it is even in x; `aspect` is the width of the
-    cells across the motion over their length.
+    default of the half-space under a square cell.
 
     The cost hardly depends on the number of modes: for each row of cells and each two mixtures, three FFTs along x,
     twice as long as the rows of the result.
     """
     nx, ny = shape
-    around = Around(potential, nx, shift, even)
+    around = Around(potential, nx, shift)
     result = np.zeros((len(mixtures), 2 * nx - 1, ny))
     modes = Modes(1.0 / np.asarray(memory_lengths, dtype=float), 2 * nx + ORDER - 2)
     mixtures = np.asarray(mixtures, dtype=float)
@@ -81,7 +78,7 @@ def memory_influence(
         weights[:, -FIRST] += instant
     length = scipy.fft.next_fast_len(4 * nx + ORDER - 4, real=True)
     spectra = np.conj(scipy.fft.rfft(weights, length, axis=1))
-    rows = aspect * np.arange(float(ny))
+    rows = potential.aspect * np.arange(float(ny))
     for start in range(0, ny, ROWS_AT_ONCE):
         piece = slice(start, min(start + ROWS_AT_ONCE, ny))
         lattice = scipy.fft.rfft(around.lattice(rows[piece]), length, axis=1)
@@ -89,7 +86,7 @@ def memory_influence(
             result[k, :, piece] = scipy.fft.irfft(lattice * spectrum, length, axis=1)[:, : 2 * nx - 1].T
     if len(memory_lengths):
         _add_tail(result, around, modes, mixtures, rows)
-        _correct_near(result, around, modes, mixtures, rows, 0.5 * aspect)
+        _correct_near(result, around, modes, mixtures, rows)
     return result
 
 
@@ -110,9 +107,9 @@ def _add_tail(result: Array, around: Around, modes: Modes, mixtures: Array, rows
         found += ((mixture[:, None] * fading).T @ tail) @ interpolation
 
 
-def _correct_near(result: Array, around: Around, modes: Modes, mixtures: Array, rows: Array, edge: float) -> None:
+def _correct_near(result: Array, around: Around, modes: Modes, mixtures: Array, rows: Array) -> None:
     begin, end = (distance + around.nx - 1 for distance in near_cells(around.nx))
-    memory = near_memory(around, modes, rows, edge)
+    memory = near_memory(around, modes, rows)
     near = memory.shape[1]
     result[:, begin : end + 1, :near] += np.moveaxis(memory @ mixtures.T, 2, 0)
     before = modes.fading[:, begin:0:-1]

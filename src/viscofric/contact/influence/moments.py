@@ -61,7 +61,7 @@ def memory_moments(
     found = _far(weights, around, modes, rows)
     first, last = (distance + around.nx - 1 for distance in near_cells(around.nx))
     before = modes.fading[:, first:0:-1]
-    memory = near_memory(around, modes, rows, 0.5 * potential.aspect)
+    memory = near_memory(around, modes, rows)
     near = weights[:, :, : memory.shape[1]]
     found += np.tensordot(near[:, first : last + 1], memory, 2)
     # Farther behind it fades.

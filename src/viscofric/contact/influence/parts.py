@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,12 +24,9 @@ from viscofric.contact.influence.memory_rules import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from viscofric.arrays import Array
     from viscofric.contact.influence.memory_rules import Inexact
-
-    Potential: TypeAlias = Callable[[Array, Array], Array]
+    from viscofric.contact.influence.potentials import CellPotential
 
 # Distance from the loaded cell from which on L is interpolated through 16 points on the lattice.  The error falls as
 # the product of their distances from the middle of the cell, 6.3e7, over the distance's 16th power: below 1e-12 here.
@@ -57,10 +54,9 @@ _LAST = int(lattice_interpolation()[0][-1])
 class Around:
     """The potential around the loaded cell, at places along x that are looked at."""
 
-    potential: Potential
+    potential: CellPotential
     nx: int
     shift: float
-    even: bool = True  # whether the potential is even in x
 
     def at(self, x: Array, y: Array) -> Array:
         """Values at places x, in cells from the loaded one, and rows y: (len(x), len(y))."""
@@ -69,7 +65,7 @@ class Around:
     def lattice(self, y: Array) -> Array:
         """Values at x = −(nx−1) + first … nx−1 + last node, for each row: (rows, 2 nx + nodes − 2)."""
         end = self.nx + _LAST
-        if self.shift != 0.0 or not self.even:
+        if self.shift != 0.0 or self.potential.drag != 0.0:  # else it is even in x
             return self.potential(np.arange(-(self.nx - 1.0) + FIRST, end) - self.shift, y[:, None])
         half = self.potential(np.arange(float(end)), y[:, None])
         return np.concatenate([half[:, end - 2 : 0 : -1], half], axis=1)
@@ -144,12 +140,12 @@ def near_cells(nx: int) -> tuple[int, int]:
     return max(-(nx - 1), -_SMOOTH - 1), min(nx - 1, _SMOOTH)
 
 
-def near_memory(around: Around, modes: Modes, rows: Array, edge: float) -> Inexact:
-    """Return the corrections by finer rules near the loaded cell, whose edge is at `edge` in y: (cells, n, m).
+def near_memory(around: Around, modes: Modes, rows: Array) -> Inexact:
+    """Return the corrections by finer rules near the loaded cell: (cells, n, m).
 
     At the distances `near_cells` along x and in the first n rows; farther behind the first of these cells it decays.
     """
-    first, last = near_cells(around.nx)
+    (first, last), edge = near_cells(around.nx), 0.5 * around.potential.aspect
     starts = np.searchsorted(rows - edge, _ROW_STARTS)
     memory = np.empty((last - first + 1, starts[-1], len(modes.rate)), modes.rate.dtype)
     halves = panel_weights(_ROW_PANELS[0], modes.rate)
@@ -178,7 +174,7 @@ def _summed(values: Array, weights: Inexact) -> Inexact:
 # Potentials near the loaded cell do not depend on the memory: the speeds of a curve share them.
 @lru_cache(maxsize=32)
 def _near_potentials(
-    potential: Potential, shift: float, first: int, last: int, y: tuple[float, ...], rule: int
+    potential: CellPotential, shift: float, first: int, last: int, y: tuple[float, ...], rule: int
 ) -> Array:
     """At a rule's points in the cells first … last, then on the lattice around each: (points + nodes, cells, rows)."""
     points = [panel_points(_ROW_PANELS[rule]), lattice_interpolation()[0].astype(float)]
@@ -186,14 +182,14 @@ def _near_potentials(
 
 
 @lru_cache(maxsize=32)
-def _edge_potentials(potential: Potential, shift: float, first: int, last: int, y: tuple[float, ...]) -> Array:
+def _edge_potentials(potential: CellPotential, shift: float, first: int, last: int, y: tuple[float, ...]) -> Array:
     """At the points of the graded and of the nearest rows' rule in the cells first … last: (points, cells, rows)."""
     points = [panel_points(_graded_panels(shift)), panel_points(_ROW_PANELS[0])]
     return _at_cells(potential, shift, points, (first, last), y)
 
 
 def _at_cells(
-    potential: Potential, shift: float, points: list[Array], cells: tuple[int, int], y: tuple[float, ...]
+    potential: CellPotential, shift: float, points: list[Array], cells: tuple[int, int], y: tuple[float, ...]
 ) -> Array:
     x, start = np.concatenate(points), np.arange(cells[0], cells[1] + 1.0)
     return potential((x[:, None] + start).reshape(-1, 1) - shift, np.array(y)).reshape(len(x), len(start), len(y))

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 class CellPotential(Protocol):
     """Displacement around a loaded cell, in units of the cell's length, but for the compliance."""
 
+    def __hash__(self) -> int:
+        """Cells are keys of tables that are kept."""
+
     @property
     def aspect(self) -> float:
         """Width of the cell across the motion over its length."""

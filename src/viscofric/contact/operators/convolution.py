@@ -377,24 +377,16 @@ def cell_influence(operator: ConvolutionOperator, cell: CellPotential, instant: 
     straight = (1.0 - bent) * compliances / lengths
     mixtures = np.stack([compliances, bent * compliances * lengths, straight])
     without_memory = np.array([instant, 0.0, -straight.sum()])
-    even = cell.drag == 0.0
     displacement, bend, slope = memory_influence(
-        (nx + 1, ny), mixtures, lengths, instant=without_memory, potential=cell, aspect=cell.aspect, even=even
+        (nx + 1, ny), mixtures, lengths, instant=without_memory, potential=cell
     )
     displacement, slope = displacement[1:-1], slope[1:-1]
     slope += second_difference(bend)
     if operator.shift > 0.0:
         (displacement,) = memory_influence(
-            (nx, ny),
-            mixtures[:1],
-            lengths,
-            operator.shift,
-            instant=without_memory[:1],
-            potential=cell,
-            aspect=cell.aspect,
-            even=even,
+            (nx, ny), mixtures[:1], lengths, operator.shift, instant=without_memory[:1], potential=cell
         )
-    if not even:
+    if cell.drag != 0.0:
         # ∂L/∂x has an even part, which works; it is in the differences of potentials of long memories only.
         instant_slope = cell.drag_slope(np.arange(-(nx - 1.0), nx)[:, None], cell.aspect * np.arange(float(ny)))
         slope += (instant + float((bent * compliances).sum())) * instant_slope
