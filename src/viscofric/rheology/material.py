@@ -280,10 +280,7 @@ class Material(Plotted):
             return ()
         at = ", ".join(shown_celsius(float(one), "z.4g") for one in beyond[:_MOST_SHOWN]) + " °C"
         at += f" and {beyond.size - _MOST_SHOWN} more temperatures" if beyond.size > _MOST_SHOWN else ""
-        fit = getattr(self.spectrum, "fit", None)
-        friction = fit is not None and fit.from_friction
-        behind = "of the friction from which it was identified" if friction else "of the sweeps"
-        said = f"At {at} the law extrapolates the shift factor beyond the temperatures {behind}."
+        said = f"At {at} the law extrapolates the shift factor beyond the temperatures that it was fitted to."
         return (Note(EXTRAPOLATED, said, values={"lowest": float(beyond[0]), "highest": float(beyond[-1])}),)
 
 

@@ -49,7 +49,7 @@ _ROUGH, _SMOOTH = ("contact_area_fraction", "mean_gap"), ("indentation", "contac
 _OF_TABLES = ("interface_friction", "total_friction", "heated_friction", "temperature_rise")
 _DOUBTS = {
     "extrapolated": "it depends on frequencies at which the material was not measured",
-    "shift": "the shift factor is extrapolated beyond the temperatures of the sweeps",
+    "shift": "the shift factor is extrapolated beyond the temperatures that its law was fitted to",
     "strain": "the contact is wide or steep: the small-strain assumption is doubtful",
     "inaccurate": "its estimated numerical error exceeds the requested accuracy",
 }
