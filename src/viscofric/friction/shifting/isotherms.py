@@ -18,6 +18,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import nominal_rows
 from viscofric.rheology.superposition.common_curve import Basis, Curves
 from viscofric.rheology.superposition.overlap import LogSweep
+from viscofric.rheology.uncertainty.material_samples import freedom_of_scatter
 
 #: Points of an isotherm whose speeds differ by less are one point.
 SAME_SPEED = 1e-3  # decades
@@ -201,6 +202,8 @@ def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[In
     # not account for. So squares are pooled with the typical one of their temperature, which counts for as many
     # replicates as their scatter over the points allows (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3 (2004) article
     # 3).
+    from scipy.special import polygamma
+
     known = np.isfinite(error)
     if not np.any(error[known] > 0.0):
         return np.full(error.shape, UNKNOWN_ERROR**2)
@@ -211,19 +214,11 @@ def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[In
         among = row[known[row]] if known[row].any() else np.flatnonzero(known)
         typical[row] = np.median(squared[among])
     freedom = np.where(known, np.clip(freedom, 1.0, EXACT), 0.0)
-    prior = _prior_freedom(np.log(squared / typical)[known], freedom[known])
+    excess = np.var(np.log(squared / typical)[known]) - np.mean(polygamma(1, 0.5 * freedom[known]))
+    prior = min(freedom_of_scatter(float(excess), 1.0, EXACT), EXACT)
     # The weight of one replicate without an error relative to those with one.
     fewer = np.where(known, 1.0, np.maximum(np.median(replicates[known]) / replicates, 1.0))
     return np.asarray(fewer * (freedom * squared + prior * typical) / (freedom + prior))
-
-
-def _prior_freedom(log_squares: Array, freedom: Array) -> float:
-    """Return the degrees of freedom of the typical squared error."""
-    from scipy.special import polygamma
-
-    candidates = np.logspace(0.0, 6.0, 61)
-    excess = np.var(log_squares) - np.mean(polygamma(1, freedom / 2.0))
-    return float(candidates[np.argmin(np.abs(polygamma(1, candidates / 2.0) - excess))])
 
 
 def _merged(
