@@ -18,7 +18,7 @@ from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note, Remedy
-from viscofric.rheology.cards.card import Reading, Solid, Writing, number_in, number_text, tensile
+from viscofric.rheology.cards.card import Reading, Solid, Writing, first_of_several, number_in, number_text, tensile
 from viscofric.rheology.cards.native import contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
@@ -122,11 +122,6 @@ def _cards(text: str, notes: list[str]) -> tuple[str, list[float], list[list[flo
     start, match = next(
         (index, found) for index, (_, line) in enumerate(lines) if (found := _KEYWORD.match(line.strip()))
     )
-    others = sum(1 for _, line in lines if _KEYWORD.match(line.strip()))
-    if others > 1:
-        notes.append(
-            Note("first-of-several", f"The file holds {others} general viscoelastic materials; the first was read.")
-        )
     wide = match[3] == "+" or (long_format and match[3] != "-")
     body = []
     for row, line in lines[start + 1 :]:
@@ -144,6 +139,9 @@ def _cards(text: str, notes: list[str]) -> tuple[str, list[float], list[list[flo
         raise InputError(
             "the terms come from load curves (LCID, LCIDK), which are not read; give GI and BETAI.", code="load-curves"
         )
+    count = sum(1 for _, line in lines if _KEYWORD.match(line.strip()))
+    if count > 1:
+        notes.append(first_of_several(count, f"{head[0]:g}", f"{head[0]:g}"))
     terms = [row[:4] for row in rows[2:] if any(row[:4])]
     if not terms:
         raise InputError("*MAT_GENERAL_VISCOELASTIC contains no terms GI, BETAI.", code="no-terms")
