@@ -357,7 +357,7 @@ def test_published_ansys_card_with_wlf(real_data):
     assert card.material.shift.reference == 268.0  # written 273-5
     found = {note.code: note for note in card.notes}
     assert set(found) == {"not-read", "ratio-of-rubber", "unit-assumed"}
-    assert all(name in found["not-read"] for name in ("MP,ALPX", "MP,REFT", "MPAMOD", "MPTEMP", "MPTGEN"))
+    assert {"MP,ALPX", "MP,REFT", "MPAMOD", "MPTEMP", "MPTGEN"} <= set(found["not-read"].values["names"])
     # The first and last of its shear terms by hand: G_i = g_i G, G = E/(2 · 1.35).
     share = 1.0 - spectrum.E0 / spectrum.E_inf
     assert 0.9 < share < 1.0

@@ -20,6 +20,7 @@ from viscofric.rheology.cards.card import (
     Writing,
     first_of_several,
     long_term_share,
+    not_read,
     number_in,
     number_text,
     relative_series,
@@ -189,15 +190,7 @@ def _material(blocks: list[_Block], notes: list[str]) -> tuple[list[_Block], str
     name = chosen[0].options.get("NAME", "") if chosen[0].keyword == "MATERIAL" else ""
     if len(viscoelastic) > 1:
         notes.append(first_of_several(len(viscoelastic), name, repr(name)))
-    ignored = sorted({block.keyword for block in chosen} - _UNDERSTOOD - _IMMATERIAL)
-    if ignored:
-        notes.append(
-            Note(
-                "not-read",
-                f"Keywords that were not read: {', '.join('*' + keyword for keyword in ignored)}.",
-                values={"names": ignored},
-            )
-        )
+    notes += not_read("Keywords", sorted({block.keyword for block in chosen} - _UNDERSTOOD - _IMMATERIAL), "*")
     return chosen, name
 
 

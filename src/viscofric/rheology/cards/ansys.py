@@ -22,6 +22,7 @@ from viscofric.rheology.cards.card import (
     Solid,
     Writing,
     first_of_several,
+    not_read,
     number_in,
     relative_series,
     tensile,
@@ -142,8 +143,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
     if len(materials) > 1:
         notes.append(first_of_several(len(materials), first, first))
     ignored |= {f"TB,{table.name}" for table in tables if table.name not in ("PRONY", "SHIFT")}
-    if ignored:
-        notes.append(Note("not-read", f"Commands that were not read: {', '.join(sorted(ignored))}."))
+    notes += not_read("Commands", sorted(ignored))
     properties = found_properties.get(first, {})
     modulus, major, minor = (
         _property(*properties[one]) if one in properties else None for one in ("EX", "PRXY", "NUXY")

@@ -201,6 +201,14 @@ def first_of_several(count: int, read: str, shown: str) -> Note:
     )
 
 
+def not_read(what: str, names: Sequence[str], mark: str = "") -> list[Note]:
+    """Return a note on what of a card was not read, such as "Keywords", none without names; `mark` precedes each."""
+    if not names:
+        return []
+    said = f"{what} that were not read: {', '.join(mark + name for name in names)}."
+    return [Note("not-read", said, values={"names": list(names)})]
+
+
 def unread_shift(command: str, option: str, constants: Sequence[float] = ()) -> Note:
     """Return the note on a shift that is a subroutine of the user, or of a kind that is not read."""
     user = option == "USER"

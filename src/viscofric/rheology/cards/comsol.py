@@ -16,7 +16,7 @@ from typing import Any
 
 from viscofric.errors import InputError
 from viscofric.notes import Note
-from viscofric.rheology.cards.card import Reading, Solid, Writing
+from viscofric.rheology.cards.card import Reading, Solid, Writing, not_read
 from viscofric.rheology.cards.native import Contents, contents_of, number_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
@@ -158,10 +158,7 @@ def read(text: str, reading: Reading, content: dict[str, Any] | None) -> Solid:
         ):
             ignored.append(match["name"])
         values[match["name"]] = f"{match['value']} {match['unit']}" if match["unit"] else match["value"]
-    notes = []
-    if ignored:
-        said = f"Parameters that were not read: {', '.join(ignored)}."
-        notes.append(Note("not-read", said, values={"names": ignored}))
+    notes = not_read("Parameters", ignored)
     branches = sorted(int(name[2:]) for name in values if re.fullmatch(r"G_\d{1,4}", name))
     ratio = _value(values, "nu", "dimensionless")
     factor = 2.0 * (1.0 + ratio)
