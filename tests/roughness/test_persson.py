@@ -346,7 +346,7 @@ def test_flash_temperature_lowers_the_friction_of_fast_sliding_and_not_that_of_s
     [
         ({"speeds": []}, "speeds"),
         ({"temperatures": []}, "temperatures"),
-        ({"speeds": -1.0}, "speeds"),
+        ({"speeds": -1.0}, "negative"),
         ({"pressure": 0.0}, "pressure"),
         ({"gamma": 1.5}, "gamma"),
         ({"accuracy": 1.0}, "accuracy"),
