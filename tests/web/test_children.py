@@ -81,7 +81,7 @@ def bench(tmp_path: Path) -> Iterator[Callable[..., Any]]:
         finally:
             children.close()
 
-    def run(work: Callable[[Bench], Awaitable[Any]], most: int = 2) -> Any:
+    def run(work: Callable[[Bench], Awaitable[Any]], most: int = 1) -> Any:
         async def all_of_it() -> Any:
             with closed(Children(most)) as children:
                 children.start()
@@ -188,7 +188,7 @@ def test_cancelled_job_frees_its_process_for_the_next(
         await bench.idle(within=LONG)  # far below what it would have rested
         assert (await bench.last("rest"))["result"]["process"] == process
 
-    bench(work, most=1)
+    bench(work)
 
 
 def test_job_cancelled_while_it_imports_ends_its_process(
@@ -203,7 +203,7 @@ def test_job_cancelled_while_it_imports_ends_its_process(
         assert ended([process], within=LONG)
         assert (await bench.last("rest"))["result"]["process"] != process
 
-    bench(work, most=1)
+    bench(work)
 
 
 @pytest.mark.apart
@@ -215,7 +215,7 @@ def test_job_that_does_not_let_itself_be_cancelled_is_ended(bench: Callable[...,
             assert ended([process], within=LONG)
         assert (await bench.last("rest"))["event"] == "result"
 
-    bench(work, most=1)
+    bench(work)
 
 
 def test_big_solve_is_cancelled(bench: Callable[..., Any]) -> None:
@@ -224,7 +224,7 @@ def test_big_solve_is_cancelled(bench: Callable[..., Any]) -> None:
         await bench.idle(within=LONG)
         assert (await bench.last("rest"))["event"] == "result"
 
-    bench(work, most=1)
+    bench(work)
 
 
 def test_more_jobs_than_processes_wait_for_their_turn(bench: Callable[..., Any]) -> None:
@@ -263,7 +263,7 @@ def test_workspace_comes_back_to_the_process_that_served_it(bench: Callable[...,
         for key, process in [("b", b), ("a", a), ("b", b)]:
             assert (await bench.last("rest", key=key))["result"]["process"] == process
 
-    bench(work)
+    bench(work, most=2)
 
 
 @pytest.mark.apart
