@@ -310,6 +310,11 @@ def test_start_loads_nothing_slow(program: str) -> None:
     assert done.stderr.splitlines()[-1].split() == ["loaded:"]
 
 
+def test_no_module_imports_parts_of_scipy_that_take_half_a_second_for_one_function() -> None:
+    slow = re.compile(r"(from|import) scipy\.(signal|stats)\b")
+    assert [module for module, path in MODULES.items() if slow.search(path.read_text("utf-8"))] == []
+
+
 PACKAGES = [module_name(path.with_suffix(".py")) for path in sorted(SOURCE.rglob("__init__.pyi"))]
 
 

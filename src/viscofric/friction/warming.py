@@ -61,15 +61,17 @@ class Warming(NamedTuple):
         contacts = [_Contact.of(curves, row, radius, rubber, counterbody) for row, radius in enumerate(radii)]
         temperatures, place = np.unique(curves.temperature, return_inverse=True)
         per_kelvin = np.array([_decades_per_kelvin(material.shift, float(one)) for one in temperatures])[place]
-        rough = _change(material, indenter, curves, np.array([one.rough_rise() for one in contacts]) * per_kelvin)
+        under_load: dict[float, FirstOrder] = {}
+        rises = np.array([one.rough_rise() for one in contacts])
+        rough = _change(material, indenter, curves, rises * per_kelvin, under_load)
         found: Warming | None = None
         for row in np.argsort(-rough, kind="stable")[:_MOST].tolist():
             spectrum = material.modes_at(float(curves.temperature[row]))
             modes = Modes(np.asarray(spectrum.C), np.asarray(spectrum.tau))
             face, below = contacts[row].rises(modes, material.poisson_ratio)
-            rises = np.array([max(face, below), min(face, below)])
-            decades = rises * per_kelvin[row]
-            high, low = _change(material, indenter, curves.select(np.array([row, row])), decades).tolist()
+            decades = np.array([max(face, below), min(face, below)]) * per_kelvin[row]
+            twice = curves.select(np.array([row, row]))
+            high, low = _change(material, indenter, twice, decades, under_load).tolist()
             if found is None or high > found.change:
                 found = cls(row, face, below, float(decades[0]), high, low)
         assert found is not None
@@ -157,11 +159,18 @@ def _decades_per_kelvin(shift: ShiftLaw, kelvin: float) -> float:
     return abs(known[last] - known[first]) / (last - first)
 
 
-def _change(material: Material, indenter: Indenter, curves: FrictionCurves, decades: Array) -> Array:
+def _change(
+    material: Material,
+    indenter: Indenter,
+    curves: FrictionCurves,
+    decades: Array,
+    under_load: dict[float, FirstOrder],
+) -> Array:
     """Return the largest relative change of friction of a point as speed falls by decades (n,), to first order."""
+    # What takes longest is kept in `under_load`, for further points.
     change = np.zeros(len(curves))
     same_load = np.round(np.log(curves.load) / _SAME_LOAD)
-    plane_strain, under_load = 1.0 - material.poisson_ratio**2, {}
+    plane_strain = 1.0 - material.poisson_ratio**2
     for kelvin, load in sorted(set(zip(curves.temperature.tolist(), same_load.tolist(), strict=True))):
         rows = np.flatnonzero((curves.temperature == kelvin) & (same_load == load))
         modes = material.modes_at(kelvin)

@@ -29,6 +29,8 @@ _DEPTHS = 6
 _TOGETHER, _ON_CELLS = 2.5, 4.0
 #: Places ahead of the cells, whose distance grows from step to step by this factor.
 _AHEAD, _GROWTH = 10, 1.8
+#: Numbers of the stress of several modes that are followed at once: few rows of a line take no longer than one.
+_AT_ONCE = 1 << 17
 
 
 class Modes(NamedTuple):
@@ -141,27 +143,29 @@ def _passing(stress: Array, before: Array, step: float, steps: Array, modes: Mod
     `before` (6, n, ny) came first, at the `steps` (n − 1,), and ends with the first of `stress`.  Each mode follows
     exactly: in a step h, s = a + (s₀ − a) e^(−t/τ), a = τ dσ/dt.
     """
-    from scipy.signal import lfilter
-
     change = np.diff(stress, axis=1)
     even = np.square(change).sum(0)
     energy = np.zeros(stress.shape[1:])
-    for C, tau in zip(*modes, strict=True):
-        on = np.zeros_like(stress[:, 0])
+    count = max(_AT_ONCE // stress.size, 1)
+    for mode in range(0, len(modes.C), count):
+        C, tau = (one[mode : mode + count, None, None] for one in modes)
+        on = np.zeros((len(tau), *stress[:, 0].shape))
         for row, time in enumerate(steps.tolist()):
-            left = math.exp(-time / tau)
+            left = np.exp(-time / tau)
             on = left * on + tau / time * (1.0 - left) * (before[:, row + 1] - before[:, row])
-        left, ratio = math.exp(-step / tau), tau / step
+        left, ratio = np.exp(-step / tau), tau / step
         rest = 1.0 - left
-        later = lfilter([ratio * rest], [1.0, -left], change, axis=1, zi=left * on[:, None])[0]
-        at_ends = np.concatenate([on[:, None], later], axis=1)
-        first = at_ends[:, :-1]
+        first = np.empty((len(tau), *change.shape))
+        for row in range(change.shape[1]):
+            first[:, :, row] = on
+            on = left * on + ratio * rest * change[:, row]
         twice = 0.5 * tau * (1.0 - left**2)
         each = (
             np.square(ratio) * even * (step - 2.0 * tau * rest + twice)
-            + 2.0 * ratio * (change * first).sum(0) * (tau * rest - twice)
-            + np.square(first).sum(0) * twice
+            + 2.0 * ratio * (change * first).sum(1) * (tau * rest - twice)
+            + np.square(first).sum(1) * twice
         )
-        energy[:-1] += 0.5 * C / tau * each
-        energy[1:] += 0.5 * C / tau * each
+        released = (0.5 * C / tau * each).sum(0)
+        energy[:-1] += released
+        energy[1:] += released
     return energy / step

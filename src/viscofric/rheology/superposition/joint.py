@@ -116,9 +116,9 @@ def of_all_kinds(temperatures: Sequence[Array]) -> Array:
 
 def _agreement(misfit: float, freedom: int) -> list[str]:
     """Say whether kinds of tests agree on the shift factors that they share."""
-    from scipy.stats import chi2
+    from scipy.special import chdtrc
 
-    if freedom < 1 or chi2.sf(misfit, freedom) > RARE:
+    if freedom < 1 or chdtrc(freedom, misfit) > RARE:
         return []
     said = (
         "The kinds of tests disagree on α at the temperatures that they share: χ² is "
