@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -17,29 +19,27 @@ from viscofric.rheology.spectra.retardation import RelaxationSpectrum
 BENCHMARKS = Path(__file__).resolve().parents[1] / "benchmarks"
 
 
-@pytest.fixture
-def benchmark_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Let the rheology benchmark's files import each other."""
-    yield from _importable("rheology", monkeypatch)
+class Benchmarks:
+    """The benchmarks' files, such as "contact/ball", and what they write as JSON."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+        self._monkeypatch, self.target = monkeypatch, folder / "measured.json"
+
+    def __call__(self, name: str) -> ModuleType:
+        folder, module = name.split("/")
+        self._monkeypatch.syspath_prepend(str(BENCHMARKS / folder))
+        return import_module(module)
+
+    def measured(self, name: str, *arguments: str) -> dict[str, Any]:
+        self(name).main([*arguments, "--json", str(self.target)])
+        return json.loads(self.target.read_text(encoding="utf-8"))
 
 
 @pytest.fixture
-def contact_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Let the contact benchmarks' files import each other."""
-    yield from _importable("contact", monkeypatch)
-
-
-@pytest.fixture
-def motion_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Let the benchmark of contacts over time be imported."""
-    yield from _importable("motion", monkeypatch)
-
-
-def _importable(folder: str, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Put a folder on the path, and forget its files afterwards: their names are common ones."""
+def benchmarks(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Benchmarks]:
+    """Import benchmarks, which import each other, and forget them afterwards: their names are common ones."""
     before = set(sys.modules)
-    monkeypatch.syspath_prepend(str(BENCHMARKS / folder))
-    yield
+    yield Benchmarks(monkeypatch, tmp_path)
     for name in set(sys.modules) - before:
         origin = getattr(sys.modules[name], "__file__", None) or ""
         if "benchmarks" in origin or Path(origin).name == "planted.py":
@@ -52,18 +52,14 @@ def numbers_of(results: dict[str, Any], start: str) -> list[dict[str, Any]]:
 
 
 @pytest.mark.apart
-@pytest.mark.usefixtures("benchmark_path")
 def test_benchmark_without_peers_and_without_real_data(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    benchmarks: Benchmarks, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("VISCOFRIC_REAL_DATA", str(tmp_path / "nowhere"))
-    import run
-
-    run.main(["--seeds", "0", "--json", str(tmp_path / "results" / "rheology.json")])
+    results = benchmarks.measured("rheology/run", "--seeds", "0")
     printed = capsys.readouterr().out
     assert "viscofric, sparse, 16 modes" in printed
     assert "left out: acrylic 468MP" in printed
-    results = json.loads((tmp_path / "results" / "rheology.json").read_text(encoding="utf-8"))
     (shifting,) = numbers_of(results, "shifting")
     # 1 % noise is 0.0043 decades; the difference of a point and one interpolated between two has 1.2 to 1.4 times it
     assert 0.004 < shifting["joint"] < 0.008
@@ -71,19 +67,18 @@ def test_benchmark_without_peers_and_without_real_data(
     assert shifting["error"] < 0.02
     assert shifting["C1"] == pytest.approx(10.04, rel=0.03)  # planted; the coldest isotherm lies below Tg
     spectra = numbers_of(results, "spectrum")
-    assert [row["tool"] for row in spectra] == [f"viscofric, {name}" for name in run.own.SPECTRA]
+    assert [row["tool"] for row in spectra] == [f"viscofric, {name}" for name in benchmarks("rheology/own").SPECTRA]
     assert all(row["storage"] < 0.02 for row in spectra)
     (conversion,) = numbers_of(results, "retardation")
     assert conversion["error"] < 1e-10
 
 
-@pytest.mark.usefixtures("benchmark_path")
 def test_peer_that_is_not_there_leaves_its_reason_in_the_table(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    benchmarks: Benchmarks, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    import cases
-    import others
-    import run
+    cases = benchmarks("rheology/cases")
+    others = benchmarks("rheology/others")
+    run = benchmarks("rheology/run")
 
     row = others.shifting("RepTate 1.3.3", cases.planted_case(), tmp_path, 10.0)
     assert "make_peers.sh" in row["error"]
@@ -91,10 +86,9 @@ def test_peer_that_is_not_there_leaves_its_reason_in_the_table(
     assert "not installed" in capsys.readouterr().out
 
 
-@pytest.mark.usefixtures("benchmark_path")
-def test_true_shift_factors_have_no_error_and_wrong_ones_have_theirs() -> None:
-    import cases
-    import measures
+def test_true_shift_factors_have_no_error_and_wrong_ones_have_theirs(benchmarks: Benchmarks) -> None:
+    cases = benchmarks("rheology/cases")
+    measures = benchmarks("rheology/measures")
 
     case = cases.planted_case()
     true = case.truth.log10_alpha(case.sweeps.temperatures, case.reference)
@@ -105,9 +99,8 @@ def test_true_shift_factors_have_no_error_and_wrong_ones_have_theirs() -> None:
     assert constants == pytest.approx((10.04, 89.6), rel=0.01)
 
 
-@pytest.mark.usefixtures("benchmark_path")
-def test_spectra_of_peers_are_measured_as_prony_series() -> None:
-    import measures
+def test_spectra_of_peers_are_measured_as_prony_series(benchmarks: Benchmarks) -> None:
+    measures = benchmarks("rheology/measures")
 
     omega = np.geomspace(1e-2, 1e4, 50)
     series = RelaxationSpectrum(1e6, [3e6, 5e7], [1.0, 1e-3])
@@ -119,17 +112,12 @@ def test_spectra_of_peers_are_measured_as_prony_series() -> None:
     assert found["loss"] == pytest.approx(0.0, abs=1e-12)
 
 
-def read(path: Path) -> dict[str, Any]:
-    return json.loads(path.read_text(encoding="utf-8"))
-
-
-@pytest.mark.usefixtures("contact_path")
-def test_ball_benchmark_counts_products_and_transforms(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    import ball
-
-    ball.main(["--cells", "128", "--memory", "1", "--json", str(tmp_path / "new" / "ball.json")])
+def test_ball_benchmark_counts_products_and_transforms(
+    benchmarks: Benchmarks, capsys: pytest.CaptureFixture[str]
+) -> None:
+    benchmarks.target = benchmarks.target.parent / "new" / "ball.json"
+    results = benchmarks.measured("contact/ball", "--cells", "128", "--memory", "1")
     assert "vτ/a0 = 1 " in capsys.readouterr().out
-    results = read(tmp_path / "new" / "ball.json")
     assert results["measured_with"]["viscofric"] == vf.__version__
     (row,) = results["rows"]
     assert row["cells"] == 128
@@ -141,13 +129,13 @@ def test_ball_benchmark_counts_products_and_transforms(tmp_path: Path, capsys: p
     assert row["relative_error"] < 2e-3
 
 
-@pytest.mark.usefixtures("contact_path")
-def test_ball_benchmark_measures_the_price_of_digits(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    import ball
+def test_ball_benchmark_measures_the_price_of_digits(
+    benchmarks: Benchmarks, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ball = benchmarks("contact/ball")
 
-    ball.main(["--accuracy", "2e-2", "--speeds", "2", "--json", str(tmp_path / "digits.json")])
+    rows = benchmarks.measured("contact/ball", "--accuracy", "2e-2", "--speeds", "2")["rows"]
     assert "accuracy 0.02" in capsys.readouterr().out
-    rows = read(tmp_path / "digits.json")["rows"]
     assert len(rows) == len(ball.RUBBERS)
     for row in rows:
         assert row["solved"] == 2
@@ -156,13 +144,11 @@ def test_ball_benchmark_measures_the_price_of_digits(tmp_path: Path, capsys: pyt
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("contact_path")
-def test_benchmark_of_stated_errors_compares_each_of_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    import stated_errors
-
-    stated_errors.main(["--first", "1", "--count", "1", "--json", str(tmp_path / "errors.json")])
+def test_benchmark_of_stated_errors_compares_each_of_them(
+    benchmarks: Benchmarks, capsys: pytest.CaptureFixture[str]
+) -> None:
+    results = benchmarks.measured("contact/stated_errors", "--first", "1", "--count", "1")
     assert "stated errors of 1 random contacts" in capsys.readouterr().out
-    results = read(tmp_path / "errors.json")
     assert results["unsolved"] == []
     numbers = {row["number"]: row for row in results["rows"]}
     # A cylinder: its load is given, and it has no width.
@@ -171,15 +157,15 @@ def test_benchmark_of_stated_errors_compares_each_of_them(tmp_path: Path, capsys
     }  # fmt: skip
     assert all(row["apart"] > 0.0 for row in numbers.values())  # two different grids
     assert all(row["within"] == (row["worst"] <= 1.0) for row in results["summary"])
-    stated_errors.main(["--periodic", "--first", "1012", "--count", "1", "--json", str(tmp_path / "rough.json")])
-    (row,) = read(tmp_path / "rough.json")["rows"]
+    (row,) = benchmarks.measured("contact/stated_errors", "--periodic", "--first", "1012", "--count", "1")["rows"]
     assert row["number"] == "friction"
     assert 0.0 < row["apart"] < 0.01 * row["size"]  # nearly in full contact
 
 
-@pytest.mark.usefixtures("motion_path")
-def test_benchmark_of_errors_over_time_goes_on_with_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    import stated_errors
+def test_benchmark_of_errors_over_time_goes_on_with_a_file(
+    benchmarks: Benchmarks, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    stated_errors = benchmarks("motion/stated_errors")
 
     wanted = ["--kinds", "ball", "--accuracy", "2e-2", "3e-2", "--lines", str(tmp_path / "errors.jsonl")]
     stated_errors.main(["--count", "1", *wanted])
@@ -194,17 +180,13 @@ def test_benchmark_of_errors_over_time_goes_on_with_a_file(tmp_path: Path, capsy
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("contact_path")
 def test_backend_benchmark_measures_what_is_there_and_names_what_is_not(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    benchmarks: Benchmarks, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    import backends
-
     monkeypatch.setitem(sys.modules, "cupy", None)
-    names = ["scipy", "scipyx2", "cupy"]
-    backends.main(["--sizes", "32", "--backends", *names, "--repeats", "1", "--json", str(tmp_path / "backends.json")])
+    given = ["--sizes", "32", "--backends", "scipy", "scipyx2", "cupy", "--repeats", "1"]
+    rows = benchmarks.measured("contact/backends", *given)["rows"]
     assert "left out: backend = 'cupy'" in capsys.readouterr().out
-    rows = read(tmp_path / "backends.json")["rows"]
     assert [row["backend"] for row in rows] == ["scipy", "scipyx2"] * 2
     assert rows[0]["FFTs"] == rows[1]["FFTs"]
     assert rows[2]["products"] == rows[3]["products"]
@@ -212,38 +194,30 @@ def test_backend_benchmark_measures_what_is_there_and_names_what_is_not(
 
 
 def test_benchmark_of_octaves_compares_two_methods(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    benchmarks: Benchmarks, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.syspath_prepend(str(BENCHMARKS / "roughness"))
-    import octaves
-
-    monkeypatch.setattr(octaves, "SPEEDS", (1e-6,))
-    octaves.main(["--shortest", "32", "--seeds", "1", "--json", str(tmp_path / "octaves.json")])
+    monkeypatch.setattr(benchmarks("roughness/octaves"), "SPEEDS", (1e-6,))
+    (row,) = benchmarks.measured("roughness/octaves", "--shortest", "32", "--seeds", "1")["rows"]
     assert "theory over solution" in capsys.readouterr().out
-    (row,) = read(tmp_path / "octaves.json")["rows"]
     assert row["area"] > 0.7
     assert 0.95 < row["half_ratio"] < row["full_ratio"] < 1.2  # 0.98 and 1.12 with three surfaces
 
 
-@pytest.mark.usefixtures("contact_path")
 def test_rough_benchmark_leaves_a_reason_where_a_peer_is_missing(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    benchmarks: Benchmarks, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    import rough
-
-    rough.main(["--sizes", "32", "--peers", str(tmp_path), "--json", str(tmp_path / "rough.json")])
+    found = benchmarks.measured("contact/rough", "--sizes", "32", "--peers", str(tmp_path))
     assert "not installed; run benchmarks/contact/make_peers.sh" in capsys.readouterr().out
-    elastic, viscoelastic, *peers = read(tmp_path / "rough.json")["rows"]
+    elastic, viscoelastic, *peers = found["rows"]
     assert len(peers) == 2
     assert elastic["ratio"] == 1.0
     assert elastic["friction"] == 0.0 < viscoelastic["friction"]
     assert max(elastic["residual"], viscoelastic["residual"]) <= 1e-8
 
 
-@pytest.mark.usefixtures("contact_path")
-def test_residual_of_the_rough_benchmark_is_that_of_the_pressures() -> None:
-    import problems
-    import rough
+def test_residual_of_the_rough_benchmark_is_that_of_the_pressures(benchmarks: Benchmarks) -> None:
+    problems = benchmarks("contact/problems")
+    rough = benchmarks("contact/rough")
 
     surface = problems.rough_surface(32)
     pressure = problems.elastic_rough(surface).pressure
@@ -254,12 +228,8 @@ def test_residual_of_the_rough_benchmark_is_that_of_the_pressures() -> None:
 
 
 @pytest.mark.apart
-@pytest.mark.usefixtures("contact_path")
-def test_scaling_benchmark_gives_exponents_and_memory(tmp_path: Path) -> None:
-    import scaling
-
-    scaling.main(["--sizes", "64", "128", "--problems", "elastic", "--json", str(tmp_path / "scaling.json")])
-    small, large = read(tmp_path / "scaling.json")["rows"]
+def test_scaling_benchmark_gives_exponents_and_memory(benchmarks: Benchmarks) -> None:
+    small, large = benchmarks.measured("contact/scaling", "--sizes", "64", "128", "--problems", "elastic")["rows"]
     assert (small["points"], large["points"]) == (64, 128)
     assert large["exponent"] == pytest.approx(np.log(large["seconds"] / small["seconds"]) / np.log(4.0))
     # At least pressure, displacement and heights; less than what a matrix would take.
@@ -268,21 +238,16 @@ def test_scaling_benchmark_gives_exponents_and_memory(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("contact_path")
-def test_random_rough_contacts_are_all_counted(tmp_path: Path) -> None:
-    import random_rough
-
-    random_rough.main(["--contacts", "6", "--json", str(tmp_path / "random.json")])
-    (row,) = read(tmp_path / "random.json")["rows"]
+def test_random_rough_contacts_are_all_counted(benchmarks: Benchmarks) -> None:
+    (row,) = benchmarks.measured("contact/random_rough", "--contacts", "6")["rows"]
     assert row["contacts"] == 6
     assert row["failed"] == 0
     assert 10 < row["median"] <= row["most"] <= row["largest"] <= row["total"]
 
 
-@pytest.mark.usefixtures("contact_path")
 @pytest.mark.slow
-def test_the_sliding_ball_is_within_the_tolerances_of_its_table() -> None:
-    import sliding_ball
+def test_the_sliding_ball_is_within_the_tolerances_of_its_table(benchmarks: Benchmarks) -> None:
+    sliding_ball = benchmarks("contact/sliding_ball")
 
     for _, published, tolerance, friction, error, seconds in sliding_ball.rows(accuracy=1e-2):
         assert friction == pytest.approx(published, rel=tolerance)
@@ -290,17 +255,15 @@ def test_the_sliding_ball_is_within_the_tolerances_of_its_table() -> None:
         assert seconds > 0.0
 
 
-@pytest.mark.usefixtures("contact_path")
-def test_growth_is_the_exponent_of_a_power_law() -> None:
-    import measuring
+def test_growth_is_the_exponent_of_a_power_law(benchmarks: Benchmarks) -> None:
+    measuring = benchmarks("contact/measuring")
 
     assert measuring.growth([1e4, 4e4, 16e4], [2.0, 2.0 * 4**1.1, 2.0 * 16**1.1]) == pytest.approx(1.1)
 
 
-@pytest.mark.usefixtures("contact_path")
-def test_steps_in_time_lead_to_the_steady_friction_in_first_order() -> None:
-    import maxwell
-    import problems
+def test_steps_in_time_lead_to_the_steady_friction_in_first_order(benchmarks: Benchmarks) -> None:
+    maxwell = benchmarks("contact/maxwell")
+    problems = benchmarks("contact/problems")
 
     surface = vf.contact.PeriodicSurface(problems.self_affine(32, points_per_shortest_wave=16.0), 1.0 / 32)
     steady = maxwell.steady_friction(surface)
@@ -312,27 +275,22 @@ def test_steps_in_time_lead_to_the_steady_friction_in_first_order() -> None:
     assert abs(maxwell.steady_friction(surface, maxwell.time_step(surface, needed)) / steady - 1.0) <= 0.01
 
 
-@pytest.mark.usefixtures("contact_path")
-def test_maxwell_benchmark_without_its_peer(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    import maxwell
-
-    maxwell.main(["--points", "32", "--verify", "16", "--peers", str(tmp_path), "--json", str(tmp_path / "m.json")])
+def test_maxwell_benchmark_without_its_peer(
+    benchmarks: Benchmarks, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = ["--points", "32", "--verify", "16", "--peers", str(tmp_path)]
+    own, peer = benchmarks.measured("contact/maxwell", *given)["cost"]
     assert "not installed" in capsys.readouterr().out
-    own, peer = read(tmp_path / "m.json")["cost"]
     assert own["friction"] > 0.0
     assert "error" in peer
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("contact_path")
-def test_curve_benchmark_measures_its_true_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    import curve
-
+def test_curve_benchmark_measures_its_true_error(benchmarks: Benchmarks, capsys: pytest.CaptureFixture[str]) -> None:
     # the fast end of the curve, where coarse grids do
     arguments = ["--speeds", "2", "--slowest", "1e2", "--decades", "4", "--workers", "1", "--accuracy", "0.001"]
-    curve.main([*arguments, "--check", "1", "--json", str(tmp_path / "curve.json")])
+    results = benchmarks.measured("contact/curve", *arguments, "--check", "1")
     assert "failures" in capsys.readouterr().out
-    results = read(tmp_path / "curve.json")
     (row,), points = results["rows"], results["points"]
     assert (row["speeds"], row["failures"], row["checked"]) == (2, 0, 1)
     assert 0.0 < row["worst_error"] == points[0]["true_error"] < 0.001
@@ -342,33 +300,26 @@ def test_curve_benchmark_measures_its_true_error(tmp_path: Path, capsys: pytest.
 
 @pytest.mark.slow
 def test_benchmark_of_repeated_runs_measures_coverage_and_width(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    benchmarks: Benchmarks, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.syspath_prepend(str(BENCHMARKS / "friction"))
-    import repeated_runs
-
-    few = ["--seeds", "4", "--case", "1 % from step to step", "--json", str(tmp_path / "runs.json")]
-    repeated_runs.main(few)
+    few = ["--seeds", "4", "--case", "1 % from step to step"]
+    (row,) = benchmarks.measured("friction/repeated_runs", *few).values()
     assert "1 % from step to step" in capsys.readouterr().out
-    (row,) = read(tmp_path / "runs.json").values()
     for one in row.values():
         assert 0.7 < one["held"] <= 1.0  # of 20 intervals: 15 or fewer once in 400 times
         assert 0.7 < one["median width"] < 2.5
     with pytest.raises(SystemExit, match="are held"):
-        repeated_runs.main([*few, "--check", "101"])
+        benchmarks("friction/repeated_runs").main([*few, "--check", "101"])
 
 
 @pytest.mark.apart
 def test_benchmark_of_the_interface_counts_planted_laws_within_bands(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    benchmarks: Benchmarks, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.syspath_prepend(str(BENCHMARKS / "friction"))
-    import interface
-
-    monkeypatch.setattr(interface, "KINDS", ("constant", "power"))
-    interface.main(["--problems", "4", "--json", str(tmp_path / "interface.json")])
+    monkeypatch.setattr(benchmarks("friction/interface"), "KINDS", ("constant", "power"))
+    rows = benchmarks.measured("friction/interface", "--problems", "4")["rows"]
     assert "right law chosen" in capsys.readouterr().out
-    for row in read(tmp_path / "interface.json")["rows"]:
+    for row in rows:
         assert row["refused"] == 0
         assert row["points"] > 0.5  # below a half in 1 of 70 such sets of four bands, which move as one
 
@@ -376,37 +327,28 @@ def test_benchmark_of_the_interface_counts_planted_laws_within_bands(
 @pytest.mark.slow
 @pytest.mark.apart
 def test_benchmark_of_total_friction_compares_it_with_that_of_the_planted_interface(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    benchmarks: Benchmarks, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.syspath_prepend(str(BENCHMARKS / "friction"))
-    import total
+    total = benchmarks("friction/total")
 
     monkeypatch.setattr(total, "TRUE", 8)
     monkeypatch.setattr(total, "OTHERS", 8)
     few = ["--scenes", "1", "--draws", "2", "--shapes", "cylinder", "rough"]
-    total.main([*few, "--json", str(tmp_path / "total.json")])
+    rows = benchmarks.measured("friction/total", *few)["rows"]
     assert "within its 95 % band" in capsys.readouterr().out
-    for row in read(tmp_path / "total.json")["rows"]:
+    for row in rows:
         assert row["problems"] + row["refused"] == 2
         assert 0.0 < row["width"] < 0.5
         assert 0.0 <= row["held"] <= 1.0
 
 
 @pytest.mark.apart
-@pytest.mark.usefixtures("contact_path")
-def test_benchmark_of_sweeps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.syspath_prepend(str(BENCHMARKS / "study"))
-    import costs
-    import sweeps
-
-    target = tmp_path / "sweeps.json"
+def test_benchmark_of_sweeps(benchmarks: Benchmarks) -> None:
     few = ["--speeds", "3", "--temperatures", "1", "--accuracy", "2e-2", "--check", "1", "--distinct", "10"]
-    sweeps.main([*few, "--workers", "1", "--json", str(target)])
-    curve, gained, each = json.loads(target.read_text(encoding="utf-8"))["rows"]
+    curve, gained, each = benchmarks.measured("study/sweeps", *few, "--workers", "1")["rows"]
     assert (curve["cases"], gained["cases"], each["cases"]) == (3, 24, 10)
     assert (curve["solved"], each["solved"]) == (3, 10)
     assert not any(row["failures"] for row in (curve, gained, each))
     assert curve["worst_error"] < 2e-2  # the accuracy
-    costs.main(["--speeds", "1", "--accuracies", "2e-2", "--json", str(target)])
-    rows = json.loads(target.read_text(encoding="utf-8"))["rows"]
+    rows = benchmarks.measured("study/costs", "--speeds", "1", "--accuracies", "2e-2")["rows"]
     assert [row["failures"] for row in rows] == [0] * 5
