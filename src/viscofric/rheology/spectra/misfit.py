@@ -61,6 +61,8 @@ class Misfit(ABC):
     least_glass: float
     #: Whether modes are fitted beside a glass of that compliance at least, or beside any, which is raised to it then.
     glass_within = False
+    #: Times and columns that were asked for last: a fit begins, goes on and is judged at the same times.
+    _last: tuple[Array, NDArray[Any]] = np.array([np.nan]), np.empty(0)
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -83,8 +85,12 @@ class Misfit(ABC):
 
     def columns(self, tau: Array) -> NDArray[Any]:
         """Return the compliance of a glass and of modes, each of strength one, (P, 1 + n)."""
-        relaxed = self.relaxed(tau)
-        return np.concatenate([np.ones((len(relaxed), 1), dtype=relaxed.dtype), relaxed], axis=1)
+        if not np.array_equal(self._last[0], tau):
+            relaxed = self.relaxed(tau)
+            columns = np.concatenate([np.ones((len(relaxed), 1), dtype=relaxed.dtype), relaxed], axis=1)
+            columns.setflags(write=False)
+            self._last = tau.copy(), columns
+        return self._last[1]
 
     def compliance(self, spectrum: RetardationSpectrum) -> NDArray[Any]:
         """Return the compliance (P,) of a spectrum."""
@@ -229,7 +235,9 @@ class RelaxationMisfit(StepMisfit):
 
     def relaxed(self, tau: Array) -> ComplexArray:
         """Return 1/(1 + sτ) at all nodes s of all times, (N NODES/2, n)."""
-        return np.asarray(1.0 / (1.0 + np.outer(np.outer(self.rates, self._nodes).ravel(), tau)))
+        found = np.outer(np.outer(self.rates, self._nodes).ravel(), tau)
+        found += 1.0
+        return np.asarray(np.divide(1.0, found, out=found))
 
     def residual(self, compliance: NDArray[Any]) -> Array:
         """Return ln E measured less computed, (N,)."""
