@@ -71,7 +71,11 @@ def test_a_scan_without_a_unit_is_noted_with_its_steps(tmp_path: Path) -> None:
 @pytest.mark.parametrize("template", TEMPLATES)
 def test_starter_files_keep_what_they_promise(tmp_path: Path, template: str) -> None:
     call("new", tmp_path, "--template", template)
-    result = call("run", tmp_path / "study.toml", "--json")
+    study = tmp_path / "study.toml"
+    # what is promised does not depend on the number of samples of the material
+    text = study.read_text(encoding="utf-8").replace("draws = 200", "draws = 20").replace("members = 20", "members = 2")
+    study.write_text(text, encoding="utf-8")
+    result = call("run", study, "--json")
     assert result.exit_code == 0, result.output
     finished = json.loads(result.stdout.splitlines()[-1])
     assert (finished["failures"], finished["beyond_accuracy"]) == ([], 0)

@@ -326,11 +326,11 @@ def test_arguments_for_two_moduli_are_refused():
 
 
 @pytest.mark.apart
-@pytest.mark.parametrize(("kind", "noise"), [("creep", 0.005), ("relaxation", 0.02)])
-def test_bands_contain_what_was_planted(kind, noise):
+@pytest.mark.parametrize(("kind", "noise", "seeds"), [("creep", 0.005, 12), ("relaxation", 0.02, 6)])
+def test_bands_contain_what_was_planted(kind, noise, seeds):
     """As for sweeps; benchmarks/rheology counts over more problems."""
     inside: dict[str, list[float]] = {"alpha": [], "response": [], "storage": []}
-    for seed in range(12):
+    for seed in range(seeds):
         tests, material, reference = planted_steps(seed, noise, kind=kind)
         fit = vf.superpose(tests, reference)
         factors, time = fit.shift_factors, np.geomspace(*fit.master_curve.time[[0, -1]], 40)
@@ -349,7 +349,7 @@ def test_bands_contain_what_was_planted(kind, noise):
         moduli = drawn.modulus_band(omega)
         storage = true.complex_modulus(omega).real
         inside["storage"].append(np.mean((storage >= moduli.lower.real) & (storage <= moduli.upper.real)))
-    # Errors within one fit move together: over 12 seeds the mean differs by 0.04.
+    # Errors within one fit move together: over 12 seeds the mean differs by 0.04, over 6 by 0.06.
     for shares in inside.values():
         assert np.mean(shares) == pytest.approx(0.95, abs=0.09)
 
