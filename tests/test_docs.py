@@ -5,18 +5,22 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
+from typing import TYPE_CHECKING, TypeAlias
 
 import click
-import pytest
 
 import viscofric as vf
 from viscofric.cli import main
 from viscofric.lazy import full_names
 from viscofric.study.run_file import study as run_file
 
+if TYPE_CHECKING:
+    import pytest
+
+Extension: TypeAlias = Callable[[str], ModuleType]
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 MADE = {"_build", "_generated", "auto_examples"}
@@ -25,24 +29,6 @@ MADE = {"_build", "_generated", "auto_examples"}
 def pages() -> list[Path]:
     found = [path.relative_to(DOCS) for path in DOCS.rglob("*.md")]
     return sorted(path for path in found if not MADE & set(path.parts) and "api" not in path.parts[:-1])
-
-
-@pytest.fixture(scope="module")
-def extensions() -> dict[str, ModuleType]:
-    """Import the modules that make pages."""
-    sys.path.insert(0, str(DOCS / "_extensions"))
-    try:
-        import command_pages
-        import curve_file_pages
-        import offline
-        import page_parts
-        import results_pages
-        import run_file_pages
-        import search_words
-    finally:
-        sys.path.remove(str(DOCS / "_extensions"))
-    modules = (command_pages, curve_file_pages, offline, page_parts, results_pages, run_file_pages, search_words)
-    return {module.__name__: module for module in modules}
 
 
 def test_every_public_name_is_in_the_reference_once() -> None:
@@ -103,8 +89,8 @@ def test_rows_of_tables_end_in_their_line() -> None:
     assert broken == []
 
 
-def test_every_command_is_in_the_reference_with_all_its_options(extensions: dict[str, ModuleType]) -> None:
-    page = extensions["command_pages"].page()
+def test_every_command_is_in_the_reference_with_all_its_options(extension: Extension) -> None:
+    page = extension("command_pages").page()
 
     def walk(command: click.Command, context: click.Context, name: str) -> Iterator[tuple[str, click.Command]]:
         if isinstance(command, click.Group):
@@ -124,8 +110,8 @@ def test_every_command_is_in_the_reference_with_all_its_options(extensions: dict
                 assert all(f"`{one}" in parts[name] for one in option.opts), f"{name} {option.opts}"
 
 
-def test_every_key_of_a_run_file_is_in_the_reference(extensions: dict[str, ModuleType]) -> None:
-    page = extensions["run_file_pages"].page()
+def test_every_key_of_a_run_file_is_in_the_reference(extension: Extension) -> None:
+    page = extension("run_file_pages").page()
     tables = dict(re.findall(r"(?ms)^## \[(\w+)\]\n(.*?)(?=^## |\Z)", page))
     models = {
         "material": run_file.MaterialTable,
@@ -156,16 +142,16 @@ def test_every_key_of_a_run_file_is_in_the_reference(extensions: dict[str, Modul
     assert '| `load` | quantity, such as `"25 N"`, `"2 N/mm"`, a list or a range |' in tables["conditions"]
 
 
-def test_columns_of_friction_curves_are_in_the_reference(extensions: dict[str, ModuleType], tmp_path: Path) -> None:
+def test_columns_of_friction_curves_are_in_the_reference(extension: Extension, tmp_path: Path) -> None:
     curves = vf.FrictionCurves([0.1], [300.0], [25.0], [0.01], [0.001], [0.002], [4], source="SYNTHETIC")
     vf.write_friction_curves(curves, tmp_path / "curves.csv")
     lines = (tmp_path / "curves.csv").read_text(encoding="utf-8").splitlines()
     (headings,) = [line for line in lines if line.startswith("speed")]
-    page = extensions["curve_file_pages"].page()
+    page = extension("curve_file_pages").page()
     assert all(f"| `{heading}` |" in page for heading in headings.split(","))
 
 
-def test_layout_of_results_shows_units_dimensions_and_meaning(extensions: dict[str, ModuleType]) -> None:
+def test_layout_of_results_shows_units_dimensions_and_meaning(extension: Extension) -> None:
     import xarray
 
     group = xarray.Dataset(
@@ -173,16 +159,16 @@ def test_layout_of_results_shows_units_dimensions_and_meaning(extensions: dict[s
         {"speed": ((), 3.0, {"units": "m/s", "long_name": "speed"})},
         {"accuracy": 1e-3},
     )
-    reported = extensions["results_pages"].section("/prediction", group)
+    reported = extension("results_pages").section("/prediction", group)
     assert "| `load` | `case` | N | normal load |" in reported
     assert "| `speed` (coordinate) | one value | m/s | speed |" in reported
     assert "Attributes: `accuracy`." in reported
 
 
 def test_only_what_has_changed_is_written(
-    extensions: dict[str, ModuleType], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    extension: Extension, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    parts = extensions["page_parts"]
+    parts = extension("page_parts")
     monkeypatch.setattr(parts, "GENERATED", tmp_path)
     parts.write("a/page.md", "one")
     before = (tmp_path / "a" / "page.md").stat().st_mtime_ns
@@ -196,13 +182,13 @@ def test_only_what_has_changed_is_written(
     assert parts.digest("units.py") != parts.digest("errors.py")
 
 
-def test_cells_of_tables_are_safe(extensions: dict[str, ModuleType]) -> None:
-    parts = extensions["page_parts"]
+def test_cells_of_tables_are_safe(extension: Extension) -> None:
+    parts = extension("page_parts")
     assert parts.cell("|E*|\n  <b> [x]") == r"\|E\*\| \<b\> \[x\]"
     assert parts.table(["a", "b"], [["x", "1"], ["y", "−2"]]).splitlines()[1] == "| --- | ---: |"
 
 
-def test_requests_to_other_hosts_are_found(extensions: dict[str, ModuleType], tmp_path: Path) -> None:
+def test_requests_to_other_hosts_are_found(extension: Extension, tmp_path: Path) -> None:
     fetched = [
         '<script src="https://a.org/x.js"></script>',
         '<link href="//a.org/x.css" rel="stylesheet">',
@@ -211,7 +197,7 @@ def test_requests_to_other_hosts_are_found(extensions: dict[str, ModuleType], tm
         "<style>@font-face { src: url('https://a.org/x.woff2') }</style>",
     ]
     followed = '<a href="https://a.org">a</a><link rel="canonical" href="https://a.org"><script src="x.js"></script>'
-    offline = extensions["offline"]
+    offline = extension("offline")
     for page in fetched:
         assert len(offline.requests_of_page(page)) == 1, page
     assert not offline.requests_of_page(followed)
@@ -220,10 +206,10 @@ def test_requests_to_other_hosts_are_found(extensions: dict[str, ModuleType], tm
     assert list(offline.requests_of_site(tmp_path)) == ["style.css: https://a.org/x.css"]
 
 
-def test_a_search_finds_pages_that_have_all_its_words(extensions: dict[str, ModuleType]) -> None:
+def test_a_search_finds_pages_that_have_all_its_words(extension: Extension) -> None:
     tables = {"terms": {"roll": [0, 1], "resist": 1}, "titleterms": {"payn": [2], "resist": 2}}
     index = {"docnames": ["a", "b", "c"], **tables}
-    results = extensions["search_words"].results
+    results = extension("search_words").results
     assert results(index, "Rolling resistance") == {"b"}
     assert results(index, "Payne") == {"c"}
     assert results(index, "resistances") == {"b", "c"}

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -33,6 +33,7 @@ from viscofric.threads import THREADS_VARIABLE, in_parts, so_many, threads_for, 
 OTHERS = ("array_api_strict", "ducc0", "torch:cpu", "torch:cuda", "cupy")
 # The solver's own error at this tolerance, which another rounding may shift; pressures are well conditioned here.
 TOLERANCE, SAME = 1e-12, 1e-10
+BALL, CYLINDER = vf.Ball(radius=0.01), vf.Cylinder(radius=0.01)
 TWO_MODES = SteadyMaterial(0.01, np.array([0.49, 0.5]), np.array([0.2, 30.0]))
 
 
@@ -48,18 +49,9 @@ def backend(request: pytest.FixtureRequest) -> Backend:
     return available(request.param)
 
 
-def ball(backend: Backend | str) -> vf.contact.ContactSolution:
+def ball(backend: Backend | str, indenter: vf.Indenter = BALL, load: float = 1.0) -> vf.contact.ContactSolution:
     rubber = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
-    return vf.solve_steady(
-        rubber, vf.Ball(radius=0.01), speed=1.0, load=1.0, accuracy=0.02, tolerance=TOLERANCE, backend=backend
-    )
-
-
-def roller(backend: Backend | str) -> vf.contact.ContactSolution:
-    rubber = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
-    return vf.solve_steady(
-        rubber, vf.Cylinder(radius=0.01), speed=1.0, load=100.0, accuracy=0.02, tolerance=TOLERANCE, backend=backend
-    )
+    return vf.solve_steady(rubber, indenter, speed=1.0, load=load, accuracy=0.02, tolerance=TOLERANCE, backend=backend)
 
 
 def rough(backend: Backend | str, *, speed: float, **given: float) -> vf.contact.PeriodicSolution:
@@ -72,7 +64,7 @@ def rough(backend: Backend | str, *, speed: float, **given: float) -> vf.contact
 
 CONTACTS = {
     "ball": ball,
-    "roller": roller,
+    "roller": partial(ball, indenter=CYLINDER, load=100.0),
     "rough, elastic": lambda backend: rough(backend, speed=0.0),
     "rough, viscoelastic": lambda backend: rough(backend, speed=1.0),
     "rough, given gap": lambda backend: rough(backend, speed=1.0, gap=0.1),

@@ -281,24 +281,26 @@ def test_line_contact_has_the_derivatives_of_hunters_closed_form(k: float, lengt
 
 
 @pytest.mark.parametrize(
-    ("accuracy", "near"),
+    ("layer", "accuracy", "near"),
     # Of μ = 0.058: the two solutions are right to less than 5e-5 of it, which the step of 0.12 divides, and the step's
     # own error is 6e-4 of the third derivative.
-    [*slow((1e-3, 1.5e-4)), *apart((3e-4, 8e-5))],
+    [*slow((None, 1e-3, 1.5e-4), (Layer(thickness=1e-3), 1e-3, 1.5e-4)), *apart((None, 3e-4, 8e-5))],
 )
-def test_ball_has_the_derivatives_of_its_friction_over_finite_steps(accuracy: float, near: float) -> None:
+def test_ball_has_the_derivatives_of_its_friction_over_finite_steps(
+    layer: Layer | None, accuracy: float, near: float
+) -> None:
     rubber = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
 
     def over(name: str) -> float:
         up, down = (
-            solve_steady(rubber, BALL, accuracy=accuracy, **({"speed": 1.0, "load": 1.0} | {name: value}))  # type: ignore[arg-type]
+            solve_steady(rubber, BALL, accuracy=accuracy, layer=layer, **({"speed": 1.0, "load": 1.0} | {name: value}))  # type: ignore[arg-type]
             for value in (1.06, 1.0 / 1.06)
         )
         return (up.friction_coefficient - down.friction_coefficient) / (2.0 * np.log(1.06))
 
-    derivatives = solved([0.9e-6], [1e-3], E_inf=1e7, speed=1.0, accuracy=accuracy)
-    assert derivatives.logarithmic.speed == pytest.approx(over("speed"), abs=near)
-    assert derivatives.logarithmic.load == pytest.approx(over("load"), abs=near)
+    found = solved([0.9e-6], [1e-3], E_inf=1e7, speed=1.0, accuracy=accuracy, layer=layer).logarithmic  # type: ignore[arg-type]
+    assert found.speed == pytest.approx(over("speed"), abs=near)
+    assert found.load == pytest.approx(over("load"), abs=near)
 
 
 @pytest.mark.slow
@@ -410,24 +412,6 @@ def test_layer_is_a_half_space_where_it_is_thick() -> None:
     near = {"rel": 1e-5}  # the contact's size over the thickness, 1e-6, and the tolerance of the solutions
     assert list(thick.C) == pytest.approx(half.C, **near)
     assert (thick.E_inf, thick.speed, thick.load) == pytest.approx((half.E_inf, half.speed, half.load), **near)
-
-
-@pytest.mark.slow
-def test_friction_on_a_layer_changes_with_speed_and_load_as_its_derivatives_tell() -> None:
-    layer = Layer(thickness=1e-3)
-    rubber = Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3)
-
-    def over(name: str) -> float:
-        up, down = (
-            solve_steady(rubber, BALL, layer=layer, **({"speed": 1.0, "load": 1.0} | {name: value}))  # type: ignore[arg-type]
-            for value in (1.06, 1.0 / 1.06)
-        )
-        return (up.friction_coefficient - down.friction_coefficient) / (2.0 * np.log(1.06))
-
-    found = solved([0.9e-6], [1e-3], E_inf=1e7, speed=1.0, layer=layer).logarithmic  # type: ignore[arg-type]
-    # As of the ball on a half-space.
-    assert found.speed == pytest.approx(over("speed"), abs=1.5e-4)
-    assert found.load == pytest.approx(over("load"), abs=1.5e-4)
 
 
 def test_transposed_operator_has_the_transposed_matrix() -> None:

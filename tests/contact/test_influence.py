@@ -77,25 +77,21 @@ def test_quadrature_by_panels_agrees_with_adaptive_quadrature(x: float, y: float
     assert remembered_potential(x, y, memory_length) == pytest.approx(adaptive, rel=1e-10)
 
 
-@pytest.mark.parametrize("memory_length", MEMORY_LENGTHS)
-def test_memory_agrees_with_quadrature(memory_length: float) -> None:
+@pytest.mark.parametrize(
+    ("memory_length", "shifts"),
+    [*((one, (0.0,)) for one in MEMORY_LENGTHS), *((one, (0.1, 0.37, 0.5)) for one in (1e-6, 0.1, 1.0, 1e3))],
+)
+def test_memory_at_and_behind_the_cell_centres_agrees_with_quadrature(
+    memory_length: float, shifts: tuple[float, ...]
+) -> None:
     nx, ny = WINDOW
-    influence = memory_influence(WINDOW, np.ones((1, 1)), np.array([memory_length]))[0]
-    computed = np.array([influence[i + nx - 1, j] for i, j in OFFSETS])
-    expected = np.array([remembered_potential(i, j, memory_length) for i, j in OFFSETS])
-    # The module promises 1e-11 of the largest value; 1e-9 of each value leaves room for the smallest of them.
-    np.testing.assert_allclose(computed, expected, rtol=1e-9)
-    assert influence.shape == (2 * nx - 1, ny)
-
-
-@pytest.mark.parametrize("memory_length", [1e-6, 0.1, 1.0, 1e3])
-def test_memory_behind_the_cell_centres_agrees_with_quadrature(memory_length: float) -> None:
-    nx, _ = WINDOW
-    for shift in (0.1, 0.37, 0.5):
+    for shift in shifts:
         influence = memory_influence(WINDOW, np.ones((1, 1)), np.array([memory_length]), shift)[0]
         computed = np.array([influence[i + nx - 1, j] for i, j in OFFSETS])
         expected = np.array([remembered_potential(i - shift, j, memory_length) for i, j in OFFSETS])
-        np.testing.assert_allclose(computed, expected, rtol=1e-9)  # as at the centres
+        # The module promises 1e-11 of the largest value; 1e-9 of each value leaves room for the smallest of them.
+        np.testing.assert_allclose(computed, expected, rtol=1e-9)
+        assert influence.shape == (2 * nx - 1, ny)
 
 
 def test_rows_with_coarser_rules_agree_with_quadrature() -> None:

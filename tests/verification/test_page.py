@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-import sys
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -20,15 +20,9 @@ PAGE = (DOCS / "verification.md").read_text(encoding="utf-8")
 CHEAP = ["hertz-ball", "hertz-cylinder", "sneddon-cone", "flat-punch", "westergaard", "johnson-waves", "thin-layers"]
 
 
-@pytest.fixture(scope="module")
-def pages() -> ModuleType:
-    """Return the module that makes the page's tables."""
-    sys.path.insert(0, str(DOCS / "_extensions"))
-    try:
-        import verification_pages
-    finally:
-        sys.path.remove(str(DOCS / "_extensions"))
-    return verification_pages
+@pytest.fixture
+def pages(extension: Callable[[str], ModuleType]) -> ModuleType:
+    return extension("verification_pages")
 
 
 @cache

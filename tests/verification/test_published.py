@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -148,14 +147,8 @@ def test_a_power_law_solid_has_its_modulus() -> None:
 
 
 @pytest.fixture
-def pages() -> ModuleType:
-    """Return the module that makes the page's table."""
-    sys.path.insert(0, str(DOCS / "_extensions"))
-    try:
-        import verification_pages
-    finally:
-        sys.path.remove(str(DOCS / "_extensions"))
-    return verification_pages
+def pages(extension: Callable[[str], ModuleType]) -> ModuleType:
+    return extension("verification_pages")
 
 
 @pytest.mark.slow

@@ -50,8 +50,8 @@ def contact_of(record: vf.friction.IndentationRecord) -> Growing:
     return growing(usable_rows(record, reduced, len(record)), reduced)
 
 
-def planted(kelvin: float) -> Trial:
-    spectrum = RUBBER.at(kelvin)
+def planted(kelvin: float, rubber: vf.Material = RUBBER) -> Trial:
+    spectrum = rubber.at(kelvin)
     x = np.log(np.append(1.0 / spectrum.E_inf, spectrum.C))
     return Trial(x, np.array(spectrum.tau), 0.0, PLANE_STRAIN, 0.0)
 

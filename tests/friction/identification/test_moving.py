@@ -12,12 +12,13 @@ from tests.friction.identification.test_indentation import (
     PLANE_STRAIN,
     check_derivatives,
     creep,
+    planted,
     relaxation,
 )
 
 import viscofric as vf
 from viscofric.errors import InputError
-from viscofric.friction.identification.indentation.contact import Nearby, Shared, Trial
+from viscofric.friction.identification.indentation.contact import Nearby, Shared
 from viscofric.friction.identification.indentation.moving import _turns
 from viscofric.friction.identification.indentation.setting_up import usable_records
 from viscofric.notes import codes
@@ -31,12 +32,6 @@ RUBBER = vf.Material(
 )
 EXACT = Shared()
 SHARED = Shared(radius=0.01, gain=0.02, zero=1e-6)
-
-
-def planted(kelvin: float) -> Trial:
-    spectrum = RUBBER.at(kelvin)
-    x = np.log(np.append(1.0 / spectrum.E_inf, spectrum.C))
-    return Trial(x, np.array(spectrum.tau), 0.0, PLANE_STRAIN, 0.0)
 
 
 @functools.cache
@@ -80,7 +75,7 @@ def contact_of(record, shared: Shared = EXACT):
 
 @pytest.mark.parametrize("control", ["load", "indentation"])
 def test_unloading_agrees_with_the_solver_over_time(control: str) -> None:
-    contact, trial = contact_of(shrinking(control)), planted(KELVIN)
+    contact, trial = contact_of(shrinking(control)), planted(KELVIN, RUBBER)
     assert contact.by_springs
     # Springs and steps are good to 1e-3, and the solver's accuracy is 1e-3 of the largest value.
     allowed = 3e-3 * contact.response.max()
@@ -89,7 +84,7 @@ def test_unloading_agrees_with_the_solver_over_time(control: str) -> None:
 
 def test_impacts_agree_with_their_solver() -> None:
     record = rebounds()
-    contact, trial = contact_of(record), planted(KELVIN)
+    contact, trial = contact_of(record), planted(KELVIN, RUBBER)
     # Steps of a hundredth of the contact: 1e-4 of the restitution; 64 springs: 1e-4 of the force.
     assert np.exp(contact.answer(trial).log_value) == pytest.approx(contact.response, rel=1e-3)
     assert 1.0 / contact.ends(trial)[1] == pytest.approx(record.contact_time.min() / np.pi, rel=0.3)
@@ -98,7 +93,7 @@ def test_impacts_agree_with_their_solver() -> None:
 @pytest.mark.parametrize("name", ["unloading", "withdrawal", pytest.param("rebounds", marks=pytest.mark.slow)])
 def test_derivatives_by_springs_are_those_of_differences(name: str, monkeypatch) -> None:
     contact = contact_of(MADE[name]())
-    trial = planted(KELVIN)._replace(
+    trial = planted(KELVIN, RUBBER)._replace(
         compliances=np.log(np.array([4e-7, 2e-7, 1e-7, 3e-7])), tau=np.array([1e-3, 0.1, 10.0]), extra=1e-9
     )
     steps = type(contact)._steps if hasattr(contact, "_steps") else None
@@ -112,7 +107,7 @@ def test_derivatives_by_springs_are_those_of_differences(name: str, monkeypatch)
 
 def test_nearby_materials_are_those_solved_again() -> None:
     for record in (shrinking("load"), rebounds()):
-        contact, trial = contact_of(record), planted(KELVIN)
+        contact, trial = contact_of(record), planted(KELVIN, RUBBER)
         near = Nearby.of(contact, trial)
         harder = trial._replace(compliances=trial.compliances - 0.5)
         bend = 0.1 * np.sin(np.arange(len(trial.compliances)) / 8.0)
@@ -130,7 +125,7 @@ def test_nearby_materials_are_those_solved_again() -> None:
 )
 def test_common_errors_are_those_of_wrong_radius_load_and_zero(name: str) -> None:
     record = MADE[name]()
-    contact, trial = contact_of(record, SHARED), planted(record.temperature)
+    contact, trial = contact_of(record, SHARED), planted(record.temperature, RUBBER)
     found = contact.functional(trial.tau)(trial).shared
     measured = np.log(contact.response)
     true = vf.Ball(BALL.radius * (1.0 + SHARED.radius))
