@@ -45,7 +45,7 @@ PARABOLOID = 0.5 * (WINDOW.x[:, None] ** 2 + WINDOW.y**2)
 @pytest.mark.slow
 def test_pressure_is_that_of_dense_pivoting(name: str) -> None:
     material = MATERIALS[name]
-    window = Grid(spacing=2.4 / 28, behind=14, ahead=14, beside=12)
+    window = Grid(spacing=2.4 / 20, behind=10, ahead=10, beside=9)
     nx, ny = window.shape
     height = 0.5 * (window.x[:, None] ** 2 + window.y**2)
     load = 4.0 / 3.0 / window.cell_area

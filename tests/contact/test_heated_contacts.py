@@ -150,11 +150,11 @@ def released_below_ball(contact: vf.contact.ContactSolution, modes: Modes) -> fl
     return 1.5 * contact.speed / np.pi**2 * found
 
 
-@pytest.mark.apart  # a minute
+@pytest.mark.apart
 def test_all_of_the_loss_below_random_balls_is_released() -> None:
     """Friction times speed, to 1e-3: the accuracy of the contact; memories from 1/20 of the radius to 100 of it."""
     generator = np.random.default_rng(1)
-    for _ in range(12):
+    for _ in range(4):
         count = int(generator.integers(1, 5))
         tau, C = 10.0 ** generator.uniform(-4.0, -1.0, count), 10.0 ** generator.uniform(-7.0, -6.0, count)
         solid = vf.Material(vf.RetardationSpectrum(1.0 / (1e-7 + C.sum()), 1e7, C, tau))
