@@ -197,7 +197,7 @@ def at_rest(tab: Tab, seconds: float = 60.0) -> dict[str, Any]:
     before: dict[str, Any] = {}
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        tab.page.wait_for_timeout(100)
+        tab.page.wait_for_timeout(20)
         rests = tab.value(AT_REST)  # asked first: what is seen comes after
         now = tab.value(SEEN)
         if rests and now == before:

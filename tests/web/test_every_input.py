@@ -42,16 +42,22 @@ def test_no_key_of_the_run_file_is_left_out() -> None:
     assert keys() - set(INPUTS) - set(OTHERS) == set()
 
 
+def drawn(tab: Tab, step: str) -> dict[str, Any]:
+    """Go to a step and have its figures drawn; return them."""
+    tab.step(step)
+    if step == "motion":
+        tab.page.get_by_role("button", name="Solve", exact=True).click()
+    found = at_rest(tab)
+    assert any(one["inputs"] for one in found.values())
+    assert not any(one["stale"] for one in found.values())
+    return found
+
+
 @pytest.mark.parametrize("hidden", STEPS)
 def test_no_figure_of_other_inputs_is_left(browser: Browser, server: Server, hidden: str) -> None:
     with opened_tab(browser, server, "#export") as tab:
         example(tab, STUDY)
-        tab.step(hidden)
-        if hidden == "motion":
-            tab.page.get_by_role("button", name="Solve", exact=True).click()
-        before = at_rest(tab)
-        assert any(one["inputs"] for one in before.values())
-        assert not any(one["stale"] for one in before.values())
+        before = drawn(tab, hidden)
         for path, value in INPUTS.items():
             change(tab, path, value)
             tab.step(hidden)
@@ -61,12 +67,19 @@ def test_no_figure_of_other_inputs_is_left(browser: Browser, server: Server, hid
             assert hidden == "motion" or not any(one["stale"] for one in now.values()), path
             tab.value(f"{STATE}.undo()")
             assert at_rest(tab) == before, path
+
+
+def test_inputs_of_other_studies_leave_no_figure_of_theirs(browser: Browser, server: Server) -> None:
+    with opened_tab(browser, server, "#export") as tab:
+        example(tab, STUDY)
+        before = {step: drawn(tab, step) for step in STEPS}
         for path, value in OTHERS.items():
             change(tab, path, value)
             tab.value(f"{STATE}.undo()")
             assert wrong_figures(tab) == [], path
-        tab.step(hidden)
-        assert at_rest(tab) == before
+        for step, figures in before.items():
+            tab.step(step)
+            assert at_rest(tab) == figures
 
 
 #: Solved in a moment, so that walks meet results as well as what is on its way.
