@@ -20,6 +20,13 @@ from viscofric.notes import Note
 from viscofric.units import plain, shown_number
 
 _FEWEST = 3  # degrees of freedom of a rate
+#: Those with which the scatter of other combinations is not needed, and the fewest with it.
+_ENOUGH, _FEWEST_TOGETHER = 5, 2
+#: Change of Coulomb friction in the course of a test that it should show, and the part of one that is subtracted where
+#: it may be running in: it lies between none and all.
+_WORN, _HALF = 0.5, 0.5
+_SURELY = 1.64  # standard errors that a change must be above the threshold, to be found in 95 % of tests
+_ALL = 2.0  # change of Coulomb friction over its mean that leaves nothing of it
 #: The zeros of a condition are used alone unless the error of their rate is so many times that of all conditions.
 _FAR_BETTER = 3.0
 # The recorded zeros are followed where this reduces the sum of squares by more than chance.
@@ -31,8 +38,26 @@ class Rate(NamedTuple):
     """A change that is linear in time; zero where it is not significant."""
 
     value: float = 0.0
-    error: float = 0.0  # its standard error
+    error: float = 0.0  # its standard error; the root of its expected square where it is not significant
     freedom: float = np.inf
+    part: float = 1.0  # what is subtracted of it, the rest is in the errors
+
+    @classmethod
+    def found(cls, value: float, error: float, freedom: float, part: float = 1.0) -> Rate:
+        """Return a rate, zero where it is within what chance makes."""
+        if not math.isfinite(error):
+            return _NONE
+        if abs(value) >= threshold(freedom, CHANCE) * error:
+            return cls(value, error, freedom, part)
+        # Where it exceeds its error, it is expected to be more than that: normal with the variance by which its square
+        # does so.
+        sure = 1.0 - (error / value) ** 2 if abs(value) > error else 0.0
+        return cls(0.0, math.hypot(sure * value, math.sqrt(sure) * error), freedom)
+
+    @property
+    def left(self) -> float:
+        """Standard error of what is left of it."""
+        return math.hypot(self.error, (1.0 - self.part) * self.value)
 
 
 _NONE = Rate()
@@ -48,23 +73,25 @@ class Drift:
     # standard deviation, N, of a zero that drifts otherwise, or without recorded times; zero where it does not
     wandering: float = 0.0
     timed: bool = True  # whether the times were recorded
+    hidden: float = 0.0  # change of Coulomb friction that could remain unnoticed, over its mean; zero where it is small
 
     @property
     def weights(self) -> Array:
         """Of the force and its corrections."""
         weights = np.zeros(4)
         weights[FORCE], weights[DRIFT], weights[ZERO_CHANGES] = 1.0, self.zero.value, float(self.follows)
-        weights[WEAR] = self.coulomb.value
+        weights[WEAR] = self.coulomb.part * self.coulomb.value
         return weights
 
     @classmethod
     def of(cls, fits: list[Fit]) -> Drift:
         """Estimate the drift from the fitted zeros and Coulomb coefficients."""
-        drift = cls._of_zeros(fits)
-        return replace(drift, coulomb=_of_coulomb(fits, drift.weights))
+        drift, error = cls._of_zeros(fits)
+        rate, hidden = _of_coulomb(fits, drift.weights, error)
+        return replace(drift, coulomb=rate, hidden=hidden)
 
     @classmethod
-    def _of_zeros(cls, fits: list[Fit]) -> Drift:
+    def _of_zeros(cls, fits: list[Fit]) -> tuple[Drift, float]:
         # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
         # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
         # Where they were repeated at once, it is known far better from lines for each temperature and load, between
@@ -76,7 +103,7 @@ class Drift:
         timed = [fit for fit in fitted if np.isfinite(fit.time)]
         repeated = [fit for fit in timed if len(fit.each) > 1]
         if not timed:
-            return cls(follows=follows, wandering=_in_order_of_rows(fitted, uncorrected), timed=False)
+            return cls(follows=follows, wandering=_in_order_of_rows(fitted, uncorrected), timed=False), 0.0
 
         def line(some: list[Fit], of: Integers) -> _Line:
             # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
@@ -91,14 +118,14 @@ class Drift:
             if together.tells_far_better(found) and not together.wanders(rounding):
                 found = together
         if found.wanders(rounding):
-            return cls(follows=follows, wandering=float(np.std(found.value, ddof=1)))
-        return cls(found.rate(rounding), follows=follows)
+            return cls(follows=follows, wandering=float(np.std(found.value, ddof=1))), 0.0
+        return cls(found.rate(rounding), follows=follows), found.error
 
     def entry(self, fit: Fit, zeros: Zeros, error: Array, freedom: Array) -> Entry:
         """Return the result of a condition, with the error of the drift in its standard errors (4,)."""
         entry = fit.entry(self.weights, zeros, error, freedom)
         for rate, number in ((self.zero, DRIFT), (self.coulomb, WEAR)):
-            entry = entry.widened((rate.error * fit.each[:, :, number].mean(axis=0)) ** 2, rate.freedom)
+            entry = entry.widened((rate.left * fit.each[:, :, number].mean(axis=0)) ** 2, rate.freedom)
         return entry
 
     def notes(self, fits: list[Fit]) -> Iterator[Note]:
@@ -114,13 +141,35 @@ class Drift:
             moved = np.array([fit.each[:, 1, WEAR].mean() for fit in fits])
             size = float(np.abs(self.coulomb.value * moved).max())
             rate, error = (plain(100.0 * _PER_HOUR * one, 2) for one in (self.coulomb.value, self.coulomb.error))
+            words = (
+                "for example by wear. Its errors include this; from viscoelastic friction, which it would change by up "
+                f"to {size:.2g}, it is subtracted."
+            )
+            if self.coulomb.part < 1.0:
+                words = (
+                    "by wear or by running in, which the order of the readings does not distinguish. Wear would change "
+                    f"viscoelastic friction by up to {size:.2g}: half of it is subtracted, and the errors include the "
+                    "other half."
+                )
             yield Note(
                 "coulomb-drifts",
-                f"Coulomb friction changes by {rate} ± {error} % per hour in the course of the test, for example by "
-                "wear. Its errors include this; from viscoelastic friction, which it would change by up to "
-                f"{size:.2g}, it is subtracted.",
+                f"Coulomb friction changes by {rate} ± {error} % per hour in the course of the test, {words}",
                 # rate and its error in 1/s
-                values={"rate": self.coulomb.value, "error": self.coulomb.error, "viscoelastic": size},
+                values={
+                    "rate": self.coulomb.value,
+                    "error": self.coulomb.error,
+                    "viscoelastic": size,
+                    "subtracted": self.coulomb.part,
+                },
+            )
+        if self.hidden:
+            amount = f"of {plain(100.0 * self.hidden, 2)} % " if math.isfinite(self.hidden) else ""
+            yield Note(
+                "wear-not-shown",
+                f"Coulomb friction could change {amount}in the course of the test, for example by wear, without being "
+                "noticed in this order of the readings, and viscoelastic friction with it; repeat all runs once more, "
+                "or measure the configurations of a condition in quick succession.",
+                values={"change": self.hidden},
             )
         if self.zero.value:
             moved = np.array([fit.each[:, 1:3, DRIFT].mean(axis=0) for fit in fits if fit.fits_offset])
@@ -189,9 +238,7 @@ class _Line:
         """Return the slope, zero where it is within what chance makes."""
         if abs(self.slope) * float(np.ptp(self.time)) <= rounding:
             return _NONE
-        if not np.isfinite(self.error) or abs(self.slope) < threshold(self.freedom, CHANCE) * self.error:
-            return _NONE
-        return Rate(self.slope, self.error, self.freedom)
+        return Rate.found(self.slope, self.error, self.freedom)
 
 
 def _alike(fits: list[Fit]) -> Integers:
@@ -201,41 +248,115 @@ def _alike(fits: list[Fit]) -> Integers:
     return np.asarray(np.unique(pairs, axis=0, return_inverse=True)[1]).reshape(-1)
 
 
-def _of_coulomb(fits: list[Fit], weights: Array) -> Rate:
-    """Return the rate of Coulomb friction over its mean, by lines of one slope."""
-    # A run over all speeds is one point, since its speeds may differ alike from those of other runs. Where the
-    # replicates of a condition follow each other at once, there are no such runs, and each condition has its own line.
-    # What changes alike at all conditions, such as higher friction in the first replicate of each configuration, is no
-    # wear: the residuals of the configurations do not have its changes from one configuration to the next.
-    alike: dict[tuple[float, int], list[Array]] = defaultdict(list)
-    residuals: list[Array] = []
+class _Slope(NamedTuple):
+    """A rate whose corrections bring values nearest to zero."""
+
+    value: float
+    squares: float  # sum of squares of what is left
+    freedom: int
+    sensitivity: float  # sum of squares of the corrections
+
+    @classmethod
+    def of(cls, values: Array, corrections: Array, fitted: int) -> _Slope:
+        """Fit values (n,) from which `fitted` others are found; `corrections` (n,) are those per unit of the rate."""
+        sensitivity = float(corrections @ corrections)
+        told = np.abs(corrections).max(initial=0.0) > 0.0
+        rate = -float(values @ corrections) / sensitivity if told else 0.0
+        left = values + rate * corrections
+        return cls(rate, float(left @ left), max(values.size - fitted - told, 0), sensitivity)
+
+    def error(self, squares: float, freedom: int) -> tuple[float, float]:
+        """Return the standard error of the rate and its degrees of freedom; those of all values where its own are few.
+
+        `squares` and `freedom` are those of all; the error is infinite where they are few as well.
+        """
+        own = self.squares / self.freedom if self.freedom else 0.0
+        variance, freedom = (max(own, squares / freedom), freedom) if self.freedom < _ENOUGH else (own, self.freedom)
+        if self.sensitivity <= 0.0 or freedom < _FEWEST_TOGETHER:
+            return np.inf, 1.0
+        return math.sqrt(variance / self.sensitivity), freedom
+
+
+def _of_coulomb(fits: list[Fit], weights: Array, zero_error: float) -> tuple[Rate, float]:
+    """Return the rate of Coulomb friction over its mean, and the change that could remain unnoticed.
+
+    `zero_error` is the standard error of the rate of the zero, N/s.
+    """
+    # Wear changes Coulomb friction from one replicate to the next, from which a rate follows, and leaves a residual of
+    # configurations that follow each other, from which another one follows. What changes alike at all conditions, such
+    # as higher friction in the first replicate of each configuration, is in the first only: where the second
+    # contradicts it, there is no wear; where the second may be zero as well, viscoelastic friction may be as it is.
+    points, checked = _courses(fits, weights)
+    if not points:
+        return _NONE, 0.0
+    times = np.concatenate([fit.times for fit in fits])
+    length = float(np.nanmax(times) - np.nanmin(times))
+    moved = np.concatenate([one - one.mean(axis=2, keepdims=True) for one in points], axis=2)
+    course = _Slope.of(moved[1, 0], moved[1, 1], len(points))
+    values, by_wear, by_drift = np.concatenate([np.zeros((3, 0)), *(one[2] for one in checked)], axis=1)
+    residual = _Slope.of(values, by_wear, 0)
+    rest = moved[0, 0] + course.value * moved[0, 1]
+    squares = float(rest @ rest) + course.squares + residual.squares
+    every = rest.size - len(points) + course.freedom + residual.freedom
+    error, freedom = course.error(squares, every)
+    other_error, other_freedom = residual.error(squares, every)
+    if drifts := float(by_drift @ by_wear):
+        other_error = math.hypot(other_error, zero_error * drifts / residual.sensitivity)
+    hidden = length * min(
+        (threshold(some, CHANCE) + _SURELY) * one for some, one in ((freedom, error), (other_freedom, other_error))
+    )
+    # Without degrees of freedom of its own, the course is used where it matters to viscoelastic friction.
+    least = _least_change(fits, weights)
+    if course.freedom < _ENOUGH and abs(course.value) <= least:
+        error = np.inf
+    apart = threshold(min(freedom, other_freedom), CHANCE) * math.hypot(error, other_error)
+    if abs(course.value - residual.value) > apart + ROUNDING * abs(course.value):
+        return _NONE, 0.0
+    found = Rate.found(course.value, error, freedom)
+    if found.value:
+        if abs(residual.value) <= threshold(other_freedom, CHANCE) * other_error:
+            found = found._replace(part=_HALF)
+    else:
+        total = error**2 + other_error**2
+        weight = other_error**2 / total if 0.0 < total < np.inf else float(np.isinf(other_error))
+        mean = weight * course.value + (1.0 - weight) * residual.value
+        error = min(error, other_error) if np.isinf(total) else error * math.sqrt(weight)
+        freedom = freedom if weight > _HALF else other_freedom
+        found = Rate.found(mean, error, freedom, _HALF)
+    if not ROUNDING < abs(found.value) * length <= _ALL:
+        found = found._replace(value=0.0)
+    shown = found.value or hidden <= _WORN or not least * length < _WORN
+    return found, 0.0 if shown else hidden
+
+
+def _least_change(fits: list[Fit], weights: Array) -> float:
+    """Return the least rate of Coulomb friction that would move viscoelastic friction out of its 95 % interval."""
+    each = [fit.each[:, 1] @ weights for fit in fits if fit.paired]
+    width = 2.0 * math.sqrt(np.mean([np.var(one, ddof=1) / len(one) for one in each]))
+    moved = max(abs(float(fit.each[:, 1, WEAR].mean())) for fit in fits if fit.paired)
+    return width / moved if moved > ROUNDING else np.inf
+
+
+def _courses(fits: list[Fit], weights: Array) -> tuple[list[Array], list[Array]]:
+    """Return what the replicates of conditions or runs were, and the same of those with four configurations."""
+    # Each is (3, 3, r): viscoelastic and Coulomb coefficient and consistency; themselves, and their corrections by wear
+    # and by drift; of each replicate; over mean Coulomb friction. A run over all speeds is one point, since its speeds
+    # may differ alike from those of other runs. Where the replicates of a condition follow each other at once, there
+    # are no such runs.
+    alike: dict[tuple[float, int, bool], list[tuple[Fit, Array]]] = defaultdict(list)
     for fit in fits:
-        each, mean = fit.each[:, 2] @ weights, fit.mean(weights)[2]
-        if fit.paired and fit.slides and fit.coulomb is None and np.isfinite(fit.time) and np.all(each > 0.0):
-            alike[fit.group.temperature, len(each)].append(
-                np.stack([each, fit.time * mean - fit.each[:, 2, WEAR]]) / mean
-            )
-            if fit.checks:
-                residuals.append(np.stack([fit.each[:, 3] @ weights, fit.each[:, 3, WEAR]]))
-    points: list[Array] = []
-    for several in alike.values():
-        ends = np.array([one[1][[0, -1]] for one in sorted(several, key=lambda one: one[1].min())])
-        at_once = np.all(ends.min(axis=1)[1:] > ends.max(axis=1)[:-1])
-        points += several if at_once else [np.mean(several, axis=0)]
-    rate = _Line.of([tuple(one) for one in points], np.arange(len(points))).rate(ROUNDING) if points else _NONE
-    return _NONE if rate.value and residuals and _contradict(np.concatenate(residuals, axis=1), rate) else rate
-
-
-def _contradict(residuals: Array, rate: Rate) -> bool:
-    """Whether residuals and their corrections per unit of a rate (2, n) are those of another rate."""
-    residual, correction = residuals
-    if np.abs(rate.value * correction).max() <= ROUNDING:
-        return False
-    squares, freedom = float(correction @ correction), residual.size - 1
-    other = -float(residual @ correction) / squares
-    error = float(np.sqrt(np.sum((residual + other * correction) ** 2) / freedom / squares))
-    chance = threshold(min(freedom, rate.freedom), CHANCE) * math.hypot(error, rate.error)
-    return abs(rate.value - other) > chance + ROUNDING * abs(rate.value)
+        each, mean = fit.each @ weights, fit.mean(weights)[2]
+        if fit.paired and fit.slides and fit.coulomb is None and np.isfinite(fit.time) and np.all(each[:, 2] > 0.0):
+            parts = np.stack([each, fit.each[:, :, WEAR], fit.each[:, :, DRIFT]])
+            alike[fit.group.temperature, len(each), fit.checks].append((fit, np.moveaxis(parts[:, :, 1:], 2, 0) / mean))
+    points, checked = [], []
+    for (_, _, checks), several in alike.items():
+        ends = np.array(sorted((fit.times.min(), fit.times.max()) for fit, _ in several))
+        some = [one for _, one in several]
+        some = some if np.all(ends[1:, 0] > ends[:-1, 1]) else [np.mean(some, axis=0)]
+        points += some
+        checked += some if checks else []
+    return points, checked
 
 
 def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:

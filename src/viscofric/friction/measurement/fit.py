@@ -158,7 +158,7 @@ class Fit:
     # (r, 4, 4): zero, viscoelastic and Coulomb coefficient and consistency of each replicate (of all readings where
     # they are fitted together), of the force and of its corrections
     each: Array
-    time: float  # mean time of the readings, s; NaN where it was not recorded
+    times: Array = field(repr=False)  # (n,), of the readings, s; NaN where they were not recorded
     recorded: float  # mean of the recorded zero, N; NaN where it is not known
     replicates: int
     together: bool
@@ -231,7 +231,7 @@ class Fit:
         return cls(
             group=group,
             each=each,
-            time=float(_times(runs, group).mean()),
+            times=_times(runs, group),
             recorded=zeros.mean(group),
             replicates=count,
             together=not complete,
@@ -253,6 +253,11 @@ class Fit:
             zero_variance=np.zeros(4) if offset else zeros.variance(group, operator, independent),
             coulomb_variance=np.zeros(4) if coulomb is None else (coulomb[1] * (operator @ pattern)) ** 2,
         )
+
+    @property
+    def time(self) -> float:
+        """Mean time of the readings, s; NaN where it was not recorded."""
+        return float(self.times.mean())
 
     def offset(self, weights: Array) -> Array:
         """Zero of each replicate, N; above the recorded one where its changes are followed."""

@@ -126,8 +126,10 @@ def separate(
     conditions of a temperature and load where repetitions follow each other at once), and removed before configurations
     measured one after the other are compared; zeros recorded more than once are used reading by reading if the forces
     follow them.  A linear change of Coulomb friction, as by wear, is estimated from the runs of each temperature, and
-    taken out of viscoelastic friction, unless the residuals of the configurations contradict it; where replicates of a
-    condition follow each other at once, from those of each condition.
+    taken out of viscoelastic friction, unless the consistency contradicts it; where replicates of a condition follow
+    each other at once, from those of each condition.  Where the consistency would not show it, it may be running in
+    that repeats itself: half of it is taken out and the errors include the other half.  Errors include the expected
+    squares of rates that exceed their errors without being significant.
 
     Readings of one step and time are one point of the test and count at their mean speed.  Where the disc's speeds
     put no reversed slips together, those of equal mean speed of disc and ball are.  Viscoelastic friction is then the
