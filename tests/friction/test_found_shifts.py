@@ -17,7 +17,7 @@ from viscofric.contact.indenters.shapes import Ball
 from viscofric.errors import SuperpositionError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.prediction import predict_friction
-from viscofric.friction.shifting.found_shifts import LEFT_OUT, widened, widening
+from viscofric.friction.shifting.found_shifts import CURVE_LEFT_OUT, widened, widening
 from viscofric.friction.shifting.isotherms import friction_isotherms
 from viscofric.friction.shifting.placement import scan_pairs
 from viscofric.friction.shifting.shift import shift_friction
@@ -108,7 +108,7 @@ def test_95_per_cent_intervals_hold_95_per_cent() -> None:
     inside, slopes, together = [], [], []
     for seed in range(100):
         master = shift_friction(synthetic_curves(noise=NOISE, seed=seed))
-        assert LEFT_OUT not in codes(master.notes)
+        assert CURVE_LEFT_OUT not in codes(master.notes)
         factors = master.shift_factors
         away = factors.temperatures != factors.reference
         inside.append(np.abs(deviation(factors, law))[away] < 1.96 * factors.standard_errors[away])
@@ -183,6 +183,27 @@ def test_shifts_of_marginal_overlap_are_reported_and_their_errors_hold() -> None
 
 
 @pytest.mark.slow
+def test_a_fifth_of_points_far_off_hardly_changes_shift_factors() -> None:
+    """By 30 to 60 %, where scatter is 1.8 %: no shift factors were found in most of such tests."""
+    away, errors = [], []
+    for seed in range(5):
+        curves, random = synthetic_curves(noise=0.05, seed=seed), np.random.default_rng(seed)
+        off = np.ones(len(curves))
+        off[random.choice(len(curves), 18, replace=False)] += random.choice([-1.0, 1.0], 18) * random.uniform(
+            0.3, 0.6, 18
+        )
+        factors = shift_friction(replace(curves, viscoelastic=off * curves.viscoelastic)).shift_factors
+        right = planted_law().at_reference(factors.reference).log10(factors.temperatures)
+        others = factors.standard_errors > 0.0
+        away += [*(factors.log10_values - right)[others]]
+        errors += [*factors.standard_errors[others]]
+    assert len(away) >= 32  # of 40 temperatures besides the references; half of the points of some are off
+    # 0.027 decades without outliers, of which 72 of 90 points are left, unevenly.
+    assert np.sqrt(np.mean(np.square(away))) < 0.04
+    # 95 %, less three standard deviations of 32 factors that a test's common errors make half as many.
+    assert np.mean(np.abs(away) < 1.96 * np.array(errors)) > 0.79
+
+
 def test_errors_that_a_temperature_shares_are_counted_if_reported() -> None:
     """Levels off by 1 % move α by many times what the scatter of the points does; told of, intervals hold again."""
     law = planted_law()
@@ -214,7 +235,7 @@ def test_a_temperature_that_reaches_no_other_is_left_out_and_reported() -> None:
         master = shift_friction(synthetic_curves(30.0, 35.0, 40.0, 90.0, noise=NOISE, seed=seed))
         np.testing.assert_allclose(master.shift_factors.temperatures, [303.15, 308.15, 313.15])
         (note,) = master.notes
-        assert note.code == LEFT_OUT
+        assert note.code == CURVE_LEFT_OUT
         assert note.values == {"temperature": 363.15}
         assert set(master.temperature) == {303.15, 308.15, 313.15}
         assert len(master.curves) == 30

@@ -11,6 +11,7 @@ import pytest
 from friction.made_runs import friction_curves
 from refusals import refused
 from viscofric.arrays import Array
+from viscofric.friction.curve_checks import LEFT_OUT, scatter_of, with_tails
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting import master_curve
 from viscofric.friction.shifting.shift import shift_friction
@@ -155,6 +156,31 @@ def test_outliers_count_less(stated: float, replicates: int) -> None:
     # Of some 40 independent places each: three standard deviations of 0.95, and at the ends outliers pass unseen.
     assert np.mean(near) > 0.84
     assert np.mean(far) > 0.9
+
+
+@pytest.mark.parametrize("outliers", [0, 10])
+def test_means_leave_out_a_quarter_of_outliers_and_lose_little_without(outliers: int) -> None:
+    """Of normal scatter the variance grows by 2 %; with outliers to both sides the mean is that of the other points."""
+    squares = []
+    for seed in range(400):
+        values = np.random.default_rng(seed).standard_normal(40)
+        values[:outliers] += 20.0 * (-1.0) ** np.arange(outliers)
+
+        def fit(larger: Array, _: float, values: Array = values) -> tuple[float, Array, float]:
+            weight = 1.0 / larger
+            mean, pull = float(weight @ values / weight.sum()), weight / weight.sum()
+            left = values - mean
+            away = left**2 / ((1.0 - pull) * (1.0 - pull + pull * larger))
+            return mean, away / scatter_of(float(weight @ left**2), 39.0, larger, away), 1.0
+
+        mean, larger, _ = with_tails(np.ones(40), fit)
+        assert np.all(larger[:outliers] == LEFT_OUT)
+        squares.append(mean**2 * (40 - outliers))
+    # 400 squares of one degree of freedom scatter by 7 %; the samples are those of the mean itself without outliers.
+    plain = [
+        np.random.default_rng(seed).standard_normal(40)[outliers:].sum() ** 2 / (40 - outliers) for seed in range(400)
+    ]
+    assert np.mean(squares) < 1.05 * np.mean(plain)
 
 
 def test_an_outlier_does_not_lose_temperatures() -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -15,6 +16,8 @@ from viscofric.nominal import nominal_rows
 from viscofric.notes import Note, note_of
 from viscofric.rheology.uncertainty.material_samples import freedom_of_scatter, prior_freedom
 from viscofric.units import Quantity, number, plain, shown_celsius, shown_speed
+
+Found = TypeVar("Found")
 
 #: Fewer second differences do not give a scatter.
 FEWEST_DIFFERENCES = 6
@@ -43,6 +46,10 @@ MOST_OUTLYING, INNER_SQUARE = 0.1, 0.623
 #: Points count less from this many standard errors on.  Of normal scatter: the mean of squared distances as they count,
 #: and the variance of what is fitted over that of the points' weights.
 TAILS, MEAN_SQUARE, TAILS_COST = 2.0, 0.921, 1.0195
+#: Standard errors from which on, and at which, points far from the others are left out; factor of their variances.
+FAR, FARTHEST, LEFT_OUT = 3.0, 6.0, 1e4
+#: Scatter over the median of squared distances at most: twice that of normal scatter.
+MOST_OVER_MEDIAN = 4.4
 #: Most rounds in which they are found, and the relative change of a variance that is none.
 ROUNDS, SETTLED = 10, 0.1
 #: Fewest errors that have a common one.
@@ -101,34 +108,68 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
     return np.where(wanted, seen, freedom), (note,)
 
 
-def outliers(squares: Array, freedom: float, least: float) -> tuple[Array, Mask]:
+def outliers(squares: Array, larger: Array, freedom: float, least: float) -> tuple[Array, Mask]:
     """Return squared distances (n,) over the scatter that all but the largest have, and which are too large for chance.
 
     `squares` are those of distances over their errors, `least` is that of the scatter; one set in a hundred has an
-    outlier by chance, and none has more than a tenth of its points.
+    outlier by chance, and none has more than a tenth of its points besides those that `larger` (n,) leaves out.
     """
     from scipy.special import stdtrit
 
-    inner = np.sort(squares)[: len(squares) - int(MOST_OUTLYING * len(squares))]
-    scatter = float(inner.mean()) / (INNER_SQUARE if len(inner) < len(squares) else 1.0)
+    left_out = larger >= LEFT_OUT
+    inner = np.sort(squares[~left_out])
+    inner = inner[: len(inner) - int(MOST_OUTLYING * len(inner))]
+    scatter = float(inner.mean()) / (INNER_SQUARE if len(inner) < np.count_nonzero(~left_out) else 1.0)
     over = squares / max(scatter, least)
     known = np.inf if scatter <= least else max(freedom, 1.0)
     far = over > stdtrit(known, 1.0 - 0.5 * CHANCE / len(squares)) ** 2
-    return over, far & (np.count_nonzero(far) <= MOST_OUTLYING * len(far))
+    several = np.count_nonzero(far & ~left_out) > MOST_OUTLYING * len(inner)
+    return over, far & (left_out | (not several))
 
 
-def counted_less(squares: Array) -> Array:
-    """Return factors (n,) of the variances of points with squared distances from the others, over their errors."""
+def with_tails(start: Array, fit: Callable[[Array, float], tuple[Found, Array, float]]) -> tuple[Found, Array, Array]:
+    """Fit points, those far from the others with less weight, or none.
+
+    `start` (n,) are factors of the variances of points, one where nothing is known of them.  `fit` takes such factors
+    and the one of all, and returns what it found, the squared distances (n,) of the points over their errors, and the
+    factor of all of these.  Returns what was found last, the factors, and the squares.
+    """
     # Scatter is normal within `TAILS` standard errors, and has the tails of Student's t of three degrees of freedom
     # beyond: points count less by the square of their distance. No point moves a fit by more than one at the edge does,
     # and it costs less than Student's distribution itself: of normal scatter 3 % of the variance (that of five degrees
-    # of freedom 6 %). P. J. Huber, Robust Statistics (Wiley, 1981).
-    return np.maximum(squares / TAILS**2, 1.0)
+    # of freedom 6 %). P. J. Huber, Robust Statistics (Wiley, 1981). From that fit on, points farther than `FAR` lose
+    # what is left of their weight, which normal scatter hardly has (F. R. Hampel et al., Robust Statistics (Wiley,
+    # 1986), ch. 2.6): many of them would enlarge the scatter, and hide.
+    larger, scale, from_robust = start, 1.0, bool(np.any(start > 1.0))
+    for _ in range(2 * ROUNDS):
+        found, squares, after = fit(larger, scale)
+        before, larger, scale = scale * larger, _counted_less(squares / after, far=from_robust), after
+        if not from_robust and _settled(before, scale * larger):
+            from_robust, larger = True, _counted_less(squares / scale, far=True)
+        if from_robust and _settled(before, scale * larger):
+            break
+    return found, larger, squares
 
 
-def settled(before: Array, after: Array) -> Mask:
-    """Return which factors of variances (n,) have converged."""
-    return np.asarray(np.abs(np.log(after / before)) < SETTLED)
+def _counted_less(squares: Array, *, far: bool) -> Array:
+    larger = np.maximum(squares / TAILS**2, 1.0)
+    left = np.clip((FARTHEST - np.sqrt(squares)) / (FARTHEST - FAR), 0.0, 1.0) if far else 1.0
+    return np.minimum(larger / np.maximum(left, 1.0 / LEFT_OUT), LEFT_OUT) if far else larger
+
+
+def _settled(before: Array, after: Array) -> bool:
+    return bool(np.all(np.abs(np.log(after / before)) < SETTLED))
+
+
+def scatter_of(squares: float, freedom: float, larger: Array, distances: Array) -> float:
+    """Return the factor of variances from the sum of squared residuals with weights, and their freedom.
+
+    `larger` (n,) are the factors of single points, `distances` (n,) their squared distances over their variances.
+    """
+    mean = squares / (MEAN_SQUARE * max(freedom - np.count_nonzero(larger >= LEFT_OUT), 1.0))
+    # As many outliers as a fifth of the freedom would make it grow without limit.
+    median = float(np.median(distances))
+    return min(mean, MOST_OVER_MEDIAN * median) if median > 0.0 else mean
 
 
 def outlying_points(speed: Array, temperature: Array, away: Array, *, relative: bool = False) -> tuple[Note, ...]:

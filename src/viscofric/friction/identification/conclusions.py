@@ -12,13 +12,13 @@ from viscofric.friction.assumption_check import ContactSize
 from viscofric.friction.coulomb import check_coupling
 from viscofric.friction.curve_checks import (
     LEAST_FREEDOM,
+    LEFT_OUT,
     MEAN_SQUARE,
-    ROUNDS,
-    counted_less,
+    MOST_OVER_MEDIAN,
     implausible,
     outliers,
     outlying_points,
-    settled,
+    with_tails,
 )
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.drawn_materials import Findings, Posterior, level_family, limits
@@ -118,21 +118,24 @@ def _with_tails(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], A
     """
     best = most_evident(fits)
     errors = best.problem.point_errors
-    larger, scale = np.ones(len(errors)), 1.0
-    for _ in range(ROUNDS):
+    factors, scale = np.ones(len(errors)), 1.0
+
+    def fit(larger: Array, before: float) -> tuple[Weighed[Problem], Array, float]:
+        nonlocal best, fits, factors, scale
+        if np.any(before * larger != factors):
+            factors = before * larger
+            fits = weighed(best.problem.with_errors(errors * np.sqrt(factors)), best.minimum.place)
+            best = most_evident(fits)
         own = np.maximum(1.0 - leverage_of(best, len(errors)), LEAST_FREEDOM)
-        away = np.sqrt(scale) * _residuals(best)
+        away = np.sqrt(before) * _residuals(best)
         # Squared distances from the fit to the others, over their expectation: the point itself has its stated error.
         squares = larger * away**2 / (own * (own + (1.0 - own) * larger))
-        ratio, doubtful = misfit(best, away / np.sqrt(MEAN_SQUARE))
-        before = scale * larger
-        scale = ratio if doubtful else 1.0
-        larger = counted_less(squares / scale)
-        if np.all(settled(before, scale * larger)):
-            break
-        fits = weighed(best.problem.with_errors(errors * np.sqrt(scale * larger)), best.minimum.place)
-        best = most_evident(fits)
-    _, outlying = outliers(squares, freedom_of(best, len(errors)), 1.0)
+        ratio, doubtful = misfit(best, away / np.sqrt(MEAN_SQUARE), larger < LEFT_OUT)
+        scale = max(min(ratio, MOST_OVER_MEDIAN * float(np.median(squares))), 1.0) if doubtful else 1.0
+        return best, squares, scale
+
+    best, larger, squares = with_tails(np.ones(len(errors)), fit)
+    _, outlying = outliers(squares, larger, freedom_of(best, len(errors)), 1.0)
     return fits, np.where(outlying, np.sqrt(squares), 0.0), float(np.sqrt(scale))
 
 

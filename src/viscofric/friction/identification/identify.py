@@ -23,7 +23,7 @@ from viscofric.friction.identification.points import Points, SharedErrors, usabl
 from viscofric.friction.identification.problem import OVERLAPPING, Problem, Shifts, Smoothness
 from viscofric.friction.identification.result import IdentifiedMaterial
 from viscofric.friction.identification.solving import Contacts
-from viscofric.friction.shifting.found_shifts import LEFT_OUT
+from viscofric.friction.shifting.found_shifts import CURVE_LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import codes
@@ -316,7 +316,7 @@ def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputEr
             "the material at another with its at_reference().",
             code="no-such-temperature",
         )
-    why = "; ".join(f"{note[0].lower()}{note[1:-1]}" for note in found.notes if codes([note]) == {LEFT_OUT})
+    why = "; ".join(f"{note[0].lower()}{note[1:-1]}" for note in found.notes if codes([note]) == {CURVE_LEFT_OUT})
     return InputError(
         f"reference = {wanted}: α(T) is to be found, and {why}; choose one of {shown} °C, give "
         "shift=, or measure there over more speeds.",

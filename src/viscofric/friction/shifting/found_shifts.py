@@ -16,7 +16,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import InputError, SuperpositionError
-from viscofric.friction.curve_checks import MEAN_SQUARE, ROUNDS, TAILS_COST, counted_less, settled
+from viscofric.friction.curve_checks import LEFT_OUT, MEAN_SQUARE, TAILS_COST, scatter_of, with_tails
 from viscofric.friction.shifting.isotherms import FrictionIsotherm, distances, scatter_scale
 from viscofric.friction.shifting.placement import (
     CONTRADICTION,
@@ -47,7 +47,7 @@ LARGEST_FACTOR = 5.0
 #: Friction whose differences chance makes more often than this may be constant; many pairs were looked at.
 CONSTANT = 1e-4
 #: Code of the notes on temperatures that were left out.
-LEFT_OUT = "curve-left-out"
+CURVE_LEFT_OUT = "curve-left-out"
 #: More temperatures than these are given by their range.
 MOST_LISTED = 9
 
@@ -174,20 +174,21 @@ def _fit(
 ) -> tuple[list[FrictionIsotherm], Array, Array]:
     """Fit log10 α (n,) of all isotherms from a start, and its covariance; points far from the curve count less."""
     ends = np.cumsum([len(isotherm) for isotherm in chosen])[:-1]
-    larger = np.ones(sum(len(isotherm) for isotherm in chosen))
-    values = start
-    for _ in range(ROUNDS):
+    counted, values = list(chosen), start
+    of_own_curves = np.concatenate([isotherm.larger for isotherm in chosen])
+
+    def fit(larger: Array, _: float) -> tuple[Array, Array, float]:
+        nonlocal counted, values
         counted = [replace(one, larger=own) for one, own in zip(chosen, np.split(larger, ends), strict=True)]
         values, covariance = _fit_as_counted(counted, values, reference)
         places = np.concatenate([isotherm.speed + value for isotherm, value in zip(counted, values, strict=True)])
         friction = np.concatenate([isotherm.friction for isotherm in counted])[:, None]
         weight = 1.0 / (larger * np.concatenate([isotherm.variance for isotherm in counted]))
         curves = Basis.of(places).curves(friction, weight)
-        freedom = max(curves.freedom - len(chosen) + 1.0, 1.0)
-        scale = float(np.sum(curves.residual**2)) / (MEAN_SQUARE * freedom)
-        before, larger = larger, counted_less(distances(curves, larger) / scale)
-        if np.all(settled(before, larger)):
-            break
+        freedom, away = curves.freedom - len(chosen) + 1.0, distances(curves, larger)
+        return covariance, away / scatter_of(float(np.sum(curves.residual**2)), freedom, larger, away), 1.0
+
+    covariance, _, _ = with_tails(np.where(of_own_curves < LEFT_OUT, 1.0, LEFT_OUT), fit)
     return counted, values, TAILS_COST / MEAN_SQUARE * covariance
 
 
@@ -198,8 +199,10 @@ def _fit_as_counted(chosen: Sequence[FrictionIsotherm], start: Array, reference:
     weight = np.median(np.concatenate([1.0 / isotherm.variance for isotherm in chosen]))
     found = fitted([isotherm.sweep(float(weight)) for isotherm in chosen], joins, gauge)
     # The scatter is found from few points: shifts in units of their errors follow Student's t, whose variance is this.
-    few = found.freedom / (found.freedom - 2.0) if found.freedom > 2.5 else LARGEST_FACTOR
-    return found.values, min(few, LARGEST_FACTOR) * found.covariance
+    # Those that are left out have none.
+    freedom = max(found.freedom - sum(int(np.count_nonzero(one.larger >= LEFT_OUT)) for one in chosen), 1.0)
+    few = freedom / (freedom - 2.0) if freedom > 2.5 else LARGEST_FACTOR
+    return found.values, min(few, LARGEST_FACTOR) * found.freedom / freedom * found.covariance
 
 
 def _at_reference(chosen: Sequence[FrictionIsotherm], reference: float) -> tuple[Array, Array]:
@@ -301,7 +304,7 @@ class Doubts:
         """Return why each temperature that is not among the members was left out."""
         return tuple(
             Note(
-                LEFT_OUT,
+                CURVE_LEFT_OUT,
                 f"The friction curve at {shown(self.isotherms[place])} was left out: {self._reason(place, members)}.",
                 values={"temperature": float(self.isotherms[place].temperature)},
             )

@@ -1,6 +1,6 @@
 """Friction at one temperature for the search for shift factors: logarithms, variances, a smooth curve.
 
-Scatter is taken to have heavy tails: points far from the others count less (`curve_checks.counted_less`).
+Scatter is taken to have heavy tails: points far from the others count less (`curve_checks.with_tails`).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from viscofric.arrays import Array, Indices, Integers
-from viscofric.friction.curve_checks import MEAN_SQUARE, ROUNDS, counted_less, error_freedom, settled
+from viscofric.friction.curve_checks import LEFT_OUT, error_freedom, scatter_of, with_tails
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import nominal_rows
 from viscofric.rheology.superposition.common_curve import Basis, Curves
@@ -32,10 +32,11 @@ UNKNOWN_ERROR = 0.004
 EXACT = 1e6
 #: Points that a curve goes through have at least this part of their variance in their distance from it.
 _LEAST_LEFT = 1e-6
-#: Curves of fewer points, or as many, have no scatter.
-_FEWEST_FOR_SCATTER = 3
-#: Factor of the variance of a point that is left out.
-_LEFT_OUT = 1e4
+#: Curves of fewer points, or as many, have no scatter, and no parabola that most of them are near.
+_FEWEST_FOR_SCATTER, _FEWEST_ABOUT_PARABOLA = 3, 5
+#: Number of parabolas through three points that are tried, and least distance of outliers from the best, in standard
+#: deviations and in decades.
+_PARABOLAS, _FAR, _OFF_PARABOLA = 200, 4.0, 0.06
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +67,7 @@ class FrictionIsotherm:
         """The curve, and those without the first or the last point, where the others determine a curve."""
         if len(self) <= _FEWEST_FOR_SCATTER:
             return (self.curves,)
-        apart = 1.0 + (_LEFT_OUT - 1.0) * np.eye(len(self))[[0, -1]]
+        apart = 1.0 + (LEFT_OUT - 1.0) * np.eye(len(self))[[0, -1]]
         return self.curves, *(replace(self, larger=self.larger * end).curves for end in apart)
 
     @cached_property
@@ -120,19 +121,47 @@ def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
 
 def _with_tails(isotherms: list[FrictionIsotherm]) -> list[FrictionIsotherm]:
     """Find the points that lie off the curve of their own temperature, with the scatter of all, and count them less."""
-    for _ in range(ROUNDS):
-        scale, before = scatter_scale(isotherms), isotherms
-        if scale is None:
-            break
-        isotherms = [
-            replace(one, larger=counted_less(distances(one.curves, one.larger) / scale))
-            if len(one) > _FEWEST_FOR_SCATTER
-            else one
-            for one in isotherms
+    several = [len(isotherm) > _FEWEST_FOR_SCATTER for isotherm in isotherms]
+    ends = np.cumsum([len(isotherm) for isotherm in isotherms])[:-1]
+
+    def counted(larger: Array) -> list[FrictionIsotherm]:
+        return [replace(one, larger=own) for one, own in zip(isotherms, np.split(larger, ends), strict=True)]
+
+    def fit(larger: Array, _: float) -> tuple[None, Array, float]:
+        drawn = counted(larger)
+        scale = scatter_scale(drawn) or np.inf
+        squares = [
+            distances(one.curves, one.larger) / scale if curved else np.zeros(len(one))
+            for one, curved in zip(drawn, several, strict=True)
         ]
-        if all(settled(old.larger, new.larger).all() for old, new in zip(before, isotherms, strict=True)):
-            break
-    return isotherms
+        return None, np.concatenate(squares), 1.0
+
+    return counted(with_tails(np.concatenate(_off_parabolas(isotherms)), fit)[1])
+
+
+def _off_parabolas(isotherms: list[FrictionIsotherm]) -> list[Array]:
+    """Return factors (n,) of variances that leave out points far from the parabola nearest to most of a temperature."""
+    # Several outliers draw a curve of few points to themselves. Of the parabolas through three points, the one with the
+    # least median of squared distances is near most points (P. J. Rousseeuw, J. Am. Stat. Assoc. 79 (1984) 871, with
+    # his factor for few points).
+    away, scatter, random = [], [], np.random.default_rng(0)
+    for one in isotherms:
+        count, left = len(one), np.zeros(len(one))
+        if count > _FEWEST_ABOUT_PARABOLA:
+            design = np.vander((one.speed - one.speed.mean()) / np.ptp(one.speed), 3)
+            three = random.random((_PARABOLAS, count)).argsort(axis=1)[:, :3]
+            through = np.linalg.solve(design[three], one.friction[three][..., None])
+            squares = (one.friction - (design @ through)[..., 0]) ** 2
+            middle = np.partition(squares / one.variance, (count + 3) // 2, axis=1)[:, (count + 3) // 2]
+            best = int(np.argmin(middle))
+            left = np.sqrt(squares[best])
+            scatter.append(1.4826 * (1.0 + 5.0 / (count - 3.0)) * math.sqrt(middle[best]))
+        away.append(left)
+    least = _FAR * float(np.median(scatter)) if scatter else 0.0
+    return [
+        np.where(left > np.maximum(least * np.sqrt(one.variance), _OFF_PARABOLA), LEFT_OUT, 1.0)
+        for left, one in zip(away, isotherms, strict=True)
+    ]
 
 
 def distances(curves: Curves, larger: Array) -> Array:
@@ -150,7 +179,7 @@ def _expected(curves: Curves, larger: Array) -> Array:
     return np.asarray((1.0 - pull) * (1.0 - pull + pull * larger))
 
 
-def with_tails(
+def about_one_curve(
     place: Array, value: Array, variance: Array, sharing: Array, least: float, least_distance: Array
 ) -> tuple[Array, Array, float]:
     """Return factors (n,) of the variances of points about one curve, squared distances, and degrees of freedom.
@@ -158,24 +187,24 @@ def with_tails(
     `sharing` (k, n) are errors that points share, `least` is the least factor of all variances. Distances up to
     `least_distance` (n,) are zero.
     """
-    larger, squares = np.ones(len(place)), np.zeros(len(place))
     if len(place) <= _FEWEST_FOR_SCATTER:
-        return larger, squares, 0.0
+        return np.ones(len(place)), np.zeros(len(place)), 0.0
     basis = Basis.of(place)
-    for _ in range(ROUNDS):
+
+    def fit(larger: Array, _: float) -> tuple[float, Array, float]:
         weight = 1.0 / (larger * variance)
         curves = basis.curves(value[:, None], weight)
         shared = sharing.T * curves.root
         shared = np.sum((shared - curves.basis @ (curves.inverse[0] @ (curves.basis.T @ shared))) ** 2, axis=1)
         left, freedom = curves.residual[:, 0] ** 2, curves.freedom
         if freedom < 1.0:
-            break
-        scale = max(least, float(np.sum(left - shared)) / (MEAN_SQUARE * freedom))
+            return freedom, np.zeros(len(place)), 1.0
+        own = distances(curves, larger)
+        scale = max(least, scatter_of(float(np.sum(left - shared)), freedom, larger, own))
         expected = scale * _expected(curves, larger) + larger * shared
-        squares = np.where(left > weight * least_distance**2, larger * left / expected, 0.0)
-        before, larger = larger, counted_less(squares)
-        if np.all(settled(before, larger)):
-            break
+        return freedom, np.where(left > weight * least_distance**2, larger * left / expected, 0.0), 1.0
+
+    freedom, larger, squares = with_tails(np.ones(len(place)), fit)
     return larger, squares, freedom
 
 
@@ -189,11 +218,16 @@ def nominal_temperatures(temperature: Array) -> Array:
 
 def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
     """Return the factor of the variances, from the scatter about own curves; None without a degree of freedom."""
-    several = [isotherm.curves for isotherm in isotherms if len(isotherm) > _FEWEST_FOR_SCATTER]
-    freedom = sum(curves.freedom for curves in several)
+    several = [isotherm for isotherm in isotherms if len(isotherm) > _FEWEST_FOR_SCATTER]
+    freedom = sum(isotherm.curves.freedom for isotherm in several)
     if freedom < 1.0:
         return None
-    return float(sum(np.sum(curves.residual**2) for curves in several) / (MEAN_SQUARE * freedom))
+    squares = sum(float(np.sum(isotherm.curves.residual**2)) for isotherm in several)
+    larger, away = (
+        np.concatenate(parts)
+        for parts in zip(*((one.larger, distances(one.curves, one.larger)) for one in several), strict=True)
+    )
+    return scatter_of(squares, freedom, larger, away)
 
 
 def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[Indices]) -> Array:

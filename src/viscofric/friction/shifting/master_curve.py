@@ -14,6 +14,7 @@ from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import (
     LEAST_FREEDOM,
+    LEFT_OUT,
     MEAN_SQUARE,
     error_freedom,
     outliers,
@@ -23,7 +24,7 @@ from viscofric.friction.curve_checks import (
 from viscofric.friction.curve_words import LABELS
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.collapse import Collapse
-from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, nominal_temperatures, with_tails
+from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, about_one_curve, nominal_temperatures
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
@@ -138,7 +139,7 @@ class SmoothedPoints:
         larger, away = self._found_to_lie_off(stated)
         about = self._about(plain / larger, variance * larger)
         # Where the curve goes through the points, what is left is rounding.
-        counted = finite & (about.freedom > LEAST_FREEDOM) & (about.own > 0.0)
+        counted = finite & (larger < LEFT_OUT) & (about.freedom > LEAST_FREEDOM) & (about.own > 0.0)
         factor = 1.0 if self.stated else 0.0
         if np.any(counted):
             weight = (trusted / larger)[counted]
@@ -159,9 +160,9 @@ class SmoothedPoints:
             columns = self.decades[rows], value, (stated[rows] / unit) ** 2
             shared = self.sharing[:, rows] * self.friction[rows] / unit
             near = _BIAS * np.abs(self.friction[rows] / unit)
-            larger[rows], squares[rows], more = with_tails(*columns, shared, 1.0 if self.stated else 0.0, near)
+            larger[rows], squares[rows], more = about_one_curve(*columns, shared, float(self.stated), near)
             freedom += more
-        over, outlying = outliers(squares, freedom, 1.0)
+        over, outlying = outliers(squares, larger, freedom, 1.0)
         return larger, np.where(outlying, over, 0.0)
 
     def _about(self, weight: Array, variance: Array) -> _About:
