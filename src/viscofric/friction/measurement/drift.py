@@ -19,9 +19,8 @@ from viscofric.nominal import SAME_LOAD, numbered
 from viscofric.notes import Note
 from viscofric.units import plain, shown_number
 
-_FEWEST = 3  # degrees of freedom of a rate
-#: Those with which the scatter of other combinations is not needed, and the fewest with it.
-_ENOUGH, _FEWEST_TOGETHER = 5, 2
+#: Fewest degrees of freedom of a rate, and those from which its error needs no scatter of other combinations.
+_FEWEST, _ENOUGH = 2, 5
 #: Change of Coulomb friction in the course of a test that it should show, and the part of one that is subtracted where
 #: it may be running in: it lies between none and all.
 _WORN, _HALF = 0.5, 0.5
@@ -163,12 +162,11 @@ class Drift:
                 },
             )
         if self.hidden:
-            amount = f"of {plain(100.0 * self.hidden, 2)} % " if math.isfinite(self.hidden) else ""
             yield Note(
                 "wear-not-shown",
-                f"Coulomb friction could change {amount}in the course of the test, for example by wear, without being "
-                "noticed in this order of the readings, and viscoelastic friction with it; repeat all runs once more, "
-                "or measure the configurations of a condition in quick succession.",
+                f"Coulomb friction could change by {plain(100.0 * self.hidden, 2)} % in the course of the test, for "
+                "example by wear, without being noticed in this order of the readings, and viscoelastic friction with "
+                "it; repeat all runs once more, or measure the configurations of a condition in quick succession.",
                 values={"change": self.hidden},
             )
         if self.zero.value:
@@ -200,59 +198,11 @@ class Drift:
             )
 
 
-@dataclass(frozen=True, eq=False)
-class _Line:
-    """Straight lines of one slope through values (n,) at times (n,), s."""
-
-    value: Array
-    time: Array
-    residual: Array
-    slope: float  # per s
-    error: float  # its standard error, infinite where it has too few degrees of freedom
-    freedom: float
-
-    @classmethod
-    def of(cls, points: list[tuple[Array, Array]], line: Integers) -> _Line:
-        """Fit values and times of several conditions; `line` (k,) is the number of the line of each."""
-        value, time = (np.concatenate(column) for column in zip(*points, strict=True))
-        line = np.repeat(line, [len(values) for values, _ in points])
-        early, centred = _centred(time, line), _centred(value, line)
-        sensitivity, freedom = float(np.sum(early**2)), int(line.size - line.max() - 2)
-        if freedom < _FEWEST or sensitivity <= 0.0:
-            return cls(value, time, np.zeros(value.size), 0.0, np.inf, freedom)
-        slope = float(np.sum(early * centred)) / sensitivity
-        residual = centred - slope * early
-        return cls(value, time, residual, slope, float(np.sqrt(np.sum(residual**2) / freedom / sensitivity)), freedom)
-
-    def wanders(self, rounding: float) -> bool:
-        """Whether the values move otherwise than along the lines."""
-        unexplained = float(np.sqrt(np.mean(self.residual**2)))
-        return unexplained > rounding and wanders(self.residual[np.argsort(self.time, kind="stable")])
-
-    def tells_far_better(self, other: _Line) -> bool:
-        """Whether the error of the slope is far smaller than that of another one, which it does not contradict."""
-        agree = abs(self.slope - other.slope) <= threshold(other.freedom, CHANCE) * other.error
-        return agree and _FAR_BETTER * self.error <= other.error
-
-    def rate(self, rounding: float) -> Rate:
-        """Return the slope, zero where it is within what chance makes."""
-        if abs(self.slope) * float(np.ptp(self.time)) <= rounding:
-            return _NONE
-        return Rate.found(self.slope, self.error, self.freedom)
-
-
-def _alike(fits: list[Fit]) -> Integers:
-    """Return numbers of the temperature and load of conditions (k,)."""
-    temperature, load = np.array([(fit.group.temperature, fit.group.load) for fit in fits]).T
-    pairs = np.column_stack([temperature, numbered(load, SAME_LOAD * load)])
-    return np.asarray(np.unique(pairs, axis=0, return_inverse=True)[1]).reshape(-1)
-
-
 class _Slope(NamedTuple):
-    """A rate whose corrections bring values nearest to zero."""
+    """A rate whose corrections bring values (n,) nearest to zero, or to their means."""
 
     value: float
-    squares: float  # sum of squares of what is left
+    left: Array  # (n,), values with the corrections
     freedom: int
     sensitivity: float  # sum of squares of the corrections
 
@@ -260,10 +210,14 @@ class _Slope(NamedTuple):
     def of(cls, values: Array, corrections: Array, fitted: int) -> _Slope:
         """Fit values (n,) from which `fitted` others are found; `corrections` (n,) are those per unit of the rate."""
         sensitivity = float(corrections @ corrections)
-        told = np.abs(corrections).max(initial=0.0) > 0.0
-        rate = -float(values @ corrections) / sensitivity if told else 0.0
-        left = values + rate * corrections
-        return cls(rate, float(left @ left), max(values.size - fitted - told, 0), sensitivity)
+        rate = -float(values @ corrections) / sensitivity if sensitivity > 0.0 else 0.0
+        freedom = max(values.size - fitted - (sensitivity > 0.0), 0)
+        return cls(rate, values + rate * corrections, freedom, sensitivity)
+
+    @property
+    def squares(self) -> float:
+        """Sum of squares of what is left."""
+        return float(self.left @ self.left)
 
     def error(self, squares: float, freedom: int) -> tuple[float, float]:
         """Return the standard error of the rate and its degrees of freedom; those of all values where its own are few.
@@ -272,9 +226,50 @@ class _Slope(NamedTuple):
         """
         own = self.squares / self.freedom if self.freedom else 0.0
         variance, freedom = (max(own, squares / freedom), freedom) if self.freedom < _ENOUGH else (own, self.freedom)
-        if self.sensitivity <= 0.0 or freedom < _FEWEST_TOGETHER:
+        if self.sensitivity <= 0.0 or freedom < _FEWEST:
             return np.inf, 1.0
         return math.sqrt(variance / self.sensitivity), freedom
+
+
+class _Line(NamedTuple):
+    """Straight lines of one slope through values (n,) at times (n,), s."""
+
+    value: Array
+    time: Array
+    slope: _Slope
+    error: float  # its standard error, infinite where it has too few degrees of freedom
+
+    @classmethod
+    def of(cls, points: list[tuple[Array, Array]], line: Integers) -> _Line:
+        """Fit values and times of several conditions; `line` (k,) is the number of the line of each."""
+        value, time = (np.concatenate(column) for column in zip(*points, strict=True))
+        line = np.repeat(line, [len(values) for values, _ in points])
+        slope = _Slope.of(_centred(value, line), -_centred(time, line), int(line.max()) + 1)
+        return cls(value, time, slope, slope.error(slope.squares, max(slope.freedom, 1))[0])
+
+    def wanders(self, rounding: float) -> bool:
+        """Whether the values move otherwise than along the lines."""
+        unexplained = float(np.sqrt(np.mean(self.slope.left**2)))
+        return unexplained > rounding and wanders(self.slope.left[np.argsort(self.time, kind="stable")])
+
+    def tells_far_better(self, other: _Line) -> bool:
+        """Whether the error of the slope is far smaller than that of another one, which it does not contradict."""
+        apart = abs(self.slope.value - other.slope.value)
+        agree = apart <= threshold(other.slope.freedom, CHANCE) * other.error
+        return agree and _FAR_BETTER * self.error <= other.error
+
+    def rate(self, rounding: float) -> Rate:
+        """Return the slope, zero where it is within what chance makes."""
+        if abs(self.slope.value) * float(np.ptp(self.time)) <= rounding:
+            return _NONE
+        return Rate.found(self.slope.value, self.error, self.slope.freedom)
+
+
+def _alike(fits: list[Fit]) -> Integers:
+    """Return numbers of the temperature and load of conditions (k,)."""
+    temperature, load = np.array([(fit.group.temperature, fit.group.load) for fit in fits]).T
+    pairs = np.column_stack([temperature, numbered(load, SAME_LOAD * load)])
+    return np.asarray(np.unique(pairs, axis=0, return_inverse=True)[1]).reshape(-1)
 
 
 def _of_coulomb(fits: list[Fit], weights: Array, zero_error: float) -> tuple[Rate, float]:
@@ -326,7 +321,7 @@ def _of_coulomb(fits: list[Fit], weights: Array, zero_error: float) -> tuple[Rat
     if not ROUNDING < abs(found.value) * length <= _ALL:
         found = found._replace(value=0.0)
     shown = found.value or hidden <= _WORN or not least * length < _WORN
-    return found, 0.0 if shown else hidden
+    return found, 0.0 if shown else min(hidden, _ALL)
 
 
 def _least_change(fits: list[Fit], weights: Array) -> float:
