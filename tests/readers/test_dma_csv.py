@@ -817,3 +817,59 @@ def test_two_columns_of_strain_amplitude_are_named(tmp_path):
 def test_names_of_the_user_that_begin_like_logarithms_are_none(tmp_path, heading):
     path = write(tmp_path, HEADER.replace("temperature (degC)", heading), *ROWS)
     assert_is_the_table(read_dma(path, columns={"temperature": heading}))
+
+
+HEADING = "T (°C);f (Hz);E' (MPa);E'' (MPa)"
+
+
+@pytest.mark.parametrize("header", [[HEADING], []])
+@pytest.mark.parametrize("titles", [("Sample A", "Sample B"), ("Specimen: NR;", "Specimen: SBR;"), ("", "Sample B;;;")])
+def test_specimens_below_each_other_are_not_averaged(tmp_path, titles, header):
+    rows = ["20;1;5;0.5", "20;10;6;0.7"]
+    with refused("several-specimens", None, "Sample B" if "SBR" not in titles[1] else "SBR"):
+        read_dma(write(tmp_path, titles[0], HEADING, *rows, titles[1], *header, *rows))
+    with refused("several-specimens"):  # the temperature stands nearer
+        own = ["f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "10;6;0.7"]
+        read_dma(write(tmp_path, "Sample A", "T = 20 °C", *own, "Sample B", "T = 20 °C", *own))
+
+
+def test_lines_of_words_between_rows_state_their_temperature(tmp_path):
+    rows = [f"{f};{5 + n};0.5" for n, f in enumerate((1, 10, 100))]
+    for second in ("T = 40 °C", "Temperature: 40 °C;;", "Temperature (°C);40"):
+        path = write(tmp_path, "T = 20 °C", "f (Hz);E' (MPa);E'' (MPa)", *rows, second, *rows)
+        assert read_dma(path).temperatures - 273.15 == pytest.approx([20.0, 40.0])
+
+
+def test_a_temperature_in_the_first_row_of_a_block_holds_for_all_of_it(tmp_path):
+    rows = [f"{T if n == 0 else ''};{f};{5 + n};0.5" for T in (20, 40) for n, f in enumerate((1, 10, 100))]
+    sweeps = read_dma(write(tmp_path, HEADING, *rows))
+    assert sweeps.temperatures - 273.15 == pytest.approx([20.0, 40.0])
+    assert "value-spread" in codes(sweeps.notes)
+    with refused("points-unusable"):  # a reading now and then, of a ramp
+        read_dma(write(tmp_path, HEADING, *(";".join([row.split(";")[0], "1", *row.split(";")[2:]]) for row in rows)))
+    with refused("points-unusable"):  # whose are the first rows?
+        read_dma(write(tmp_path, HEADING, *[f";{row.partition(';')[2]}" for row in rows[:2]], *rows[2:]))
+
+
+def test_a_second_heading_is_refused_where_it_begins(tmp_path):
+    second = "f (Hz);T (°C);E' (MPa);E'' (MPa)"
+    with refused("several-tables", 3):
+        read_dma(write(tmp_path, HEADING, "20;1;5;0.5", second, "1;30;4;0.4"))
+    again = [HEADING, "20;1;5;0.5", "20;10;6;0.7", HEADING.replace(" ", "  "), "30;1;4;0.4", "30;10;5;0.6"]
+    assert_is_the_table(read_dma(write(tmp_path, *again)))
+
+
+@pytest.mark.parametrize("heading", ["E' (mPa)", "E' [mPa]", "E'_mPa"])
+def test_moduli_in_millipascals_are_in_megapascals(tmp_path, heading):
+    sweeps = read_dma(write(tmp_path, HEADING.replace("E' (MPa)", heading), "20;1;5;0.5", "20;10;6;0.7"))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6])
+    assert "unit-assumed" in codes(sweeps.notes)
+
+
+def test_a_loss_tangent_in_per_cent_without_its_unit_is_seen(tmp_path):
+    heading, rows = "T (°C);f (Hz);E' (MPa);tan delta", ["20;1;5;10", "20;10;6;12"]
+    with refused("no-unit", None, "'tan delta (%)'"):
+        read_dma(write(tmp_path, heading, *rows))
+    assert read_dma(write(tmp_path, f"{heading} (-)", *rows)).isotherms[0].loss_modulus == pytest.approx([50e6, 72e6])
+    beside = read_dma(write(tmp_path, f"{HEADING};tan delta", "20;1;5;0.5;10", "20;10;6;0.72;12"))
+    assert beside.isotherms[0].loss_modulus == pytest.approx([0.5e6, 0.72e6])

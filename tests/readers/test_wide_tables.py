@@ -350,7 +350,10 @@ def test_merged_cells_hold_for_the_rows_and_numbers_beside_and_below_them(tmp_pa
                                           for T in CELSIUS for n, v in enumerate(SPEEDS))]  # fmt: skip
     merged = [(1 + 3 * n, 0, 3 + 3 * n, 0) for n in range(3)]
     assert_read(saved(tmp_path, rows, "workbook", merged), everywhere(loads=[10.0]))
-    with refused("empty-cell", 3):
+    apart = saved(tmp_path, rows)
+    assert "value-spread" in codes(assert_read(apart, everywhere(loads=[10.0])).notes)
+    rows[1][0], rows[2][0] = "", CELSIUS[0]
+    with refused("empty-cell", 2):
         vf.read_friction_curves(saved(tmp_path, rows))
 
 

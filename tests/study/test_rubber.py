@@ -93,6 +93,14 @@ def test_a_material_is_made_of_ramps(ramps: Path) -> None:
     groups = rubber_groups(made)
     assert {"/ramps", "/master_curve", "/shift_law", "/spectrum"} <= set(groups)
     assert groups["/ramps"].attrs["source"] == "ramps.csv"
+    content = ramps.read_text().splitlines(keepends=True)
+    folder = ramps.parent / "NR 7, new"  # a mark that also stands between names
+    folder.mkdir()
+    halves = [folder / "a.csv", folder / "b.csv"]
+    for path, rows in zip(halves, (content[1::2], content[2::2]), strict=True):
+        path.write_text("".join([content[0], *rows]))
+    split = rubber(ramps=[str(path) for path in halves], shift="wlf", **REFERENCE)
+    assert rubber_groups(split)["/ramps"].attrs["source"] == "a.csv, b.csv"
     assumed = rubber(ramps=str(ramps), assumed_shift="150 kJ/mol", **REFERENCE)
     assert assumed.shift_used == "assumed"
     assert "shift-assumed" in codes(assumed.notes)

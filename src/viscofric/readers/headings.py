@@ -116,6 +116,7 @@ class Column:
     is_mean: bool = False  # "E' mean (MPa)", where no column is of the quantity itself
     stated: tuple[tuple[str, str], ...] = ()  # in the heading: ("temperature", "25 °C") of "E' 25 °C (MPa)"
     above: bool = False  # the heading is a line above the table, which states the value of all rows: "Load: 20 N"
+    spread: bool = False  # values stand only in the first of the rows that they hold for
     alone: bool = False  # the heading states values of other quantities, and none of its own: "25 °C, 10 N"
 
     @property

@@ -49,6 +49,8 @@ MISSING = frozenset(
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 #: "1,234.5", "1.234.567": with marks between thousands.
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,]\d{3})+(?:[.,]\d+)?")
+#: Written for MPa; moduli and stresses of solids are not measured in millipascals.
+_MILLIPASCAL = "mPa"
 #: Units of a ratio -> factor.
 _FRACTIONS = {"": 1.0, "1": 1.0, "-": 1.0, "–": 1.0, "N/N": 1.0, "%": 0.01}
 #: Labels of rows that summarise others: a mean, or how far the others scatter.
@@ -71,7 +73,7 @@ class Table:
     decimal_comma: bool
     above: tuple[tuple[str, ...], ...] = ()  # cells of the rows above the header, and of other sheets
     block: Integers | None = None  # of each row, where several tables stand below each other
-    titles: tuple[tuple[str, ...], ...] = ()  # cells of the line above the header of each of these tables
+    titles: tuple[tuple[tuple[str, ...], ...], ...] = ()  # cells of the lines above each of these tables
     empty_rows: int = 0  # left out, with none of the quantities that make a header
     vocabulary: Vocabulary = NO_WORDS
 
@@ -186,8 +188,9 @@ class Table:
             right = f"{column.heading} {example}" if CONSTANT.fullmatch(column.heading) else right
             problem = f"column {column.heading!r} has no unit; write it as {right!r}"
             raise self.refused("no-unit", problem, (hint or Remedy("")) + ".")
+        printed = column.unit.replace(_MILLIPASCAL, "MPa") if unit in ("Pa", "1/Pa") else column.unit
         try:
-            return unit_conversion(column.unit, unit, column.heading)
+            return unit_conversion(printed, unit, column.heading)
         except InputError:
             problem = f"column {column.heading!r} has the unit {column.unit!r}; it must be one like {example!r}."
             raise self.refused("wrong-unit", problem) from None
@@ -231,6 +234,8 @@ class Table:
         alone = next((repr(column.heading) for column in self.columns if column.alone), "")
         masses = [repr(one.heading) for one in self.columns if one.quantity and one.unit in MASSES]
         above = [repr(column.heading) for column in self.columns if column.above]
+        spread = [repr(column.heading) for column in self.columns if column.spread]
+        milli = [repr(column.heading) for column in self.columns if column.quantity and _MILLIPASCAL in column.unit]
         headings = {column.heading for column in self.columns}
         said: list[tuple[str, object, str]] = [
             ("decadic-logarithms", decadic, f"Read as decadic logarithms: {' and '.join(decadic)}."),
@@ -241,6 +246,8 @@ class Table:
                 f"Column {alone} and those beside it name no quantity; they were read as {self.vocabulary.alone}.",
             ),
             ("value-from-above", above, f"For all rows, as lines above the table state: {', '.join(above)}."),
+            ("value-spread", spread, f"Blank cells of {' and '.join(spread)} were read as the value above them."),
+            ("unit-assumed", milli, f"Read in MPa, as mPa (millipascal) is no unit of solids: {', '.join(milli)}."),
             (
                 "mass-as-load",
                 masses,

@@ -17,6 +17,7 @@ from viscofric.readers.dma.names import (
     deformation_of,
     frequency_of_title,
     insist_on_same_temperature,
+    names_specimen,
     states_another,
     temperature_of_title,
 )
@@ -47,6 +48,8 @@ from viscofric.readers.workbook import is_workbook, sheets
 NumberedLine = tuple[int, str]
 #: A number as text, and its unit.
 Value = tuple[str, str]
+#: Cells of the lines of words above a table.
+Title = tuple[tuple[str, ...], ...]
 #: Places of the columns that all tables beside each other share, those of each, the title of each, and what it states.
 Sets = tuple[list[int], Sequence[Sequence[int]], list[tuple[str, ...]], list[dict[str, Value]]]
 
@@ -199,15 +202,19 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     if body and _is_row_of_units(columns, body[0][1]):
         columns = _with_units(path, columns, *body.pop(0))
     _insist_on_clear_headings(path, columns, words)
-    blocks, titles = _stacked(body, list(rows[header][1]), columns)
-    titles = [list(rows[header - 1][1]) if header else [], *titles]
+    blocks, titles = _stacked(path, body, list(rows[header][1]), columns, words)
+    most = max([1, *map(len, titles)])  # lines above a table
+    titles = [tuple(tuple(cells) for _, cells in rows[max(0, header - most) : header]), *titles]
     kept = [row for block in blocks for row in block]
     table = make_table(path, columns, kept, vocabulary=words)
     first_lines = [block[0][0] for block in blocks if block]
     block = np.searchsorted(first_lines, table.lines, side="right") if len(first_lines) > 1 else None
-    held = tuple(tuple(title) for title, rows_of in zip(titles, blocks, strict=True) if rows_of)
+    held = tuple(title for title, rows_of in zip(titles, blocks, strict=True) if rows_of)
     table = replace(table, above=tuple(tuple(cells) for _, cells in rows[:header]), block=block, titles=held)
-    between = any(cell.strip() for title in titles[1:] for cell in title)  # may say what tells the tables apart
+    table = _spread_down(table)
+    between = any(
+        cell.strip() for title in titles[1:] for line in title for cell in line
+    )  # may say what tells the tables apart
     if block is not None and (words.several == "refused" or (words.several == "rows" and between)):
         problem = f"holds {len(first_lines)} tables below each other, the second with its header above line "
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
@@ -227,6 +234,25 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
         if states_another(table, kelvin):
             raise table.refused("value-not-needed", f"{TITLES_STATE}; leave out {given!r}.")
         insist_on_same_temperature(table, kelvin, repr(given))
+    return table
+
+
+def _spread_down(table: Table) -> Table:
+    """Return the table with a value that stands only in the first of the rows that it holds for in all of them."""
+    for place, column in enumerate(table.columns):
+        cells = [row[place].strip() for row in table.rows]
+        starts = [row for row, cell in enumerate(cells) if cell]
+        firsts = {0, *(np.flatnonzero(np.diff(table.block)) + 1 if table.block is not None else ())}
+        if column.quantity not in table.vocabulary.conditions or 2 * len(starts) > len(cells) or firsts - {*starts}:
+            continue
+        swept = next((n for n, one in enumerate(table.columns) if one.quantity in table.vocabulary.needed[0]), place)
+        runs = [range(start, end) for start, end in pairwise([*starts, len(cells)])]
+        if swept != place and any(len({table.rows[row][swept] for row in run}) < 2 for run in runs if len(run) > 1):
+            continue  # a reading now and then, at one frequency
+        held = {row: cells[run[0]] for run in runs for row in run}
+        rows = [(*row[:place], held[n], *row[place + 1 :]) for n, row in enumerate(table.rows)]
+        columns = [replace(one, spread=True) if n == place else one for n, one in enumerate(table.columns)]
+        table = replace(table, rows=tuple(rows), columns=tuple(columns))
     return table
 
 
@@ -382,7 +408,7 @@ def _insist_on_words(table: Table) -> None:
     alone = next((column for column in table.columns if column.alone), None)
     if alone is None:
         return
-    over = next((title[1] for title in table.titles if len(title) > 1), "")
+    over = next((line[1] for title in table.titles for line in title[-1:] if len(line) > 1), "")
     for cell in (cell.strip() for row in table.above for cell in row if cell.strip()):
         one = table.vocabulary.column(cell.partition(":")[0])
         unit = one.unit and not table.vocabulary.has_value(cell)
@@ -401,7 +427,8 @@ def _insist_on_one_value(table: Table) -> None:
             continue
         each: dict[frozenset[float | None], str] = {}
         for title in table.titles:
-            stated = {_si_value(one, unit): one[0] for one in _STATED.finditer(" ".join(title))}
+            line = " ".join(cell for cells in title for cell in cells)
+            stated = {_si_value(one, unit): one[0] for one in _STATED.finditer(line)}
             if held := stated.keys() - {None}:
                 each.setdefault(frozenset(held), ", ".join(stated[one] for one in stated if one is not None))
         if len(each) > 1:
@@ -454,7 +481,7 @@ def _below_each_other(table: Table) -> Table:
     if table.block is not None:  # tables below each other, each of such columns
         below = replace(below, block=table.block[[row for _, row, _ in kept]])
     elif "frequency" not in of_sets:
-        below = replace(below, block=numbers, titles=tuple(titles))
+        below = replace(below, block=numbers, titles=tuple((title,) for title in titles))
     for what, (unit, cells) in of_sets.items():
         column = Column(OF_HEADINGS.get(what, what), what, unit, what)
         below = below.with_column(column, [cells[number - 1] for number in numbers])
@@ -564,21 +591,48 @@ def _title(label: str, cells: Sequence[str]) -> tuple[str, ...]:
 
 
 def _stacked(
-    body: Sequence[NumberedRow], header: list[str], columns: Sequence[Column]
-) -> tuple[list[list[NumberedRow]], list[Sequence[str]]]:
-    """Return the rows of tables below each other that repeat their header, and the line of text above each repeat."""
+    path: str, body: Sequence[NumberedRow], header: list[str], columns: Sequence[Column], words: Vocabulary
+) -> tuple[list[list[NumberedRow]], list[Title]]:
+    """Return the rows of tables below each other, and the lines of words above all but the first."""
+    # Each has the header again, or, where titles count, only a line of words above it: "T = 40 °C", "Sample B".
     blocks: list[list[NumberedRow]] = [[]]
-    titles: list[Sequence[str]] = []
-    for row in body:
-        if row[1][:1] == header[:1] and _without_end(row[1]) == _without_end(header):
-            above: list[Sequence[str]] = []
+    titles: list[Title] = []
+    of_header = _plain(header)
+    for number, cells in body:
+        if cells and " ".join(cells[0].split()) == of_header[0] and _plain(cells) == of_header:
+            above: Title = ()
             while blocks[-1] and sum(map(is_number, blocks[-1][-1][1])) < 2:
-                above.append(blocks[-1].pop()[1])
-            titles.append(above[0] if above else [])
+                above = (tuple(blocks[-1].pop()[1]), *above)
+            if not blocks[-1] and len(blocks) > 1:  # the words above this header
+                above = (*titles.pop(), *above)
+                blocks.pop()
+            titles.append(above)
             blocks.append([])
-        elif blocks[-1] or len(blocks) == 1 or not _is_row_of_units(columns, row[1]):
-            blocks[-1].append(row)
+        elif words.several == "titled" and not any(one.stated for one in columns) and _is_title(cells, words):
+            if len(blocks) == 1 or blocks[-1]:
+                blocks.append([])
+                titles.append(())
+            titles[-1] = (*titles[-1], tuple(cells))
+        elif blocks[-1] or len(blocks) == 1 or not _is_row_of_units(columns, cells):
+            if not any(map(is_number, cells)) and not words.missing(named(cells, words)):
+                problem = "a second table with other headings begins here; give each table a file of its own, or the "
+                raise DataFileError(path, f"{problem}same headings in the same order.", number, code="several-tables")
+            blocks[-1].append((number, cells))
     return blocks, titles
+
+
+def _plain(cells: Sequence[str]) -> list[str]:
+    """Return cells up to the last one that is not blank, with single blanks."""
+    return [" ".join(cell.split()) for cell in _without_end(cells)] or [""]
+
+
+def _is_title(cells: Sequence[str], words: Vocabulary) -> bool:
+    """Return whether a row between others names a specimen, or states a temperature and nothing else."""
+    filled = [cell.strip() for cell in cells if cell.strip().lower() not in MISSING]
+    if not 0 < len(filled) <= 2 or is_number(filled[0]):
+        return False
+    stated = {what for what, _ in words.stated_in(" ".join(filled))[1]}
+    return names_specimen(filled) or (stated <= {"temperature"} and temperature_of_title(filled) is not None)
 
 
 def _without_end(cells: Sequence[str]) -> list[str]:

@@ -51,7 +51,7 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
         groups["/spectrum_curve"] = moduli if samples is None else moduli.assign(samples.to_dataset(wide).data_vars)
     for data in groups.values():
         if "source" in data.attrs:  # results are passed on, and say nothing of the folders of one machine
-            data.attrs["source"] = ", ".join(Path(one).name for one in str(data.attrs["source"]).split(", "))
+            data.attrs["source"] = Path(str(data.attrs["source"])).name
     return groups
 
 

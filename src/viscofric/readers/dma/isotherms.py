@@ -292,7 +292,8 @@ def opening(readings: Sequence[Readings], deformation: Deformation | None) -> tu
 
 
 def _source(readings: Sequence[Readings]) -> str:
-    names = [one.source for one in readings]
+    """Return the path of one file; of several their names without folders, in which any mark may stand."""
+    names = [one.source for one in readings] if len(readings) == 1 else [Path(one.source).name for one in readings]
     return ", ".join(names) if len(names) <= 3 else f"{names[0]} and {len(names) - 1} more files"
 
 

@@ -12,7 +12,7 @@ from viscofric.arrays import Array, Integers
 from viscofric.data import DEFORMATIONS, Deformation, MasterCurve
 from viscofric.errors import DataFileError, check_choice
 from viscofric.files import read_bytes
-from viscofric.readers.dma.names import DMA, decided, temperature_of_title
+from viscofric.readers.dma.names import DMA, decided, temperatures_above
 from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import dma_table, reptate, workbook
@@ -118,11 +118,11 @@ def _table(source: Source) -> tuple[Table, float]:
 
 
 def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
-    titled = [kelvin for title in table.titles if (kelvin := temperature_of_title(title)) is not None]
+    titled = [kelvin for kelvin in temperatures_above(table) if kelvin is not None]
     if table.block is not None and any(abs(kelvin - reference) > _SAME_REFERENCE for kelvin in titled):
         problem = "holds tables with temperatures of their own, no master curve"
         raise DataFileError(table.path, problem, code="dma-sweeps", remedy=AS_SWEEPS)
-    if table.block is not None and any(cell.strip() for title in table.titles[1:] for cell in title):
+    if table.block is not None and any(cell.strip() for title in table.titles[1:] for line in title for cell in line):
         problem = "holds several tables below each other; give each a file of its own."
         raise DataFileError(table.path, problem, code="several-tables")
     places = dma_table.find_columns(table, master_curve=True)

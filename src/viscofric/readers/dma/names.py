@@ -242,7 +242,7 @@ def states_another(table: Table, given: float | None) -> bool:
     # Words above a single table, such as those of a conditioning, are not read as its temperature.
     if table.block is None or given is None:
         return False
-    found = [temperature_of_title(title) for title in table.titles]
+    found = temperatures_above(table)
     return any(kelvin and abs(kelvin - given) > _SAME_TEMPERATURE for kelvin in found)
 
 
@@ -265,7 +265,7 @@ def temperatures_of_titles(table: Table, source: Source | None = None) -> Array 
         raise not_needed(table.path, "temperature", "temperature-not-needed", TITLES_STATE, " for this file")
     if source is not None and source.temperature is not None:
         insist_on_same_temperature(table, source.temperature, "the one given for this file")
-    found = [temperature_of_title(title) for title in table.titles]
+    found = temperatures_above(table)
     if table.block is None or None in found:
         return None
     return np.array(found)[table.block - 1]
@@ -290,21 +290,34 @@ def known_temperatures(table: Table, place: int | None, source: Source, notes: l
     return titled
 
 
+def temperatures_above(table: Table) -> list[float | None]:
+    """Return the temperature of the nearest line above each table that states one, K, None without any."""
+    each = [[kelvin for line in title if (kelvin := temperature_of_title(line))] for title in table.titles]
+    return [found[-1] if found else None for found in each]
+
+
+def words_above(table: Table) -> list[str]:
+    """Return what may name its specimen above each of several tables, "" for nothing."""
+    named = [[line for line in title[:-1] if names_specimen(line)] + [*title[-1:]] for title in table.titles]
+    return [", ".join(filter(None, map(_without_temperature, lines))) for lines in named]
+
+
 def joined_tables(table: Table) -> list[Note]:
     """Return a note on tables, below or beside each other, with other words above them than their temperatures."""
-    found = [_without_temperature(title) for title in table.titles]
-    titles = dict.fromkeys(title for title in found if title)
-    if table.block is None or len(titles) < 2 or not any(found[1:]):
+    first, *others = words_above(table) if table.block is not None else [""]
+    if not any(words and words != first for words in others):
         return []
-    shown = ", ".join(repr(title[:80]) for title in list(titles)[:3]) + (" ..." if len(titles) > 3 else "")
+    titles = [*dict.fromkeys(filter(None, (first, *others)))]
+    shown = ", ".join(repr(title[:80]) for title in titles[:3]) + (" ..." if len(titles) > 3 else "")
     said = f"Tables below or beside each other were read as those of one specimen; above them are {shown}."
-    return [Note("tables-joined", said, values={"titles": [*titles]})]
+    return [Note("tables-joined", said, values={"titles": titles})]
 
 
 #: What tells nothing of the specimen: numbers of steps and pages, dates and times, and what is left around them.
 _COUNTED = re.compile(
     r"\b(sweep|step|interval|segment|page|run|action|part|set|schritt|abschnitt|intervall|seite|étape|intervalle|paso)"
-    r"[\s:.#-]*\d+(\s*(of|von|de|/)\s*\d+)?|\d{1,4}[-./]\d{1,2}[-./]\d{1,4}|\d{1,2}:\d{2}(:\d{2})?",
+    r"[\s:.#-]*\d+(\s*(of|von|de|/)\s*\d+)?|\d{1,4}[-./]\d{1,2}[-./]\d{1,4}|\d{1,2}:\d{2}(:\d{2})?"
+    r"|\b(T|temp\w*)\.?\s*[=:]?\s*$",
     re.IGNORECASE,
 )
 
@@ -357,6 +370,12 @@ _SPECIMEN = re.compile(
 def is_specimen(column: Column) -> bool:
     """Return whether a column names the specimen of each row."""
     return bool(_SPECIMEN.fullmatch(column.name))
+
+
+def names_specimen(cells: Sequence[str]) -> bool:
+    """Return whether a line of words above a table begins with a word for its specimen: ``Sample B``."""
+    found = _SPECIMEN.match(" ".join(cells).strip())
+    return bool(found and not re.match(r"[^\W\d_]", found.string[found.end() :]))
 
 
 _SHEAR_WORDS = r"shear|schub|scher|cisaillement|cizall|cortante|taglio|cisalh|сдвиг"

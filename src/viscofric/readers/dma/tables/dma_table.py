@@ -13,7 +13,7 @@ from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma import names
-from viscofric.readers.dma.checks import HELD_FREQUENCY, doubts, insist_on_agreement
+from viscofric.readers.dma.checks import HELD_FREQUENCY, PRINTED, doubts, insist_on_agreement
 from viscofric.readers.dma.names import (
     COMPLIANCES,
     MODULI,
@@ -40,6 +40,8 @@ _OF_OSCILLATION = re.compile(r"complex|oscillat|amplitude|dynamic|\bdyn\b", re.I
 _DOUBLE = re.compile(r"\bdouble\s+(strain|amplitude)|\bDSA\b|\bp-?p\b|\bpeak[ -]to[ -]peak\b", re.IGNORECASE)
 #: A strain amplitude above 200 % is that of no analyser; a number above it is in per cent.
 _LARGEST_FRACTION = 2.0
+#: Half of the tan δ of a rubber are never above this; numbers without a unit that are may be in per cent.
+_LARGEST_TANGENT = 3.0
 #: Segment and number of a point, as HAAKE RheoWin prints them.
 _SEGMENT = re.compile(r"\d{1,6}\|\d{1,6}")
 _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the moduli", "'MPa'")
@@ -149,7 +151,8 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
     values = {what: _modulus(table, places[what], source, notes) for what in MODULI if what in places}
     if "storage modulus" in values and "loss modulus" in values:
         storage, loss = values["storage modulus"], values["loss modulus"]
-        insist_on_agreement(table.path, storage, loss, _printed_tangent(table, places), values.get("complex modulus"))
+        tangent = _printed_tangent(table, places, storage, loss)
+        insist_on_agreement(table.path, storage, loss, tangent, values.get("complex modulus"))
         return storage, loss
     tangent = _tangent(table, places)
     if "storage modulus" in values:
@@ -173,7 +176,7 @@ def _of_compliances(table: Table, places: dict[str, int], notes: list[str]) -> t
     tangent = loss / storage if storage is not None and loss is not None else _tangent(table, places)
     tangent = np.where(tangent == 0.0, np.nan, tangent)
     if storage is not None and loss is not None:
-        insist_on_agreement(table.path, storage, loss, _printed_tangent(table, places), None)
+        insist_on_agreement(table.path, storage, loss, _printed_tangent(table, places, storage, loss))
     if storage is None:
         assert loss is not None
         storage = loss / tangent
@@ -189,9 +192,16 @@ def _compliance(table: Table, place: int) -> Array:
 
 
 def _tangent(table: Table, places: dict[str, int]) -> Array:
-    """Return tan δ as printed, or from the angle δ."""
+    """Return tan δ as printed, or from the angle δ; numbers without a unit as large as per cent are refused."""
     if "tan delta" in places:
-        return _fraction(table, places["tan delta"])
+        column, tangent = table.columns[places["tan delta"]], _fraction(table, places["tan delta"])
+        if column.name and not column.unit and np.nanmedian(tangent) > _LARGEST_TANGENT:
+            problem = (
+                f"half of the values in column {column.heading!r} are above {np.nanmedian(tangent):.3g}, as in per "
+            )
+            right = f"cent; write it as '{column.name} (%)', or as '{column.name} (-)' if they are tan δ itself."
+            raise table.refused("no-unit", problem + right)
+        return tangent
     place = places["phase angle"]
     factor, _ = table.conversion(table.columns[place], "rad")
     angle = factor * table.numbers_or_missing(place)
@@ -201,12 +211,17 @@ def _tangent(table: Table, places: dict[str, int]) -> Array:
     return np.tan(np.where(beyond, np.nan, angle))
 
 
-def _printed_tangent(table: Table, places: dict[str, int]) -> Array | None:
+def _printed_tangent(table: Table, places: dict[str, int], storage: Array, loss: Array) -> Array | None:
     """Return tan δ next to both moduli, None if its column holds no numbers: it is not needed."""
     try:
-        return _fraction(table, places["tan delta"]) if "tan delta" in places else None
+        tangent = _fraction(table, places["tan delta"]) if "tan delta" in places else None
     except DataFileError:
         return None
+    if tangent is None or table.columns[places["tan delta"]].unit:
+        return tangent
+    with np.errstate(divide="ignore", invalid="ignore"):
+        in_percent = 0.01 * tangent * storage / loss  # 1 where the unit is only missing
+    return 0.01 * tangent if abs(np.nanmedian(in_percent) - 1.0) < PRINTED else tangent
 
 
 def _fraction(table: Table, place: int) -> Array:
@@ -384,20 +399,26 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
 
 
 def _insist_on_one_specimen(table: Table, temperature: Array, angular: Array) -> None:
-    """Refuse a table whose column of specimens tells apart what would be averaged."""
+    """Refuse a table whose column of specimens, or whose lines above its parts, tell apart what would be averaged."""
     with np.errstate(divide="ignore", invalid="ignore"):
         kelvins, places = np.round(temperature), np.round(np.log(angular) / HELD_FREQUENCY)
     known = np.flatnonzero(np.isfinite(kelvins + places))
-    for column in (place for place, one in enumerate(table.columns) if not one.quantity and names.is_specimen(one)):
+    told = [
+        (f"column {one.heading!r} holds", [row[place].strip() for row in table.rows], "remove this column")
+        for place, one in enumerate(table.columns)
+        if not one.quantity and names.is_specimen(one)
+    ]
+    if table.block is not None:
+        first, *others = names.words_above(table)
+        words = [first or "nothing", *others]
+        told.append(("the lines above its tables say", [words[n - 1] for n in table.block], "delete these lines"))
+    for said, labels, change in told:
         seen: dict[tuple[float, float], str] = {}
         for row in known:
-            label = table.rows[row][column].strip()
-            other = seen.setdefault((kelvins[row], places[row]), label)
+            other, label = seen.setdefault((kelvins[row], places[row]), labels[row]), labels[row]
             if label and other and label != other:
-                problem = (
-                    f"column {table.columns[column].heading!r} holds {other!r} and {label!r} at one temperature and "
-                    "frequency; keep the rows of one specimen, or remove this column to average them."
-                )
+                problem = f"{said} {other!r} and {label!r} at one temperature and frequency; keep the rows of one "
+                problem += f"specimen, or {change} to average them."
                 raise DataFileError(table.path, problem, int(table.lines[row]), code="several-specimens")
 
 
