@@ -873,3 +873,31 @@ def test_a_loss_tangent_in_per_cent_without_its_unit_is_seen(tmp_path):
     assert read_dma(write(tmp_path, f"{heading} (-)", *rows)).isotherms[0].loss_modulus == pytest.approx([50e6, 72e6])
     beside = read_dma(write(tmp_path, f"{HEADING};tan delta", "20;1;5;0.5;10", "20;10;6;0.72;12"))
     assert beside.isotherms[0].loss_modulus == pytest.approx([0.5e6, 0.72e6])
+
+
+@pytest.mark.parametrize(
+    ("storage", "tangent"),
+    [
+        ("Modulus E' (MPa)", "tg δ"),
+        ("Ep (MPa)", "tg delta"),
+        ("E prime (MPa)", "tanδ"),
+        ("貯蔵弾性率E'(MPa)", "損失正接tanδ"),
+        ("Young modulus E' (MPa)", "loss factor"),
+        ("module d'Young E' (MPa)", "tan d"),
+    ],
+)
+def test_symbols_stand_behind_words_of_any_script(tmp_path, storage, tangent):
+    rows = ["20;1;5;0.1", "20;10;6;0.2"]
+    sweeps = read_dma(write(tmp_path, f"T (°C);f (Hertz);{storage};{tangent}", *rows))
+    assert sweeps.deformation == "tension"
+    assert sweeps.isotherms[0].loss_modulus == pytest.approx([0.5e6, 1.2e6])
+
+
+def test_a_column_that_may_be_the_temperature_is_asked_for(tmp_path):
+    lines = ["Upper Temp. [°C];f (Hz);G' (kPa);G'' (kPa)", "60;1;5;0.5", "60;10;6;0.7"]
+    path = write(tmp_path, *lines, name="rubber_25C.csv")
+    with refused("missing-columns", None, "'Upper Temp. [°C]'"):
+        read_dma(path)
+    named = read_dma(path, columns={"temperature": "Upper Temp. [°C]"})
+    assert named.temperatures - 273.15 == pytest.approx([60.0])
+    assert read_dma(path, temperature="62 degC").temperatures - 273.15 == pytest.approx([62.0])

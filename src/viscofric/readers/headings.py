@@ -38,6 +38,11 @@ _SAID_LOGARITHM = re.compile(r"(log[\s_]*10|log|lg|ln)(?=[\s_(\[]|[eg]['*])", re
 #: Quantities that are of logarithms already, by the beginning or the end of their names.
 _OF_LOGARITHMS = re.compile(r"log.*|.*(error|scatter)")
 _ARGUMENT = re.compile(r"\((?P<first>[^()]*)\)(?P<rest>.*)|\((?P<whole>.*)\)")
+#: "storage modulus E'", "貯蔵弾性率E'": words and the symbol behind them.
+_WITH_SYMBOL = re.compile(
+    r"(?P<words>.*\S(?=\s)|[\u3040-\u9fff\uac00-\ud7a3]+)\s*(?P<symbol>[^\s\u3040-\u9fff\uac00-\ud7a3]+)"
+)
+_A_MODULUS = re.compile(r"(elastic |young('s)? )?modulus|module( d'(young|élasticité))?|modul|m[oó]dulo", re.IGNORECASE)
 _CELSIUS = re.compile(r"°?[CF]|deg[CF]|℃", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
 #: "#3": the third column of a table, whatever its heading.
@@ -169,11 +174,11 @@ class Vocabulary:
         lower = plain.lower()
         spellings = (plain, *(one for one in (lower, _MARKS.sub("", lower)) if len(one) > 1))
         found = next((what for one in spellings if (what := self._meaning.get(one))), "")
-        words, _, symbol = plain.rpartition(" ")
-        if found or not words:
+        both = None if found else _WITH_SYMBOL.fullmatch(plain)
+        if both is None:
             return found
-        what = self.quantity(words)  # "storage modulus E'", where both say the same
-        return what if what and what == self.quantity(symbol) else ""
+        what = self.quantity(both["symbol"])  # "modulus E'", or "storage modulus E'", where both say the same
+        return what if _A_MODULUS.fullmatch(both["words"]) or what == self.quantity(both["words"]) else ""
 
     def column(self, text: str) -> Column:
         """Return the column under a heading, with the quantity that it names, or of which it names the logarithm."""

@@ -99,6 +99,7 @@ _SPELLINGS = {
     )
 } | {
     "kpsi": "ksi",
+    "pascal": "Pa",
     "sec": "s",
     "rpm": "revolutions_per_minute",
     "n/mm²": "MPa",
@@ -178,8 +179,8 @@ def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
         return 1.0
     if re.fullmatch(r"1/s|s\^?-1|s⁻¹", plain):
         return 1.0 if angular else None
-    if re.fullmatch(r"[mkM]?Hz", plain, re.IGNORECASE) and not angular:
-        return 2.0 * math.pi * (_PREFIXES[plain[0]] if len(plain) == 3 else 1.0)
+    if re.fullmatch(r"[mkM]?Hz|hertz|cps|cycles?/s(ec)?", plain, re.IGNORECASE) and not angular:
+        return 2.0 * math.pi * (_PREFIXES[plain[0]] if plain[1:].lower() == "hz" else 1.0)
     if re.fullmatch(r"cpm|cyc(les?)?/min", plain, re.IGNORECASE) and not angular:  # of rubber process analysers
         return 2.0 * math.pi / 60.0
     return None

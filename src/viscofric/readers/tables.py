@@ -439,7 +439,7 @@ def _insist_on_one_value(table: Table) -> None:
 
 def _si_value(stated: re.Match[str], unit: str) -> float | None:
     """Return a number with its unit in an SI unit, None if it is of another kind."""
-    value = _converted(stated["number"], stated["unit"], unit)
+    value = converted(stated["number"], stated["unit"], unit)
     return None if value is None else float(f"{value:.9g}")
 
 
@@ -507,10 +507,11 @@ def _in_si(number: str, unit: str, si: str) -> float | None:
     if si == "rad/s":
         factor = to_rad_per_second(unit, angular=False)
         return None if factor is None else factor * float(number.replace(",", "."))
-    return _converted(number, unit, si)
+    return converted(number, unit, si)
 
 
-def _converted(number: str, unit: str, si: str) -> float | None:
+def converted(number: str, unit: str, si: str) -> float | None:
+    """Return a number as printed in an SI unit, None if its unit is of another kind."""
     try:
         factor, offset = unit_conversion(unit, si)
         return factor * float(number.replace(",", ".")) + offset
@@ -629,10 +630,11 @@ def _plain(cells: Sequence[str]) -> list[str]:
 def _is_title(cells: Sequence[str], words: Vocabulary) -> bool:
     """Return whether a row between others names a specimen, or states a temperature and nothing else."""
     filled = [cell.strip() for cell in cells if cell.strip().lower() not in MISSING]
-    if not 0 < len(filled) <= 2 or is_number(filled[0]):
+    if not 0 < len(filled) <= 3 or is_number(filled[0]):
         return False
     stated = {what for what, _ in words.stated_in(" ".join(filled))[1]}
-    return names_specimen(filled) or (stated <= {"temperature"} and temperature_of_title(filled) is not None)
+    states = stated <= {"temperature"} and temperature_of_title(filled) is not None
+    return states or (len(filled) < 3 and names_specimen(filled))
 
 
 def _without_end(cells: Sequence[str]) -> list[str]:

@@ -61,7 +61,7 @@ ISOTHERM = frozenset({"isotherm", "isotherm temperature", "temperature of the is
 STORAGE_MODULUS = frozenset(
     {"E'", "G'", "e'", "g'", "e stor", "g stor", "e storage", "g storage", "estor", "gstor"}
     | {sort + name for sort in _SORTS for name in ("storage", "storage modulus", "storage mod.")}
-    | {"elastic modulus e'", "young modulus e'", "young's modulus e'", "module d'young e'", "module d'élasticité e'"}
+    | {f"{letter}{sort}" for letter in "eg" for sort in ("p", " prime")}
     | {"speichermodul", "speicherschubmodul", "zugspeichermodul", "e-speichermodul", "g-speichermodul"}
     | {"module de conservation", "module conservation", "module de stockage", "module élastique"}
     | {"module de conservation en cisaillement", "módulo de almacenamiento", "módulo elástico", "modulo conservativo"}
@@ -71,6 +71,7 @@ STORAGE_MODULUS = frozenset(
 )
 LOSS_MODULUS = frozenset(
     {"E''", "G''", "e''", "g''", "e loss", "g loss", "eloss", "gloss"}
+    | {f"{letter}{sort}" for letter in "eg" for sort in ("pp", " double prime", " doubleprime")}
     | {sort + name for sort in _SORTS for name in ("loss", "loss modulus", "loss mod.")}
     | {"verlustmodul", "verlustschubmodul", "zugverlustmodul", "e-verlustmodul", "g-verlustmodul"}
     | {"module de perte", "module perte", "module de dissipation", "module visqueux", "module de perte en cisaillement"}
@@ -94,7 +95,7 @@ LOSS_COMPLIANCE = frozenset(
     | {"verlustnachgiebigkeit", "verlustkomplianz", "complaisance de perte", "损耗柔量"}
 )
 LOSS_TANGENT = frozenset(
-    {"tan δ", "tan delta", "tan d", "loss factor"}
+    {"tan δ", "tan delta", "tan d", "tg δ", "tg delta", "loss factor"}
     | {"loss tangent", "damping factor", "verlustfaktor", "facteur de perte", "facteur d'amortissement"}
     | {"tangente delta", "tangens delta", "损耗因子", "损耗角正切", "損失正接"}
     | {"factor de pérdida", "fattore di perdita", "fator de perda", "verliesfactor", "förlustfaktor"}
@@ -379,8 +380,10 @@ def names_specimen(cells: Sequence[str]) -> bool:
 
 
 _SHEAR_WORDS = r"shear|schub|scher|cisaillement|cizall|cortante|taglio|cisalh|сдвиг"
-_SHEAR = re.compile(rf"\|?g['*\s]|j'|g-|gstor|gloss|.*(\bg['*]|{_SHEAR_WORDS})")
-_TENSION = re.compile(r"\|?e['*\s]|d'|e-|estor|eloss|.*(\be['*]|tensi|young|zug|traction|tracción|trazione|tração)")
+_SHEAR = re.compile(rf"\|?g['*\s]|j'|g-|gpp?\s|gstor|gloss|.*((?<![a-z])g['*]|{_SHEAR_WORDS})")
+_TENSION = re.compile(
+    r"\|?e['*\s]|d'|e-|epp?\s|estor|eloss|.*((?<![a-z])e['*]|tensi|young|zug|traction|tracción|trazione|tração)"
+)
 _SHEARED = re.compile(_SHEAR_WORDS)
 
 # Instruments give every modulus the same name, so the sample holder decides between E and G.  Plates shear in rotation;

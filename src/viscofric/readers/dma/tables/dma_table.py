@@ -28,8 +28,8 @@ from viscofric.readers.dma.names import (
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, Source, to_rad_per_second, unit_conversion
-from viscofric.readers.table import MISSING, Table
-from viscofric.readers.tables import find_tables, holds_table, name_columns
+from viscofric.readers.table import MISSING, Table, or_name_it
+from viscofric.readers.tables import converted, find_tables, holds_table, name_columns
 
 #: Of text tables: commas, semicolons, tabs or blanks between columns.
 NAME = "delimited text"
@@ -346,6 +346,11 @@ def _temperature(
     known = known_temperatures(table, places.get("temperature"), source, notes)
     if known is not None:
         return known
+    other = next((one for one in table.columns if not one.quantity and converted("1", one.unit, "K") is not None), None)
+    if other is not None:
+        problem = f"no column is called temperature; rename {other.heading!r} if it is one"
+        remedy = or_name_it(table.vocabulary.key, "temperature", other.heading)
+        raise table.refused("missing-columns", problem, remedy, ["temperature"])
     found, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
     swept = angular[angular > 0.0]
     decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
