@@ -162,6 +162,9 @@ def test_positions_about_a_matrix_are_no_heights(tmp_path):
         assert image.heights[2, 0] == pytest.approx(4e-6)
     uneven = vf.read_topography(write(tmp_path, text.replace("5.0", "6.0")), unit="um", spacing="5 um")
     assert uneven.shape == (4, 4)
+    for corner in ("um", "x/y (um)"):
+        stated = vf.read_topography(write(tmp_path, text.replace("nan", corner, 1)))
+        assert (stated.spacing, stated.heights[0, 2]) == (pytest.approx((5e-6, 10e-6)), pytest.approx(4e-6))
 
 
 @pytest.mark.parametrize(

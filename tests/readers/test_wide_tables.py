@@ -494,3 +494,12 @@ def test_a_workbook_of_several_sheets_is_read_by_the_one_chosen(tmp_path: Path) 
         vf.read_friction_curves(path, columns={"temperature": "= 20 degC"})
     curves = vf.read_friction_curves(path, columns={"temperature": "= 20 degC"}, sheet="SBR")
     assert curves.viscoelastic == pytest.approx([0.3, 0.4])
+
+
+def test_specimens_at_one_condition_are_not_one_friction_curve(tmp_path: Path) -> None:
+    rows = [[label, v, 20.0, 10.0, 0.1] for label in "AB" for v in SPEEDS]
+    header = ["sample", "speed (mm s-1)", "temperature (°C)", "load (N)", "kinetic COF"]
+    with refused("several-specimens", None, "'sample'", "'A' and 'B'"):
+        vf.read_friction_curves(saved(tmp_path, [header, *rows]))
+    alike = vf.read_friction_curves(saved(tmp_path, [header, *(["A", *row[1:]] for row in rows)]))
+    assert alike.speed == pytest.approx(1e-3 * np.array([*SPEEDS, *SPEEDS]))

@@ -17,7 +17,7 @@ from viscofric.files import file_path, marked, says_synthetic, write_atomically
 from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
-from viscofric.readers.dma.names import FROM_TITLES, joined_tables, temperatures_of_titles
+from viscofric.readers.dma.names import FROM_TITLES, insist_on_one_specimen, joined_tables, temperatures_of_titles
 from viscofric.readers.headings import OF_HEADINGS, Column, quantity_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.one_table import table_of
@@ -151,6 +151,9 @@ def read_friction_curves(
     unit = table.load_unit(places["load"])
     _insist_on_absolute_errors(table, places)
     found = {name: _read_column(table, name, place, unit) for name, place in places.items()}
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = [np.log(found[name]) for name in ("speed", "temperature", "load")]  # to 1 %, which is 3 K
+    insist_on_one_specimen(table, np.round(np.stack(at, axis=1), 2), "speed, temperature and load")
     remarks = _remarks(str(path))
     notes = [*remarks["note"], *table.heading_notes, *notes]
     if table.columns[places["viscoelastic"]].alone and np.max(np.abs(found["viscoelastic"])) > _LARGEST_UNNAMED:

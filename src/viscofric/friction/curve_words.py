@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
+from viscofric.readers.mtm.delimited import COEFFICIENT
 
-#: Coefficients of friction of which no heading says what they contain.
-FRICTION = (
-    *("friction coefficient", "coefficient of friction", "friction coeff.", "friction factor", "cof", "mu", "µ", "μ"),
-    *("reibungskoeffizient", "reibungszahl", "reibwert", "coefficient de frottement", "coeficiente de fricción"),
-    *("coefficiente di attrito", "摩擦係数", "摩擦系数"),
-)
 _SPEEDS = ("v", "velocity", "sliding speed", "sliding velocity", "disc speed", "disk speed", "gleitgeschwindigkeit")
 #: field -> (SI unit, empty for a pure number; the heading written; other headings accepted)
 COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
@@ -20,7 +15,7 @@ COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "viscoelastic": (
         "",
         "viscoelastic friction",
-        ("viscoelastic", "viscoelastic friction coefficient", "mu viscoelastic", *FRICTION),
+        ("viscoelastic", "viscoelastic friction coefficient", "mu viscoelastic", *COEFFICIENT),
     ),
     "viscoelastic_error": ("", "viscoelastic friction standard error", ("viscoelastic error", "friction error")),
     "viscoelastic_scatter": ("", "viscoelastic friction scatter", ("viscoelastic scatter",)),

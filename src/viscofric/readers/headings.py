@@ -412,6 +412,6 @@ def heading(text: str) -> Column:
             groups = match.groupdict()
             name, unit = match["name"], match["unit"] or groups.get("letter") or groups.get("rarer") or ""
             break
-    if name.strip() == "t" and _CELSIUS.fullmatch(unit):  # not a time
-        name = "T"
+    if name.strip() in ("t", "T") and (_CELSIUS.fullmatch(unit) or unit in ("s", "min")):  # whatever its case
+        name = "t" if unit in ("s", "min") else "T"
     return Column(text, " ".join(name.replace("_", " ").split()), unit)

@@ -155,7 +155,10 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
         text = _ANGLES.get(text.strip().lower(), "an unknown unit")
     if unit == "N" and text.strip() in MASSES:
         return MASSES[text.strip()], 0.0
-    plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", text.strip())
+    plain = re.sub(
+        r"(?<=\w)[ .·*]+(?P<per>m|mm|cm|s|min)\^?[-−](1|(?P<two>2))$", r"/\g<per>\g<two>", text.strip()
+    )  # mm s-1
+    plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", plain)
     folded = plain.replace(" ", "").casefold()
     try:
         return conversion(plain, unit, name)

@@ -379,6 +379,30 @@ def names_specimen(cells: Sequence[str]) -> bool:
     return bool(found and not re.match(r"[^\W\d_]", found.string[found.end() :]))
 
 
+def insist_on_one_specimen(table: Table, conditions: Array, what: str) -> None:
+    """Refuse a table whose column of specimens, or whose lines above its parts, tell apart rows at one condition."""
+    # `conditions` has a row of numbers, equal where the conditions are, for each row of the table, NaN where unknown.
+    told = [
+        (f"column {one.heading!r} holds", [row[place].strip() for row in table.rows], "remove this column")
+        for place, one in enumerate(table.columns)
+        if not one.quantity and is_specimen(one)
+    ]
+    if table.block is not None:
+        first, *others = words_above(table)
+        words = [first or "nothing", *others]
+        told.append(("the lines above its tables say", [words[n - 1] for n in table.block], "delete these lines"))
+    for said, labels, change in told:
+        seen: dict[tuple[float, ...], str] = {}
+        for row in np.flatnonzero(np.all(np.isfinite(conditions), axis=1)):
+            label = labels[row]
+            other = seen.setdefault(tuple(conditions[row]), label)
+            if label and other and label != other:
+                problem = f"{said} {other!r} and {label!r} at one {what}; keep the rows of one specimen, or {change} "
+                raise DataFileError(
+                    table.path, f"{problem}to join them.", int(table.lines[row]), code="several-specimens"
+                )
+
+
 _SHEAR_WORDS = r"shear|schub|scher|cisaillement|cizall|cortante|taglio|cisalh|сдвиг"
 _SHEAR = re.compile(rf"\|?g['*\s]|j'|g-|gpp?\s|gstor|gloss|.*((?<![a-z])g['*]|{_SHEAR_WORDS})")
 _TENSION = re.compile(

@@ -22,11 +22,14 @@ from viscofric.readers.tables import holds_table, name_columns
 
 NAME = "delimited text, one reading per row"
 
-#: Names of a coefficient of friction of any origin.
+#: Names of a coefficient of friction of any origin, of which no heading says what it contains.
 COEFFICIENT = frozenset(
     {"traction coefficient", "traction coeff", "traction coeff.", "friction coefficient", "coefficient of friction"}
-    | {"coefficient of traction", "friction coeff", "friction coeff.", "cof", "mu", "µ", "μ"}
-    | {"reibwert", "reibungskoeffizient", "coefficient de frottement", "coeficiente de fricción"}
+    | {"coefficient of traction", "friction coeff", "friction coeff.", "coef. of friction", "cof", "mu", "µ", "μ", "µk"}
+    | {f"{sort} {name}" for sort in ("dynamic", "kinetic") for name in ("cof", "friction coefficient")}
+    | {"coefficient of dynamic friction", "coefficient of kinetic friction"}
+    | {"friction factor", "reibwert", "reibungskoeffizient", "reibungszahl", "coefficient de frottement"}
+    | {"coeficiente de fricción", "coefficiente di attrito", "摩擦係数", "摩擦系数"}
 )
 #: What to do with traction runs in place of friction curves or sweeps.
 AS_RUNS = Remedy(

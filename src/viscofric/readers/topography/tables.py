@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from viscofric.arrays import Array, Integers
-from viscofric.errors import DataFileError
+from viscofric.errors import DataFileError, InputError
 from viscofric.files import saved_array
 from viscofric.notes import Note, Remedy, setting
-from viscofric.readers.headings import Vocabulary
+from viscofric.readers.headings import Vocabulary, heading
 from viscofric.readers.one_table import only_table
 from viscofric.readers.source import Source, decimal_comma
 from viscofric.readers.table import MISSING, NUMBER
@@ -251,7 +251,8 @@ def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[st
             f"states that its heights are in {stated_unit!r}; leave unit = {options.unit!r} out.",
             code="unit-not-needed",
         )
-    factor, _ = conversion(options.unit or stated_unit or "m", "m", "unit")
+    unit = options.unit or stated_unit or remarks.get("corner", "m")
+    factor, _ = conversion(unit, "m", "unit")
     table, notes, step = _without_positions(_read(table, options))
     distances = None if step is None else (factor * step[0], factor * step[1])
     heights = np.atleast_2d(table.T).T if min(np.shape(table)) > 1 or table.ndim == 1 else table.reshape(-1, 1)
@@ -274,7 +275,7 @@ def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[st
             remedy=SPACING + ", for instance.",
         )
     if not (options.unit or stated_unit):
-        notes.append(Note("unit-assumed", "heights assumed to be in m", values={"unit": "m"}))
+        notes.append(Note("unit-assumed", f"heights assumed to be in {unit}", values={"unit": unit}))
     return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})", notes=tuple(notes))
 
 
@@ -287,6 +288,13 @@ def _without_positions(table: Array) -> tuple[Array, list[Note], tuple[float, fl
         return table, [], None
     said = Note("positions-in-matrix", "first row and first column, evenly spaced, taken as positions")
     return table[1:, 1:], [said], (float(steps[0].mean()), float(steps[1].mean()))
+
+
+def _is_length(unit: str) -> bool:
+    try:
+        return bool(unit) and bool(conversion(unit, "m", "unit"))
+    except InputError:
+        return False
 
 
 def _length(path: str, text: str) -> float:
@@ -346,7 +354,10 @@ def _parsed(path: str, text: str, *, are_points: bool) -> _Text:
             raise DataFileError(path, problem, number, code="row-length")
     _insist_on_delimiters(path, found, are_points=are_points and "width" not in remarks)
     decimal_comma(path, ((cell, number) for number, cells in found for cell in cells if "," in cell))
-    if not _is_number(found[0][1][0]):  # a label in the corner of positions
+    corner = found[0][1][0]
+    if not _is_number(corner):  # a label in the corner of positions, perhaps with their unit: "µm", "x/y (mm)"
+        unit = next(filter(_is_length, (corner, heading(corner).unit)), "")
+        remarks |= {"corner": unit} if unit else {}
         found[0][1][0] = ""
     rows = np.array([[_number(path, cell, number) for cell in cells] for number, cells in found])
     return _Text(rows, [number for number, _ in found], remarks)

@@ -300,7 +300,9 @@ def read_points(
     storage, loss = moduli(table, places, source, notes)
     temperature = _temperature(table, places, source, name, frequency, notes)
     if not exported:
-        _insist_on_one_specimen(table, temperature, frequency)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            at = np.column_stack([np.round(temperature), np.round(np.log(frequency) / HELD_FREQUENCY)])
+        names.insist_on_one_specimen(table, at, "temperature and frequency")
         _insist_on_most(table, places, "frequency", frequency)
         _insist_on_most(table, places, "storage modulus", storage)
     kind, said_by = deformation([table], tools)
@@ -401,30 +403,6 @@ def _insist_on_most(table: Table, places: dict[str, int], what: str, values: Arr
         return
     table.numbers(place)  # raises for the first cell that is empty or not a number
     table.insist(good, place, "above zero")
-
-
-def _insist_on_one_specimen(table: Table, temperature: Array, angular: Array) -> None:
-    """Refuse a table whose column of specimens, or whose lines above its parts, tell apart what would be averaged."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        kelvins, places = np.round(temperature), np.round(np.log(angular) / HELD_FREQUENCY)
-    known = np.flatnonzero(np.isfinite(kelvins + places))
-    told = [
-        (f"column {one.heading!r} holds", [row[place].strip() for row in table.rows], "remove this column")
-        for place, one in enumerate(table.columns)
-        if not one.quantity and names.is_specimen(one)
-    ]
-    if table.block is not None:
-        first, *others = names.words_above(table)
-        words = [first or "nothing", *others]
-        told.append(("the lines above its tables say", [words[n - 1] for n in table.block], "delete these lines"))
-    for said, labels, change in told:
-        seen: dict[tuple[float, float], str] = {}
-        for row in known:
-            other, label = seen.setdefault((kelvins[row], places[row]), labels[row]), labels[row]
-            if label and other and label != other:
-                problem = f"{said} {other!r} and {label!r} at one temperature and frequency; keep the rows of one "
-                problem += f"specimen, or {change} to average them."
-                raise DataFileError(table.path, problem, int(table.lines[row]), code="several-specimens")
 
 
 def _note_unread(table: Table, notes: list[str]) -> None:
