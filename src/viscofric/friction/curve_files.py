@@ -22,8 +22,8 @@ from viscofric.readers.headings import OF_HEADINGS, Column, quantity_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.one_table import table_of
 from viscofric.readers.source import Source, bytes_of, is_revolutions
-from viscofric.readers.table import Table
-from viscofric.readers.tables import find_tables, name_columns
+from viscofric.readers.table import Table, name_columns
+from viscofric.readers.tables import find_tables
 from viscofric.readers.workbook import is_workbook
 from viscofric.traction import notes_on_friction
 from viscofric.units import CELSIUS_ZERO

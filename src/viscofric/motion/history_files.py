@@ -12,7 +12,7 @@ from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError, check_choice
 from viscofric.motion.history import BEFORE, CONTROLS, History
 from viscofric.readers.one_table import HISTORY, HistoryColumns, history_columns
-from viscofric.readers.tables import name_columns
+from viscofric.readers.table import name_columns
 from viscofric.units import Quantity, registry, to_si
 
 

@@ -14,8 +14,8 @@ from viscofric.notes import setting
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary, option_of
 from viscofric.readers.source import Source, bytes_of, checked_sheet, insist_on_content
-from viscofric.readers.table import Table
-from viscofric.readers.tables import find_tables, name_columns
+from viscofric.readers.table import Table, name_columns
+from viscofric.readers.tables import find_tables
 from viscofric.readers.workbook import is_workbook
 
 

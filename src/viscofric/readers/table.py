@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from collections.abc import Collection, Iterable, Sequence
@@ -218,6 +217,11 @@ class Table:
         values = self.vocabulary.header_values(self.columns, missing)
         return DataFileError(self.path, Note(code, problem, remedy=remedy, values=values))
 
+    def lacking(self, missing: Sequence[str], more: str = "") -> DataFileError:
+        """Return the error of a table without columns of some quantities, which the user may name."""
+        problem = f"no column for {' or '.join(missing)}; {self.vocabulary.example}, this one has {self.headings()}"
+        return self.refused("missing-columns", problem + more, name_columns(self.vocabulary.key, missing), missing)
+
     def insist(self, good: Mask, place: int, right: str, code: str = "not-positive") -> None:
         """Refuse the first cell of a column, which must be `right`, that is not good."""
         if np.all(good):
@@ -392,9 +396,26 @@ def or_name_it(key: str, what: str, said: str) -> Remedy:
     )
 
 
-def split_cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
-    """Split one line, quoted cells included, or raise `DataFileError`."""
-    try:
-        return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
-    except csv.Error as error:
-        raise DataFileError(path, f"the row cannot be split into cells ({error}).", number, code="row-length") from None
+#: Quantities that often have one value in all rows, which tables then lack.
+_FOR_ALL_ROWS = {
+    "load": "20 N",
+    "temperature": "25 degC",
+    "frequency": "10 Hz",
+    "stress": "0.3 MPa",
+    "strain": "5 %",
+}
+
+
+def name_columns(key: str, missing: Sequence[str]) -> Remedy:
+    """Return the end of a sentence: the user may name the columns, for each reader."""
+    name = (missing[0] if missing else "frequency").replace(" ", "_")
+    table, _, own = key.partition(".")
+    value = _FOR_ALL_ROWS.get(name)
+    same, typed = (f", or '{said}= {value}' for all rows" if value else "" for said in ("", f"{name}="))
+    return Remedy(
+        f"; name them, e.g. columns={{'{name}': 'heading'}}{same}.",
+        f"; name them, e.g. {option_of(key)} {name}=HEADING{typed}.",
+        f'; name them, e.g. {own} = {{ {name} = "heading" }} under [{table}]{same}.',
+        "; choose the columns in the form.",
+        key,
+    )

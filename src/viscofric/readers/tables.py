@@ -5,17 +5,17 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
 from viscofric.errors import DataFileError, InputError, not_needed
-from viscofric.notes import Note, Remedy
+from viscofric.notes import Note
 from viscofric.readers.dma.names import (
     TITLES_STATE,
     deformation_of,
-    frequency_of_title,
     insist_on_same_temperature,
     names_specimen,
     states_another,
@@ -23,12 +23,10 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.header_rows import DEEPEST_HEADER, Found, guessed, header_of, is_number, named
 from viscofric.readers.headings import (
-    CONSTANT,
     OF_HEADINGS,
     Column,
     Vocabulary,
     heading,
-    option_of,
     place_of,
 )
 from viscofric.readers.source import (
@@ -41,7 +39,7 @@ from viscofric.readers.source import (
     to_rad_per_second,
     unit_conversion,
 )
-from viscofric.readers.table import MISSING, NumberedRow, Table, make_table, split_cells
+from viscofric.readers.table import MISSING, NumberedRow, Table, make_table, name_columns
 from viscofric.readers.workbook import is_workbook, sheets
 
 #: A line with its number in the file.
@@ -64,17 +62,6 @@ _BLANKS = "blanks"
 _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 
 
-#: A number with its unit in a title, and SI units of values that titles may state, besides temperatures.
-_STATED = re.compile(r"(?<![\w.,])(?P<number>\d+(?:[.,]\d+)?)\s?(?P<unit>[A-Za-zµμ]+(?:/[A-Za-zµμ]+)?)(?![\w/])")
-_IN_TITLES = ("N", "N/m", "m/s")
-#: Quantities that often have one value in all rows, which tables then lack.
-_FOR_ALL_ROWS = {
-    "load": "20 N",
-    "temperature": "25 degC",
-    "frequency": "10 Hz",
-    "stress": "0.3 MPa",
-    "strain": "5 %",
-}
 #: A quoted cell that does not end with its line, and the most lines of one row.
 _OPEN, _MOST_WRAPPED = re.compile(r'(?:^|[\t;,])"[^"]*$'), 20
 #: A number at the beginning of a cell, but not that of "1/s".
@@ -173,21 +160,6 @@ def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheet
     if not headings:
         return DataFileError(path, Note("missing-columns", f"{problem}.", values=values))
     return DataFileError(path, Note("missing-columns", problem, remedy=name_columns(words.key, missing), values=values))
-
-
-def name_columns(key: str, missing: Sequence[str]) -> Remedy:
-    """Return the end of a sentence: the user may name the columns, for each reader."""
-    name = (missing[0] if missing else "frequency").replace(" ", "_")
-    table, _, own = key.partition(".")
-    value = _FOR_ALL_ROWS.get(name)
-    same, typed = (f", or '{said}= {value}' for all rows" if value else "" for said in ("", f"{name}="))
-    return Remedy(
-        f"; name them, e.g. columns={{'{name}': 'heading'}}{same}.",
-        f"; name them, e.g. {option_of(key)} {name}=HEADING{typed}.",
-        f'; name them, e.g. {own} = {{ {name} = "heading" }} under [{table}]{same}.',
-        "; choose the columns in the form.",
-        key,
-    )
 
 
 def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
@@ -420,27 +392,14 @@ def _insist_on_words(table: Table) -> None:
 
 def _insist_on_one_value(table: Table) -> None:
     """Refuse a value of all rows where the titles of several tables state several: ``20 N, 25 °C``, ``40 N, 60 °C``."""
-    for said in table.vocabulary.constants.values():
-        constant = CONSTANT.fullmatch(said)
-        unit = next((si for si in _IN_TITLES if constant and _si_value(constant, si) is not None), None)
-        if unit is None:
-            continue
-        each: dict[frozenset[float | None], str] = {}
-        for title in table.titles:
-            line = " ".join(cell for cells in title for cell in cells)
-            stated = {_si_value(one, unit): one[0] for one in _STATED.finditer(line)}
-            if held := stated.keys() - {None}:
-                each.setdefault(frozenset(held), ", ".join(stated[one] for one in stated if one is not None))
-        if len(each) > 1:
-            shown = " and ".join(map(repr, each.values()))
+    words = table.vocabulary
+    lines = [words.stated_in(" ".join(cell for cells in title for cell in cells))[1] for title in table.titles]
+    for what, said in words.constants.items():
+        each = dict.fromkeys(value for stated in lines for one, value in stated if one == what)
+        if what != "temperature" and len({_comparable(*_value(value)) for value in each}) > 1:
+            shown = " and ".join(map(repr, each))
             problem = f"the lines above its tables state {shown}, so that {said!r} does not hold for all rows; give "
             raise DataFileError(table.path, f"{problem}each table a file of its own.", code="several-tables")
-
-
-def _si_value(stated: re.Match[str], unit: str) -> float | None:
-    """Return a number with its unit in an SI unit, None if it is of another kind."""
-    value = converted(stated["number"], stated["unit"], unit)
-    return None if value is None else float(f"{value:.9g}")
 
 
 def _below_each_other(table: Table) -> Table:
@@ -575,12 +534,11 @@ def _by_line_above(table: Table) -> Sets | None:
 
 def _stated_by(title: tuple[str, ...], table: Table) -> dict[str, Value]:
     """Return what the line above columns states of the quantities that no column holds."""
-    hertz, kelvin = frequency_of_title(title), temperature_of_title(title)
-    found = {what: _value(text) for what, text in table.vocabulary.stated_in(" ".join(title))[1]}
-    found = {what: value for what, value in found.items() if what not in ("temperature", "frequency")}
-    if hertz:
-        found["frequency"] = (repr(hertz), "Hz")
-    elif kelvin:
+    rest, stated = table.vocabulary.stated_in(" ".join(title))
+    found = {what: _value(text) for what, text in stated if what != "temperature"}
+    if rest.strip():  # a frequency stands alone
+        found.pop("frequency", None)
+    if "frequency" not in found and (kelvin := temperature_of_title(title)):
         found["temperature"] = (repr(kelvin), "K")
     return {what: value for what, value in found.items() if what in table.vocabulary.conditions and not table.has(what)}
 
@@ -720,10 +678,7 @@ def _header_of_text(source: Source, words: Vocabulary) -> tuple[str, bool] | Non
 def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> Found | None:
     """Return all rows of a text with its header; remarks below it are left out."""
     lines = _lines(source.text or "", remarks)
-    if delimiter == _BLANKS:
-        rows: list[NumberedRow] = [(number, _split_at_blanks(line)) for number, line, _ in lines]
-    else:
-        rows = [(number, split_cells(source.path, number, line, delimiter)) for number, line, _ in lines]
+    rows: list[NumberedRow] = [(number, _cells(source.path, number, line, delimiter)) for number, line, _ in lines]
     found = header_of(_filled(rows), words)
     if found is None:
         return None
@@ -758,10 +713,13 @@ def _joined(lines: Sequence[str]) -> Iterator[NumberedLine]:
 
 
 def _split_lines(source: Source, delimiter: str, remarks: bool = False) -> list[NumberedRow]:
-    """Return the cells of the first lines; a line that cannot be split has none."""
+    """Return the cells of the first lines that can be split."""
     lines = _lines("\n".join((source.text or "")[:_HEAD].splitlines()[: 2 * DEEPEST_HEADER]), remarks)
-    split = _split_at_blanks if delimiter == _BLANKS else lambda line: _split(line, delimiter)
-    return _filled([(number, split(line[:_LONGEST_LINE])) for number, line, _ in lines])
+    found: list[NumberedRow] = []
+    for number, line, _ in lines:
+        with suppress(DataFileError):
+            found.append((number, _cells(source.path, number, line[:_LONGEST_LINE], delimiter)))
+    return _filled(found)
 
 
 def _filled(rows: list[NumberedRow]) -> list[NumberedRow]:
@@ -776,18 +734,18 @@ def _fits_below(found: Found) -> bool:
     return any(len(cells) == width and all(map(is_number, cells)) for _, cells in below)
 
 
-def _split_at_blanks(line: str) -> list[str]:
-    """Return cells separated by two blanks or more, or by single ones if no heading has several words."""
+def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
+    """Split one line, quoted cells included, or raise `DataFileError`."""
+    if delimiter != _BLANKS:
+        try:
+            return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
+        except csv.Error as error:
+            problem = f"the row cannot be split into cells ({error})."
+            raise DataFileError(path, problem, number, code="row-length") from None
+    # two blanks or more, or single ones if no heading has several words
     wide = re.split(r"\s{2,}", line.strip())
     single = line.split()
     return single if len(wide) == 1 or all(map(is_number, single)) else wide
-
-
-def _split(line: str, delimiter: str) -> list[str]:
-    try:
-        return next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
-    except csv.Error:
-        return []
 
 
 def numbered_rows(path: str, cells: Sequence[Sequence[float | str]]) -> list[NumberedRow]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable, Sequence
 
@@ -14,14 +13,13 @@ from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note, setting
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.headings import (
-    FREQUENCY_IN_NAME,
     TEMPERATURE_IN_NAME,
     Column,
     Vocabulary,
     heading,
     with_primes,
 )
-from viscofric.readers.source import Source, to_rad_per_second
+from viscofric.readers.source import Source
 from viscofric.readers.table import Table
 from viscofric.units import CELSIUS_ZERO
 
@@ -335,13 +333,6 @@ def _without_temperature(cells: Sequence[str]) -> str:
 def temperature_of_title(cells: Sequence[str]) -> float | None:
     """Return the temperature in a line above a table, such as ``T = 25 °C`` or ``Temperature (°C)`` and ``25``, K."""
     return temperature_in_name(" ".join(_as_one_cell([cell.strip() for cell in cells if cell.strip()])))
-
-
-def frequency_of_title(cells: Sequence[str]) -> float | None:
-    """Return the frequency that is the only cell above a table or in its headings, such as ``10 Hz``, Hz."""
-    found = FREQUENCY_IN_NAME.fullmatch(" ".join(cell.strip() for cell in cells if cell.strip()))
-    factor = to_rad_per_second(found["unit"], angular=False) if found else None
-    return factor * float(found["number"].replace(",", ".")) / (2.0 * math.pi) if found and factor else None
 
 
 def _as_one_cell(filled: list[str]) -> list[str]:

@@ -20,7 +20,7 @@ from viscofric.readers.dma.isotherms import opening
 from viscofric.readers.dma.names import DMA, NOT_SAID
 from viscofric.readers.dma.read import read_files
 from viscofric.readers.dma.readings import AS_SWEEPS, Points, Readings, joined
-from viscofric.readers.tables import name_columns
+from viscofric.readers.table import name_columns
 from viscofric.units import Quantity, celsius, to_si
 
 

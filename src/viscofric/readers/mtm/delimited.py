@@ -18,7 +18,7 @@ from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.one_table import only_table
 from viscofric.readers.source import Source
 from viscofric.readers.table import Table
-from viscofric.readers.tables import holds_table, name_columns
+from viscofric.readers.tables import holds_table
 
 NAME = "delimited text, one reading per row"
 
@@ -92,10 +92,7 @@ def read(source: Source) -> TractionReadings:
     table = only_table(source, TRACTION)
     lacking = missing(table)
     if lacking:
-        problem = f"no column for {' or '.join(lacking)}; {TRACTION.example}, this one has {table.headings()}"
-        if "ball speed" in lacking:
-            problem += "; a pin or ball at rest has the speed 0"
-        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, lacking), lacking)
+        raise table.lacking(lacking, "; a pin or ball at rest has the speed 0" * ("ball speed" in lacking))
     load, temperature = (_values(table, *what) for what in (("load", "N", "zero"), ("temperature", "K", _COLDEST)))
     notes: list[Note] = [*table.heading_notes]
     disc, ball, of_speeds = speeds(table, notes)

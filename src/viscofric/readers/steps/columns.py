@@ -19,8 +19,7 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.source import STRAIN_FACTORS, Source, unit_conversion
-from viscofric.readers.table import Table
-from viscofric.readers.tables import name_columns
+from viscofric.readers.table import Table, name_columns
 from viscofric.step_tests import StepKind
 
 TIME = frozenset(
@@ -99,7 +98,7 @@ def time_of(table: Table, notes: list[str]) -> Array:
     place = table.place("step time")
     place = table.place("time") if place is None else place
     if place is None:
-        raise table.refused("missing-columns", f"no column for time; {STEPS.example}, this one has {table.headings()}.")
+        raise table.lacking(["time"])
     column = table.columns[place]
     if column.unit:
         factor, offset = table.conversion(column, "s")

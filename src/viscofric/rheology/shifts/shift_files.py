@@ -23,8 +23,7 @@ from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.one_table import insist_on_columns, only_table
 from viscofric.readers.source import Source, checked_sheet, unit_conversion
-from viscofric.readers.table import Table
-from viscofric.readers.tables import name_columns
+from viscofric.readers.table import Table, name_columns
 from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.shifts.shift_factors import ShiftFactors

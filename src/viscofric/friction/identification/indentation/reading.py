@@ -19,8 +19,7 @@ from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.dma.ramps import WIDEST_TEMPERATURE
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.one_table import HISTORY, history_columns, insist_on_columns, table_of
-from viscofric.readers.table import Table
-from viscofric.readers.tables import name_columns
+from viscofric.readers.table import Table, name_columns
 from viscofric.units import Quantity, positive, shown_celsius, to_si
 
 #: Quantity -> unit, and names of its column.

@@ -29,7 +29,7 @@ from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_fil
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, Source, to_rad_per_second, unit_conversion
 from viscofric.readers.table import MISSING, Table, or_name_it
-from viscofric.readers.tables import converted, find_tables, holds_table, name_columns
+from viscofric.readers.tables import converted, find_tables, holds_table
 
 #: Of text tables: commas, semicolons, tabs or blanks between columns.
 NAME = "delimited text"
@@ -81,8 +81,7 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     if missing and "temperature" not in places and not master_curve:
         missing.insert(0, "temperature")
     if missing:
-        problem = f"no column for {' or '.join(missing)}; {names.DMA.example}, this one has {table.headings()}"
-        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, missing), missing)
+        raise table.lacking(missing)
     return places
 
 
