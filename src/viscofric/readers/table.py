@@ -329,7 +329,8 @@ def make_table(
             if len(cells) > len(columns) and all(cell.strip().lstrip("+-").isdecimal() for cell in cells):
                 problem += " If decimals have commas, separate columns by semicolons or tabs."
             elif len(cells) == 1 and cells[0][:1].isalpha():
-                problem += f" Begin {cells[0][:80]!r} with '#' if it is a remark, and give each specimen its own file."
+                words = repr(cells[0][:80])
+                problem += f" Write what {words} states into a column, or begin it with '#' if it is a remark."
             raise DataFileError(path, problem, number, code="row-length")
         if places and not any(cells[place].strip() for place in places):
             empty += 1
