@@ -169,3 +169,14 @@ def test_a_real_master_curve(real_data):
     assert curve.angular_frequency[0] == pytest.approx(2 * math.pi * 1e-12)
     assert curve.storage_modulus[0] == pytest.approx(88.79651575665739e6)
     assert curve.loss_modulus[0] == pytest.approx(10.502460140936773e6)
+
+
+def test_specimens_of_one_table_are_not_one_master_curve(tmp_path):
+    rows = ["A;1;5;0.5", "A;10;6;0.6", "B;3;9;0.9"]
+    with refused("several-specimens", 4, "'A' and 'B'"):
+        read_master_curve(write(tmp_path, "specimen;f (Hz);E' (MPa);E'' (MPa)", *rows), 300.0)
+
+
+def test_millipascals_of_a_master_curve_are_asked_for(tmp_path):
+    with refused("wrong-unit", None, "'mPa'"):  # a master curve has no notes
+        read_master_curve(write(tmp_path, "f (Hz);E' (mPa);E'' (mPa)", "1;5;0.5", "10;6;0.6"), 300.0)

@@ -236,3 +236,9 @@ def test_slip_of_surfaces_that_move_in_opposite_directions_is_noted(tmp_path, un
     heading = f"temperature (degC),rolling speed (mm/s),SRR ({unit}),load (N),mu"
     runs = read_mtm(write(tmp_path, heading, "25,100,20,20,0.05", "25,100,-20,20,0.03"))
     assert ("opposite-speeds" in codes(runs.notes)) == doubtful
+
+
+def test_specimens_of_one_table_are_not_one_run(tmp_path):
+    with refused("several-specimens", 3, "'NR' and 'SBR'"):
+        read_mtm(write(tmp_path, f"{HEADER},compound", f"{ROW},NR", f"{ROW},SBR"))
+    assert len(read_mtm(write(tmp_path, f"{HEADER},compound", f"{ROW},NR", f"{ROW},NR")).load) == 2

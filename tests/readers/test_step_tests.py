@@ -222,3 +222,15 @@ def test_a_creep_export_of_trios_rings(real_data):
     assert 0.5 < first.time[0] < 2.0  # s; it rings with 30 Hz at first
     assert first.response[0] == pytest.approx(1.48e-4, rel=0.02)  # 1/Pa
     assert np.all(np.diff(np.log(first.response)) > -0.01)
+
+
+def test_specimens_of_one_temperature_are_not_one_test(tmp_path):
+    rows = [f"25;{time};{0.1 * time**0.2}" for time in (1.0, 10.0, 100.0, 1000.0)]
+    heading = "T (°C);t (s);J(t) (1/MPa)"
+    below = ["Sample A", heading, *rows, "Sample B", heading, *rows]
+    beside = [f"sample;{heading}", *(f"{one};{row}" for one in "AB" for row in rows)]
+    for lines in (below, beside):
+        path = tmp_path / "creep.csv"
+        path.write_text("\n".join(lines), encoding="utf-8")
+        with refused("several-specimens", DataFileError):
+            vf.read_step_tests(path, deformation="shear")

@@ -49,7 +49,7 @@ NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 #: "1,234.5", "1.234.567": with marks between thousands.
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,]\d{3})+(?:[.,]\d+)?")
 #: Written for MPa; moduli and stresses of solids are not measured in millipascals.
-_MILLIPASCAL = "mPa"
+MILLIPASCAL = "mPa"
 #: Units of a ratio -> factor.
 _FRACTIONS = {"": 1.0, "1": 1.0, "-": 1.0, "–": 1.0, "N/N": 1.0, "%": 0.01}
 #: Labels of rows that summarise others: a mean, or how far the others scatter.
@@ -187,7 +187,7 @@ class Table:
             right = f"{column.heading} {example}" if CONSTANT.fullmatch(column.heading) else right
             problem = f"column {column.heading!r} has no unit; write it as {right!r}"
             raise self.refused("no-unit", problem, (hint or Remedy("")) + ".")
-        printed = column.unit.replace(_MILLIPASCAL, "MPa") if unit in ("Pa", "1/Pa") else column.unit
+        printed = column.unit.replace(MILLIPASCAL, "MPa") if unit in ("Pa", "1/Pa") else column.unit
         try:
             return unit_conversion(printed, unit, column.heading)
         except InputError:
@@ -239,7 +239,7 @@ class Table:
         masses = [repr(one.heading) for one in self.columns if one.quantity and one.unit in MASSES]
         above = [repr(column.heading) for column in self.columns if column.above]
         spread = [repr(column.heading) for column in self.columns if column.spread]
-        milli = [repr(column.heading) for column in self.columns if column.quantity and _MILLIPASCAL in column.unit]
+        milli = [repr(column.heading) for column in self.columns if column.quantity and MILLIPASCAL in column.unit]
         headings = {column.heading for column in self.columns}
         said: list[tuple[str, object, str]] = [
             ("decadic-logarithms", decadic, f"Read as decadic logarithms: {' and '.join(decadic)}."),

@@ -12,13 +12,13 @@ from viscofric.arrays import Array, Integers
 from viscofric.data import DEFORMATIONS, Deformation, MasterCurve
 from viscofric.errors import DataFileError, check_choice
 from viscofric.files import read_bytes
-from viscofric.readers.dma.names import DMA, decided, temperatures_above
+from viscofric.readers.dma.names import DMA, decided, insist_on_one_specimen, temperatures_above
 from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import dma_table, reptate, workbook
 from viscofric.readers.one_table import only_table
 from viscofric.readers.source import Source, checked_sheet, unit_conversion
-from viscofric.readers.table import Table
+from viscofric.readers.table import MILLIPASCAL, Table
 from viscofric.units import Quantity, checked_poisson_ratio, conversion, positive, shown_celsius
 
 #: Reference temperatures are printed with few digits.
@@ -125,6 +125,7 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
     if table.block is not None and any(cell.strip() for title in table.titles[1:] for line in title for cell in line):
         problem = "holds several tables below each other; give each a file of its own."
         raise DataFileError(table.path, problem, code="several-tables")
+    insist_on_one_specimen(table, np.zeros((len(table.rows), 1)), "reference temperature")
     places = dma_table.find_columns(table, master_curve=True)
     doubts: list[str] = []
     frequency = dma_table.angular_frequency(table, places, doubts)
@@ -132,6 +133,9 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
         if column.assumed_decadic:
             problem = f"column {column.heading!r} may be decadic or natural logarithms; write 'log10' or 'ln' there."
             raise table.refused("logarithm-unknown", problem)
+        if MILLIPASCAL in column.unit:
+            problem = f"column {column.heading!r} has the unit {column.unit!r}, millipascal; write MPa if it is meant."
+            raise table.refused("wrong-unit", problem)
     if doubts:  # a master curve carries no notes
         heading = table.columns[places["frequency"]].heading
         raise table.refused("no-unit", f"column {heading!r} has no unit; it must be 'rad/s' or 'Hz'.")

@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.dma.names import DMA, TEMPERATURE
+from viscofric.readers.dma.names import DMA, TEMPERATURE, insist_on_one_specimen
 from viscofric.readers.headings import Column, Vocabulary
 from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.one_table import only_table
@@ -96,6 +96,8 @@ def read(source: Source) -> TractionReadings:
     load, temperature = (_values(table, *what) for what in (("load", "N", "zero"), ("temperature", "K", _COLDEST)))
     notes: list[Note] = [*table.heading_notes]
     disc, ball, of_speeds = speeds(table, notes)
+    at: Array = np.stack([disc, ball, load, temperature], axis=1)
+    insist_on_one_specimen(table, at, "pair of speeds, load and temperature")
     traction, of_force = force(table, load, disc - ball, notes)
     notes += _unused(table, {"load", "temperature", of_force, *of_speeds, *OPTIONAL, "replicate", "step"})
     optional = {name: _optional(table, name) for name in OPTIONAL}

@@ -22,7 +22,7 @@ from viscofric.errors import DataFileError, check_choice, wrong_argument
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments import trios_text
 from viscofric.readers.dma.instruments.ta_steps import StepText
-from viscofric.readers.dma.names import decided, joined_tables, said_by_columns, tools_in
+from viscofric.readers.dma.names import decided, insist_on_one_specimen, joined_tables, said_by_columns, tools_in
 from viscofric.readers.dma.tables import reptate
 from viscofric.readers.source import Source, insist_on_content, sources_of
 from viscofric.readers.steps.columns import STEPS, kind_in_name, kind_of, response_of, temperature_of, time_of
@@ -218,6 +218,7 @@ def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: 
     symbol = plain.rpartition(" ")[2]  # of "relaxation modulus G(t)"
     deformation, said_by = said_by_columns([plain, symbol], [table.filled], tools_in(table.above))
     kelvin = temperature_of(table, source, name, notes)
+    insist_on_one_specimen(table, np.round(kelvin)[:, None], "temperature")
     return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit, said_by)
 
 
