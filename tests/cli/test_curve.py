@@ -131,8 +131,9 @@ def test_sweeps_whose_moduli_contradict_each_other_are_doubted_before_friction(t
 def test_curves_go_into_a_pipe_without_the_table() -> None:
     done = succeed(*SINGLE, "--ball", "10 mm", "--load", "1 N", "--speed", "1 m/s", "--accuracy", "0.1", "--out", "-")
     assert done.stdout.startswith("# viscofric friction curves")
-    assert [line[:1] for line in done.stdout.splitlines()] == ["#", "#", "#", "s", "1"]
-    assert '"frequencies-unknown"' in done.stdout.splitlines()[2]
+    assert [line[:1] for line in done.stdout.splitlines()] == ["#", "#", "#", "#", "s", "1"]
+    noted = done.stdout.splitlines()[2:4]
+    assert ['"temperature-assumed"' in noted[0], '"frequencies-unknown"' in noted[1]] == [True, True]
 
 
 @pytest.mark.parametrize(

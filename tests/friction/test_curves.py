@@ -294,5 +294,19 @@ def test_temperature_left_out_is_the_reference_of_the_material() -> None:
     assert found.temperature == pytest.approx(FLUOROELASTOMER.reference)
     one = vf.solve_steady(FLUOROELASTOMER, CYLINDER, speed="1 m/s", load=500.0, accuracy=1e-2)
     assert found.friction_coefficient[1] == pytest.approx(one.friction_coefficient, rel=1e-2)
+
+
+@pytest.mark.parametrize(("given", "kelvin"), [(None, 293.15), ("40 degC", 313.15)])
+def test_material_without_shift_factors_has_one_temperature_which_is_noted(given: str | None, kelvin: float) -> None:
+    alone, body = vf.Material(FLUOROELASTOMER.spectrum), vf.ThermalProperties(0.3, 1200.0, 1700.0, "rubber")
+    found = vf.predict_friction(alone, CYLINDER, **CASE, temperatures=given, loads=[500.0, 600.0])
+    known = vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, loads=[500.0, 600.0])  # at its reference
+    np.testing.assert_array_equal(found.viscoelastic, known.viscoelastic)
+    np.testing.assert_allclose(found.temperature, kelvin)
+    (note,) = (one for one in found.notes if one.code == "temperature-assumed")
+    assert note.values == {"temperature": pytest.approx(kelvin)}
+    assert not codes(known.notes) & {"temperature-assumed"}
     with refused("no-shift"):
-        vf.predict_friction(vf.Material(FLUOROELASTOMER.spectrum), CYLINDER, **CASE, load=500.0)
+        vf.predict_friction(alone, CYLINDER, **CASE, temperatures=["30 degC", "60 degC"], load=500.0)
+    with refused("no-shift"):
+        vf.predict_friction(alone, CYLINDER, **CASE, load=500.0, heating=vf.Heating(rubber=body, counterface=body))

@@ -35,10 +35,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from viscofric.friction.curves import FrictionCurves
-    from viscofric.rheology.material import Material
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
-_ROOM = "20 degC"
 _EXAMPLE = """\b
 Example:
   viscofric curve --material "synthetic fluoroelastomer" --ball "9.525 mm" --load "25 N" \\
@@ -85,16 +83,15 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
 
     velocities = chosen_speeds(parameters)
     rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
-    kelvins = _kelvins(rubber.material, chosen_temperatures(parameters))
     settings = contact_settings(parameters) | {"layer": chosen_layer(parameters)}
     samples = _samples(rubber, parameters["samples"])
     name = in_contact(shape.words, rubber, settings["layer"])
     with contact_bar("Contacts", quiet=as_json) as bar:
         curves = predict_friction(
-            _at_one_temperature(rubber.material, kelvins),
+            rubber.material,
             shape.indenter,
             speeds=velocities,
-            temperatures=kelvins,
+            temperatures=chosen_temperatures(parameters) or None,
             load=parameters["load"],
             samples=samples,
             workers=parameters["workers"],
@@ -111,28 +108,6 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
         ("picture", picture, drawing(_figure_of(curves), curves, mark=made_up)),
     )
     exit_if_beyond(parameters["accuracy"], curves.viscoelastic, curves.viscoelastic_error)
-
-
-def _kelvins(material: Material, given: list[float]) -> list[float]:
-    """Return the requested temperatures, K; of a rubber at one temperature only, the one it is said to have."""
-    from viscofric.units import positive
-
-    if material.reference is None:
-        if len(given) > 1:
-            raise click.UsageError(
-                "this rubber has no shift factors and is valid at one temperature only; give one --temperature."
-            )
-        return given or [positive(_ROOM, "K", "--temperature")]
-    return given or [material.reference]
-
-
-def _at_one_temperature(material: Material, kelvins: list[float]) -> Material:
-    """Return a rubber without shift factors with any law about its own temperature, where no other is requested."""
-    if material.shift is not None:
-        return material
-    from viscofric.rheology.shifts.laws import Arrhenius
-
-    return replace(material, shift=Arrhenius(activation_energy=1.0, reference=kelvins[0]))
 
 
 def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:

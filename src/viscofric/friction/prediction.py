@@ -25,13 +25,15 @@ from viscofric.friction.heating import predict_heated
 from viscofric.friction.planning.shared import SharedContacts, places_of
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.heat.heating import Heating
+from viscofric.notes import Note, Remedy, without
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material, insist_on_material
+from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.units import Quantities, Quantity, number, positive, shown_number, to_si_array
+from viscofric.units import Quantities, Quantity, number, positive, shown_celsius, shown_number, to_si_array
 
 
 def predict_friction(
@@ -60,7 +62,7 @@ def predict_friction(
     Parameters
     ----------
     material : Material
-        With a shift law.
+        Without a shift it has one temperature, the one given or 20 °C, as the note ``temperature-assumed`` says.
     indenter : Indenter
         Ball, Ellipsoid, Cone, HeightMap, Cylinder or Profile.
     speeds : float, str, pint.Quantity, or an array or list of them
@@ -167,6 +169,10 @@ def predict_friction(
             raise InputError("heating: not with samples; leave out one.", code="not-with-heating")
         check_interface_heat(heating, interface, slip)
     drawn = None if samples is None else DrawnMaterials(samples, material)
+    assumed: tuple[Note, ...] = ()
+    if material.shift is None:
+        assumed = _assumed(kelvins, heated=heating is not None)
+        material = replace(material, shift=Arrhenius(1.0, kelvins[0]))  # any law, of which no other value is used
     contacts = [
         {
             "material": material,
@@ -195,22 +201,33 @@ def predict_friction(
     if interface is not None:
         curves = with_interface(curves, interface, slip, rise=rise)
     warmer = getattr(curves, "temperature_rise", None)
-    notes = curves.notes
+    notes = (*assumed, *curves.notes)
     if curves.coulomb is not None:
         solved = checked_coulomb(settings.get("coulomb", 0.0))
         notes += shear_notes(curves, curves.coulomb, [(material, layer)] * len(curves), warmer, solved)
     return replace(curves, notes=notes)
 
 
+#: Of a material without shift factors, where no temperature is given.
+_ROOM = 293.15  # K
+
+
 def _reference(material: Material) -> float:
-    """Return the temperature at which a material is known, K."""
-    if material.reference is None:
+    """Return the temperature at which a material is known, or is taken to be; K."""
+    return _ROOM if material.reference is None else material.reference
+
+
+def _assumed(kelvins: Array, *, heated: bool) -> tuple[Note, ...]:
+    """Return the note on the one temperature of a material without shift factors; raise where it needs others."""
+    if heated or len(kelvins) > 1:
         raise InputError(
-            "temperatures: this material has no shift, so that the temperature of its curves is unknown; give "
-            "Material(spectrum, shift=WLF(…)), or solve single contacts with solve_steady().",
+            ("heating: " if heated else "temperatures: ") + "the material has no shift factors, so that its modulus is "
+            "known at one temperature only; ",
             code="no-shift",
+            remedy=without("heating") if heated else Remedy("give one of them.", "give one --temperature."),
         )
-    return material.reference
+    said = f"The material has no shift factors: its modulus is taken to be that at {shown_celsius(kelvins[0])} °C."
+    return (Note("temperature-assumed", said, values={"temperature": float(kelvins[0])}),)
 
 
 def _part_of(progress: Callable[[int, int], object], place: int, count: int, done: int, total: int) -> None:
