@@ -92,6 +92,38 @@ def test_a_material_is_fitted_to_step_tests(tmp_path, monkeypatch, kind):
     )
 
 
+@pytest.mark.parametrize("kind", ["creep", "relaxation"])
+def test_a_test_at_one_temperature_is_its_own_master_curve(tmp_path, kind):
+    chosen = {kind: str(written(tmp_path, kind, (10.0,))), "deformation": "tension", "reference_temperature": "10 degC"}
+    made = make_rubber(validated(MaterialTable, chosen))
+    groups = rubber_groups(made)
+    assert {"/step_tests", "/step_master_curve"} <= set(groups)
+    assert "/superposition" not in groups
+    assert made.material.shift is None
+    inside = np.geomspace(5e-3, 0.3, 5)
+    planted = vf.synthetic_fluoroelastomer().complex_modulus(inside, "10 degC")
+    # data of eight digits, and what a lattice of modes leaves
+    np.testing.assert_allclose(abs(made.material.complex_modulus(inside)), abs(planted), rtol=0.03)
+    factors = vf.ShiftFactors(["0 degC", "10 degC", "20 degC"], [1.0, 0.0, -0.9], "10 degC")
+    factors.save(tmp_path / "factors.csv")
+    shifted = make_rubber(validated(MaterialTable, chosen | {"shift_factors": str(tmp_path / "factors.csv")}))
+    assert shifted.material.shift.log10("20 degC") == pytest.approx(-0.9)
+
+
+@pytest.mark.parametrize(
+    ("more", "code"),
+    [
+        ({"reference_temperature": "20 degC"}, "reference-outside"),
+        ({"shift": "wlf"}, "contradiction"),
+        ({"vertical_shift": "density"}, "contradiction"),
+    ],
+)
+def test_what_a_test_at_one_temperature_cannot_have_is_refused(tmp_path, more, code):
+    chosen = {"creep": str(written(tmp_path, celsius=(10.0,))), "deformation": "tension"}
+    with refused(code):
+        make_rubber(validated(MaterialTable, chosen | {"reference_temperature": "10 degC"} | more))
+
+
 @pytest.mark.parametrize(
     "more",
     [

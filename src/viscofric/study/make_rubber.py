@@ -8,6 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
+import numpy as np
+
 from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
 from viscofric.files import says_synthetic
@@ -25,17 +27,20 @@ from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_files import read_shift_factors
+from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import fit_retardation_spectrum
 from viscofric.rheology.superposition.joint import JointSuperposition
-from viscofric.rheology.superposition.result import StepSuperposition, Superposition
+from viscofric.rheology.superposition.result import PER_DECADE, StepSuperposition, Superposition, flowing
 from viscofric.rheology.superposition.superpose import superpose
 from viscofric.step_tests import StepMasterCurve, StepTests
 from viscofric.study.at_strain import at_strain
 from viscofric.study.rubber import Rubber
 from viscofric.study.run_file.material import MaterialTable
+from viscofric.study.run_file.tables import with_options
+from viscofric.units import kelvin_hint, shown_celsius
 
 
 def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
@@ -93,6 +98,8 @@ def _material(
 def _from_step_tests(table: MaterialTable) -> Rubber:
     """Superpose creep or relaxation tests, and fit their spectrum."""
     tests = read_steps_of(table)
+    if len(tests.tests) == 1:
+        return _from_one_test(table, tests)
     with _errors_of(table.steps):
         fit = superpose(tests, _reference(table), **_alone(table))
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
@@ -104,11 +111,33 @@ def _from_step_tests(table: MaterialTable) -> Rubber:
         _material(table, spectrum, shift, fit.vertical_shift),
         step_tests=tests,
         step_fit=fit,
+        step_curve=fit.master_curve,
         laws=laws,
         shift_used=used,
         shift_origin=_origin(table),
         notes=(*fit.notes, *_undecided(laws, table.shift)),
     )
+
+
+def _from_one_test(table: MaterialTable, tests: StepTests) -> Rubber:
+    """Take a test at one temperature for the master curve there, with its shift factors if they are given."""
+    tensile = tests.in_tension(table.poisson_ratio).thinned(PER_DECADE)
+    (test,), reference = tensile.tests, _reference(table)
+    for words in table.doubts_of_curve("for a test at one temperature"):
+        raise StudyError(with_options(words, MaterialTable.model_fields).at("material"))
+    with _errors_of(table.steps):
+        if abs(reference - test.temperature) > NOMINAL:
+            raise InputError(
+                f"reference = {shown_celsius(reference)} °C is not the temperature of the only test, "
+                f"{shown_celsius(test.temperature)} °C",
+                code="reference-outside",
+                remedy=kelvin_hint(reference),
+            )
+        kelvin = np.full(len(test), test.temperature)
+        curve = StepMasterCurve(test.time, test.response, kelvin, reference, tests.kind)
+        made = _from_curve(table, curve, liquids=False)
+    flow = flowing(tensile.tests) if tests.kind == "creep" else ()
+    return replace(made, step_tests=tests, step_curve=curve, notes=(*tensile.notes, *flow, *made.notes))
 
 
 def _columns(table: MaterialTable) -> dict[str, Any]:
@@ -151,6 +180,7 @@ def _from_both(table: MaterialTable, liquids: bool) -> Rubber:
         fit=fit,
         step_tests=tests,
         step_fit=step_fit,
+        step_curve=step_fit.master_curve,
         joint=joint,
         laws=laws,
         shift_used=used,
@@ -218,16 +248,18 @@ def _from_master_curve(table: MaterialTable, path: Path, liquids: bool) -> Rubbe
     curve = read_master_curve(
         path, reference, poisson_ratio=table.poisson_ratio, modulus_unit=table.modulus_unit, **_columns(table)
     )
+    return replace(_from_curve(table, curve, liquids), master_curve=curve)
+
+
+def _from_curve(table: MaterialTable, curve: MasterCurve | StepMasterCurve, liquids: bool) -> Rubber:
     shift: ShiftLaw | None = None
+    laws, used = None, ""
     if table.shift_factors is not None:
-        factors = _given_factors(table, table.shift_factors, reference)
+        factors = _given_factors(table, table.shift_factors, curve.reference)
         shift, laws, used = _law_or_table(table.shift, factors)
-    else:
-        laws, used = None, ""
     spectrum, flowing = _spectrum(table, curve, (), liquids)
-    material = _material(table, spectrum, shift)
     notes = (*flowing, *_undecided(laws, table.shift))
-    return Rubber(material, master_curve=curve, laws=laws, shift_used=used, notes=notes)
+    return Rubber(_material(table, spectrum, shift), laws=laws, shift_used=used, notes=notes)
 
 
 def _undecided(laws: LawComparison[ParametricLaw] | None, choice: str) -> tuple[str, ...]:
@@ -238,7 +270,10 @@ def _undecided(laws: LawComparison[ParametricLaw] | None, choice: str) -> tuple[
 
 
 def _spectrum(
-    table: MaterialTable, curve: MasterCurve | JointSuperposition, verdict: tuple[str, ...], liquids: bool
+    table: MaterialTable,
+    curve: MasterCurve | StepMasterCurve | JointSuperposition,
+    verdict: tuple[str, ...],
+    liquids: bool,
 ) -> tuple[RetardationSpectrum | ModulusTable, tuple[str, ...]]:
     """Fit the spectrum, which keeps warnings about the master curve; a liquid becomes a table, or is refused."""
     try:

@@ -15,7 +15,7 @@ from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import StepSuperposition, Superposition
-from viscofric.step_tests import StepTests
+from viscofric.step_tests import StepMasterCurve, StepTests
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +30,7 @@ class Rubber:
     #: step_tests, step_fit: Creep or relaxation tests, instead of sweeps or together with them
     step_tests: StepTests | None = None
     step_fit: StepSuperposition | None = None
+    step_curve: StepMasterCurve | None = None  # their master curve, or the only one of them
     joint: JointSuperposition | None = None  # of sweeps and step tests together; `fit` and `step_fit` are its parts
     master_curve: MasterCurve | None = None  # given instead of sweeps, or made of ramps
     ramps: RampSuperposition | None = None  # of temperature ramps, given instead of sweeps

@@ -16,7 +16,7 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.superposition.joint import of_all_kinds
 from viscofric.rheology.superposition.result import PER_DECADE, StepSuperposition, Superposition
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.step_tests import StepTests
+from viscofric.step_tests import StepMasterCurve, StepTests
 from viscofric.study.rubber import Rubber
 
 
@@ -29,8 +29,8 @@ def rubber_groups(rubber: Rubber, samples: MaterialSamples | None = None) -> dic
         groups["/isotherms"] = isotherms.drop_attrs(deep=False).drop_vars("strain_amplitude", errors="ignore")
         groups["/shift_factors"] = _factors(rubber, fit, rubber.sweeps.temperatures)
         groups["/superposition"] = fit.check.to_dataset()
-    if rubber.step_fit is not None and rubber.step_tests is not None:
-        groups = _step_groups(rubber, rubber.step_tests, rubber.step_fit) | groups
+    if rubber.step_curve is not None and rubber.step_tests is not None:
+        groups = _step_groups(rubber, rubber.step_tests, rubber.step_curve) | groups
     if rubber.ramps is not None:
         groups["/ramps"] = rubber.ramps.to_dataset()
     if rubber.payne is not None:
@@ -60,14 +60,17 @@ def _fitted(rubber: Rubber) -> RetardationSpectrum | ModulusTable:
     return (rubber.linear or rubber.material).spectrum
 
 
-def _step_groups(rubber: Rubber, tests: StepTests, fit: StepSuperposition) -> dict[str, Dataset]:
-    """Return the data sets of creep or relaxation tests: tensile points, shift factors, check, master curve."""
+def _step_groups(rubber: Rubber, tests: StepTests, curve: StepMasterCurve) -> dict[str, Dataset]:
+    """Return the data sets of creep or relaxation tests: tensile points, master curve, shift factors and check."""
     used = tests.in_tension(rubber.material.poisson_ratio).thinned(PER_DECADE)
-    spectrum, curve = _fitted(rubber), fit.master_curve
+    spectrum, fit = _fitted(rubber), rubber.step_fit
+    superposed = {}
+    if fit is not None:
+        superposed["/shift_factors"] = _factors(rubber, fit, tests.temperatures)
+        superposed["/superposition"] = fit.check.to_dataset()
     return {
         "/step_tests": used.to_dataset(),
-        "/shift_factors": _factors(rubber, fit, tests.temperatures),
-        "/superposition": fit.check.to_dataset(),
+        **superposed,
         "/step_master_curve": spectrum.step_curve_dataset(curve)
         if isinstance(spectrum, RetardationSpectrum)
         else curve.to_dataset(),

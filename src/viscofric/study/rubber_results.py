@@ -82,9 +82,9 @@ def _files(rubber: Rubber, folder: Path) -> list[Path]:
     curve = rubber.master_curve if rubber.fit is None else rubber.fit.master_curve
     if curve is not None:
         written.append(write_master_curve(curve, folder / "master_curve.csv"))
-    if rubber.step_fit is not None:
+    if rubber.step_curve is not None:
         name = "master_curve.csv" if curve is None else "step_master_curve.csv"
-        written.append(write_step_master_curve(rubber.step_fit.master_curve, folder / name))
+        written.append(write_step_master_curve(rubber.step_curve, folder / name))
     if isinstance(material.spectrum, RetardationSpectrum):
         written.append(write_spectrum(material.spectrum, folder / "spectrum.csv"))
     return written

@@ -131,6 +131,7 @@ _ONE_SWEEP = " For one temperature alone, " + Remedy(
     "give it as master_curve under [material].",
     "choose “A master curve” as “Source of the material”.",
 )
+_ONE_TEST = Remedy(" For one temperature alone, make it a readers.StepMasterCurve.", "")
 #: A measurement at one temperature.
 Tested = TypeVar("Tested", Isotherm, StepTest)
 #: Neighbours whose moduli cannot be brought closer than this (decades, joint rms) are not joined.
@@ -191,7 +192,7 @@ def usable(isotherms: Sequence[Isotherm | StepTest]) -> None:
         raise SuperpositionError(
             f"{len(isotherms)} isotherm cannot be superposed; at least two are needed.",
             code="too-few-isotherms",
-            remedy=_ONE_SWEEP if any(isinstance(one, Isotherm) for one in isotherms) else None,
+            remedy=_ONE_SWEEP if any(isinstance(one, Isotherm) for one in isotherms) else _ONE_TEST,
         )
     for isotherm in isotherms:
         if len(isotherm) < 2:

@@ -39,8 +39,8 @@ _OF_ANY = (*SOURCES, "name", "reference_temperature", "amplitude_sweep", "strain
 _OF_TWO_MODULI = ("shift_by", "shift_weights")
 #: … those for one kind of tests, not for sweeps and step tests together …
 _OF_ONE_KIND = ("temperature", "modulus_unit", "columns", "sheet", "shift_factors", "fixed_shift_factors")
-#: … and those invalid for a master curve.
-_OF_SWEEPS = ("temperature", "vertical_shift", "shift_by", "shift_weights", "fixed_shift_factors")
+#: … and those invalid for a master curve, and for temperature ramps.
+_TO_SHIFT = ("vertical_shift", "shift_by", "shift_weights", "fixed_shift_factors")
 
 
 def _by_kelvin(value: object) -> object:
@@ -185,9 +185,7 @@ class MaterialTable(Table):
         if given == ["ramps"]:
             yield from self._doubts_of_ramps()
         if given == ["master_curve"]:
-            yield from self._useless(_OF_SWEEPS, "for a master curve, only for sweeps (dma)")
-            if self.shift != "measured" and self.shift_factors is None:
-                yield "a law for shift needs the shift factors of the master curve; give them as shift_factors"
+            yield from self.doubts_of_curve("for a master curve, only for sweeps (dma)", "temperature")
         yield from self._doubts_of_shifts()
         if self.modes is not None and self.spectrum != "sparse":
             yield 'modes needs spectrum = "sparse"'
@@ -197,8 +195,14 @@ class MaterialTable(Table):
         if found := [name for name in names if name in self.model_fields_set]:
             yield f"{' and '.join(found)} cannot be chosen {where}"
 
+    def doubts_of_curve(self, where: str, *others: str) -> Iterator[str]:
+        """Yield the contradictions to one curve, whose parts are not shifted; `others` are keys invalid for it too."""
+        yield from self._useless((*others, *_TO_SHIFT), where)
+        if self.shift != "measured" and self.shift_factors is None:
+            yield "a law for shift needs the shift factors of the master curve; give them as shift_factors"
+
     def _doubts_of_ramps(self) -> Iterator[str]:
-        names = [name for name in (*_OF_SWEEPS, "shift_factors") if name != "vertical_shift"]
+        names = ["temperature", *(name for name in _TO_SHIFT if name != "vertical_shift"), "shift_factors"]
         yield from self._useless(names, "for temperature ramps")
         if self.vertical_shift == "free":
             yield 'vertical_shift = "free" cannot be found from temperature ramps; choose "density" or "none"'

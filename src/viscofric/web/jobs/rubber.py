@@ -38,7 +38,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         why = (
             ""
             if rubber.superposed is not None
-            else "only a material fitted to sweeps or step tests has a known uncertainty"
+            else "only a material fitted to sweeps or step tests at several temperatures has a known uncertainty"
         )
         return reply | {"band": None, "no_band": why}
     context.part(reply)

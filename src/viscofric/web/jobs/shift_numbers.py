@@ -70,17 +70,14 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
 
 def _steps(rubber: Rubber) -> dict[str, Any] | None:
     """Return creep or relaxation tests over reduced time with the fitted response, by temperature."""
-    fit, spectrum = rubber.step_fit, rubber.material.spectrum
-    if fit is None or not isinstance(spectrum, RetardationSpectrum):
+    curve, spectrum = rubber.step_curve, rubber.material.spectrum
+    if curve is None or not isinstance(spectrum, RetardationSpectrum):
         return None
-    curve = fit.master_curve
     fitted = spectrum.creep_compliance(curve.time) if curve.kind == "creep" else spectrum.relaxation_modulus(curve.time)
-    kelvin = fit.shift_factors.temperatures
-    place = np.abs(curve.temperature[:, None] - kelvin).argmin(axis=1)
     curves = [
-        {"temperature": float(one), "time": curve.time[rows], "response": curve.response[rows]}
-        for at, one in enumerate(kelvin)
-        if (rows := place == at).any()
+        {"temperature": kelvin, "time": curve.time[rows], "response": curve.response[rows]}
+        for kelvin in np.unique(curve.temperature).tolist()
+        for rows in [curve.temperature == kelvin]
     ]
     return {"kind": curve.kind, "curves": curves, "fit": {"time": curve.time, "response": fitted}}
 
