@@ -68,7 +68,11 @@ def test_the_planted_modulus_comes_back_where_it_is_identified(found: tuple[Path
     assert points["residual"][0] * left[0] > 0.0
     assert len(reported["samples"]) == 20
     assert {len(sample["C"]) for sample in reported["samples"]} == {len(reported["material"]["tau"])}
-    assert reported["inputs"]["anchor_modulus"] == "2.287 MPa"
+    anchor = {"modulus": 2.287e6, "angular_frequency": 60.0, "temperature": 300.0, "part": "magnitude", "error": 0.01}
+    assert reported["inputs"]["anchor"] == anchor
+    assert {name: reported["units"].get(name) for name in anchor} == {
+        "modulus": "Pa", "angular_frequency": "rad/s", "temperature": "K", "part": None, "error": None
+    }  # fmt: skip
     assert not {"ball", "cone", "leave_out_outliers", "zero_error"} & set(reported["inputs"])
 
 

@@ -39,6 +39,8 @@ def test_starter_files_and_their_data_are_right(tmp_path: Path, template: str) -
     assert found["cases"] == cases
     assert (found["surface"] is not None) == ("[surface]" in template_text(template))
     assert (found["measured_points"] is not None) == ("[measurement]" in template_text(template))
+    checked = {check["name"] for one in found["materials"] for check in one["checks"]}
+    assert ("Superposition" in checked) == ("dma.csv" in template_text(template))
     # Only what the run file names is written beside it.
     data = {path.name for path in tmp_path.iterdir()} - {"study.toml"}
     assert data == {name for name in ("dma.csv", "mtm.csv") if f'"{name}"' in template_text(template)}

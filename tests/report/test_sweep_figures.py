@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from viscofric.report.figures.maps import filled_in, map_figure, maximum_ridge, plot_friction_map
 from viscofric.report.figures.sweeps import plot_sweep, sweep_figure
-from viscofric.report.sweeps import layout_of
+from viscofric.report.sweeps import band_of_samples, layout_of, words_of_band
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -64,6 +64,17 @@ def test_few_samples_have_a_band_of_their_range_which_is_not_called_95_percent(m
     at_first = np.unique(corners[np.isclose(corners[:, 0], 1.0), 1])
     best = friction["friction_coefficient"].values[0, 0]
     np.testing.assert_allclose([at_first[0], at_first[-1]], best * np.array([1.0, 1.04]), rtol=1e-9)  # 1 % a sample
+
+
+@pytest.mark.parametrize(("failed", "words"), [((), "95 %"), ((7,), "95 % (range where"), (range(7, 28), "range")])
+def test_bands_are_called_what_they_hold_of_the_solved_samples(make_sweep: Make, failed: Any, words: str) -> None:
+    """Of 21 samples none, one at the first speed, or three at all speeds are not solved; 20 are few."""
+    friction = make_sweep({"sample": list(range(21)), "speed": SPEEDS}, tuple(failed))
+    assert words_of_band(friction, "friction_coefficient").startswith(words)
+    members = friction["friction_coefficient"].values
+    low, high = band_of_samples(members)
+    few = np.isfinite(members).sum(axis=0) <= 20
+    np.testing.assert_array_equal((low == np.nanmin(members, axis=0)) & (high == np.nanmax(members, axis=0)), few)
 
 
 @pytest.mark.parametrize("axis", [{"sample": [0, 1, 2]}, {"seed": [1, 2, 3]}])

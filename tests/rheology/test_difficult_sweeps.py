@@ -82,6 +82,7 @@ def test_frequencies_between_isotherms_far_apart_were_not_measured():
 
     fit, spectrum, material = joined(30.0, 90.0)
     ((first, last),) = spectrum.fit.gaps
+    np.testing.assert_array_equal(spectrum.fit.to_dataset()["gaps"], [[first, last]])
     omega = fit.master_curve.angular_frequency
     assert not np.any((omega > first) & (omega < last))
     inside, beside = np.sqrt(first * last), (first, last)

@@ -56,6 +56,24 @@ def test_without_a_strain_the_material_is_as_it_was(sweep: str) -> None:
     assert "no-strain" in codes(made.notes)
 
 
+def test_keys_state_what_the_file_of_an_amplitude_sweep_leaves_open(tmp_path: Path) -> None:
+    bare, known = tmp_path / "bare.csv", np.geomspace(5e-4, 0.5, 25)
+    moduli = LAW.complex_modulus(known)
+    rows = [f"{10.0},{a},{E.real},{E.imag}" for a, E in zip(known, moduli, strict=True)]
+    bare.write_text("\n".join(["frequency (Hz),column four (1),storage modulus,loss modulus", *rows]), encoding="utf-8")
+    keys = {"deformation": "tension", "modulus_unit": "Pa", "temperature": "60 degC"}
+    keys |= {"columns": {"strain_amplitude": "column four (1)"}}
+    chosen = CATALOGUE | {"amplitude_sweep": str(bare)}
+    sweep = make_rubber(validated(MaterialTable, chosen | keys)).payne.sweep
+    assert (sweep.deformation, sweep.temperature) == ("tension", pytest.approx(333.15))
+    np.testing.assert_allclose(sweep.storage_modulus, moduli.real)
+    for name, code in zip(keys, ("no-deformation", "no-unit", "no-temperature", "missing-columns"), strict=True):
+        with refused(code, vf.DataFileError):
+            make_rubber(validated(MaterialTable, chosen | {key: one for key, one in keys.items() if key != name}))
+    with refused("contradiction", vf.StudyError):  # without an amplitude sweep, nothing is left open
+        validated(MaterialTable, CATALOGUE | keys)
+
+
 def test_a_strain_needs_an_amplitude_sweep() -> None:
     with refused("contradiction", vf.StudyError):
         validated(MaterialTable, CATALOGUE | {"strain": 0.05})

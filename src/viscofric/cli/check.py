@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.errors import print_notes
+from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.output import json_option, print_json
-from viscofric.cli.rubber_options import print_checks_of
+from viscofric.cli.rubber_options import tree_of
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def command(study: Path | None, results: Path | None, as_json: bool) -> None:
         click.echo(f"{word:10} {line}")
     print_notes(found.notes, "run_file")
     for rubber in found.rubbers:
-        print_checks_of(rubber)
+        print_doubtful_checks(tree_of(rubber))
 
 
 def _check_results(folder: Path, as_json: bool) -> None:
@@ -141,6 +141,7 @@ def _of_surface(source: SurfaceSource | None) -> dict[str, Any] | None:
 
 
 def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:
+    from viscofric.report.texts.checks import all_checks
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
     spectrum = rubber.material.spectrum
@@ -152,6 +153,7 @@ def _of_rubber(rubber: Rubber, name: str) -> dict[str, Any]:
         "reference_temperature": rubber.material.reference,
         "shift": rubber.shift_used or None,
         "synthetic": rubber.synthetic,
+        "checks": [check.record("run_file") for check in all_checks(tree_of(rubber))],
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -16,6 +17,7 @@ from viscofric.cli.output import (
     drawing,
     is_synthetic,
     json_option,
+    optional_si,
     out_option,
     picture_option,
     synthetic_option,
@@ -214,7 +216,7 @@ def command(
 
     def record() -> dict[str, Any]:
         inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
-        inputs |= chosen(parameters) | separation_record(parameters)
+        inputs |= _inputs(parameters, options, shape.indenter.geometry.load_unit) | separation_record(parameters)
         return identification_record(found, inputs) | listed("notes", curves.notes)
 
     answer(record, lambda: _print(found))
@@ -226,10 +228,16 @@ def command(
     )
 
 
-def chosen(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Return the parameters other than those of the indenter and the separation; those not given are None."""
-    names = (*_SETTINGS, *_SHARED, "shift", "prior", "prior_band", "prior_error")
-    return {name: parameters[name] for name in parameters if name in names or name.startswith("anchor_")}
+def _inputs(parameters: dict[str, Any], options: dict[str, Any], load_unit: str) -> dict[str, Any]:
+    """Return what was requested besides the indenter and the separation in plain types, SI; None if not given."""
+    anchor, band = options.get("anchor"), options.get("prior_band")
+    return {
+        **{name: parameters[name] for name in (*_SETTINGS, *_SHARED, "shift", "prior", "prior_error")},
+        "load": optional_si(parameters["load"], load_unit),
+        "reference": optional_si(parameters["reference"], "K"),
+        "prior_band": None if band is None else list(band),
+        "anchor": None if anchor is None else {name: one for name, one in asdict(anchor).items() if one is not None},
+    }
 
 
 def _prior(parameters: dict[str, Any]) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from viscofric.cli.output import (
     drawing,
     is_synthetic,
     json_option,
+    optional_si,
     out_option,
     picture_option,
     print_pairs,
@@ -96,7 +97,8 @@ def command(
 
     def record() -> dict[str, Any]:
         inputs = {"sources": [plainly(str(path)) for path in sources], "shift": parameters["known"]}
-        inputs |= {name: parameters[name] for name in ("reference", "law", "ball", "level_error")}
+        inputs |= {name: parameters[name] for name in ("law", "level_error")}
+        inputs |= {name: optional_si(parameters[name], unit) for name, unit in (("reference", "K"), ("ball", "m"))}
         found = shift_record(master, law, agreement, inputs | separation_record(parameters))
         return found | {"law_explanation": why or None}
 

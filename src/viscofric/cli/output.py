@@ -58,6 +58,13 @@ synthetic_option = click.option(
 )
 
 
+def optional_si(text: str | None, unit: str) -> float | None:
+    """Return a quantity as JSON holds it, in SI units; None if it was not given."""
+    from viscofric.units import to_si
+
+    return None if text is None else to_si(text, unit)
+
+
 def is_synthetic(flag: bool, files: Iterable[Path]) -> bool:
     """Whether data are synthetic, by the option or by what their files say."""
     return flag or any(map(says_synthetic, files))

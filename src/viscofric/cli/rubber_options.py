@@ -15,6 +15,8 @@ from viscofric.cli.keys import key, table_of
 from viscofric.cli.output import is_synthetic
 
 if TYPE_CHECKING:
+    from xarray import DataTree
+
     from viscofric.contact.bodies import Layer
     from viscofric.rheology.material import Material
     from viscofric.study.rubber import Rubber
@@ -176,19 +178,19 @@ def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
         raise click.UsageError("--dma needs --reference, the temperature of its master curve, such as '30 degC'.")
     made = make_rubber(table_of("material", parameters))
     print_notes(made.notes)
-    print_checks_of(made)
+    print_doubtful_checks(tree_of(made))
     first, *more = parameters["dma"]
     name = f"the rubber of {plainly(str(first.name))}" + (f" and {len(more)} more" if more else "")
     return NamedRubber(made.material, name, parameters["synthetic"] or made.synthetic, made)
 
 
-def print_checks_of(rubber: Rubber) -> None:
-    """Print every check of a material made of data that did not pass."""
+def tree_of(rubber: Rubber) -> DataTree:
+    """Return the data sets of a material made of data, which its checks are about."""
     import xarray
 
     from viscofric.study.rubber_datasets import rubber_groups
 
-    print_doubtful_checks(xarray.DataTree.from_dict(rubber_groups(rubber)))
+    return xarray.DataTree.from_dict(rubber_groups(rubber))
 
 
 def _named(name: str) -> NamedRubber:
@@ -199,7 +201,7 @@ def _named(name: str) -> NamedRubber:
         study = load_study(name)
         rubber = make_rubber(study.material)
         print_notes(rubber.notes)
-        print_checks_of(rubber)
+        print_doubtful_checks(tree_of(rubber))
         synthetic = rubber.synthetic or study.data_origin == "synthetic"
         return NamedRubber(
             rubber.material, rubber.material.name or f"the rubber of {Path(name).name}", synthetic, rubber

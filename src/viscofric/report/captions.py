@@ -143,7 +143,7 @@ def _of_sweep(tree: DataTree) -> str:
             "mean, by Student's t over the seeds"
         )
     elif "sample" in friction["friction_coefficient"].dims:
-        said += f"; bands: {words_of_band(friction.sizes['sample'])} of the uncertainty samples of the material"
+        said += f"; bands: {words_of_band(friction, 'friction_coefficient')} of the uncertainty samples of the material"
     elif "friction_lower" in friction:
         said += "; bands: 95 %, from the uncertainty of the material"
     solved = np.isfinite(friction["friction_coefficient"].values).all()
@@ -179,8 +179,9 @@ def _some(data: Dataset, name: str, each: int) -> str:
     samples = data.sizes.get("sample", 1)
     count = data[name].size // each // samples
     some = f" ({HISTORIES} of {count} cases are drawn)" if count > HISTORIES else ""
-    band = f"; bands: {words_of_band(samples)} of the uncertainty samples of the material"
-    return f"{some}{band if samples > 1 else ''}."
+    if samples == 1:
+        return f"{some}."
+    return f"{some}; bands: {words_of_band(data, name)} of the uncertainty samples of the material."
 
 
 def _of_map(tree: DataTree) -> str:

@@ -176,14 +176,19 @@ def best_estimate(dataset: Dataset) -> Dataset:
 
 
 def band_of_samples(values: Array) -> Array:
-    """Return the ends (2, …) of the central 95 % of samples along the first axis; of few samples, of all of them."""
-    low, high = (0.0, 1.0) if len(values) <= FEWEST_SAMPLES else (0.025, 0.975)
-    return np.asarray(np.nanquantile(values, [low, high], axis=0))
+    """Return the ends (2, …) of the central 95 % of solved samples along the first axis; of few, of all of them."""
+    few = np.isfinite(values).sum(axis=0) <= FEWEST_SAMPLES
+    lowest, low, high, highest = np.nanquantile(values, [0.0, 0.025, 0.975, 1.0], axis=0)
+    return np.stack([np.where(few, lowest, low), np.where(few, highest, high)])
 
 
-def words_of_band(samples: int) -> str:
-    """Return what `band_of_samples` of so many samples holds."""
-    return "range" if samples <= FEWEST_SAMPLES else "95 %"
+def words_of_band(data: Dataset, name: str) -> str:
+    """Return what `band_of_samples` of a variable holds."""
+    solved = np.isfinite(data[name].transpose(SAMPLE, ...).values).sum(axis=0)
+    few = solved[solved > 0] <= FEWEST_SAMPLES
+    if few.all():
+        return "range"
+    return f"95 % (range where {FEWEST_SAMPLES} or fewer were solved)" if few.any() else "95 %"
 
 
 def solved_cases(tree: DataTree, name: str = "prediction") -> Dataset | None:

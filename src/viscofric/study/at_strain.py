@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
+from typing import Any
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
@@ -13,19 +13,28 @@ from viscofric.rheology.payne.kraus_fit import PayneFit, fit_kraus
 from viscofric.study.rubber import Rubber
 from viscofric.study.run_file.material import MaterialTable
 
+#: What a file of an amplitude sweep may leave open -> the keys of [material] that state it then.
+_STATED = {
+    "no-deformation": ("deformation",),
+    "no-unit": ("modulus_unit",),
+    "no-temperature": ("temperature",),
+    "missing-columns": ("columns", "sheet"),
+}
+
 
 def payne_of(table: MaterialTable) -> PayneFit | None:
-    """Return Kraus's law of the amplitude sweep of [material], whose deformation counts where the file states none."""
+    """Return Kraus's law of the amplitude sweep of [material], whose keys count for what its file leaves open."""
     if table.amplitude_sweep is None:
         return None
-    paths: tuple[Path, ...] = table.amplitude_sweep
-    try:
-        sweep = read_amplitude_sweep(*paths)
-    except DataFileError as error:
-        if error.code != "no-deformation" or table.deformation is None:
-            raise
-        sweep = read_amplitude_sweep(*paths, deformation=table.deformation)
-    return fit_kraus(sweep)
+    given: dict[str, Any] = {}
+    while True:
+        try:
+            return fit_kraus(read_amplitude_sweep(*table.amplitude_sweep, **given))
+        except DataFileError as error:
+            keys = [key for key in _STATED.get(error.code, ()) if key not in given and getattr(table, key)]
+            if not keys:
+                raise
+            given |= {key: getattr(table, key) for key in keys}
 
 
 def at_strain(rubber: Rubber, table: MaterialTable) -> Rubber:

@@ -70,7 +70,7 @@ def command(files: tuple[Path, ...], as_json: bool, picture: Path | None, out: P
     if out is not None and chosen["material"] is None:
         raise click.UsageError("--out needs --material, and --strain or a contact.")
     reading = {name: chosen[name] for name in ("deformation", "modulus_unit", "columns", "sheet")}
-    sweep = read_kind("amplitude", files, reading | {"temperature": next(iter(chosen["temperature"]), None)})
+    sweep = read_kind("amplitude", files, reading | {"temperature": chosen["temperature"]})
     fit = fit_kraus(sweep)
     record, lines = _fitted(fit)
     notes = list(fit.notes)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import click
 import numpy as np
 
 from viscofric.notes import listed
@@ -30,6 +31,8 @@ def read_kind(kind: TestKind, files: Sequence[Path], reading: dict[str, Any]) ->
         unit = {"response_unit": chosen.pop("modulus_unit")} if "modulus_unit" in chosen else {}
         return read_step_tests(*files, kind=kind, temperature=temperature, **unit, **chosen)
     if kind == "ramps":
+        if temperature:
+            raise click.UsageError("--temperature is for tests at one temperature; ramps hold their own.")
         return read_ramps(*files, **chosen)
     if kind == "amplitude":
         return read_amplitude_sweep(*files, temperature=temperature, **chosen)

@@ -188,9 +188,8 @@ def _legend_beside(axes: Axes, friction: Dataset, layout: Layout, shown: Sequenc
         handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="95 % interval\nof the mean"))
         handles.append(Line2D([], [], color=style.GREY, label=f"{seeds} seeds", **_THIN))
     elif SAMPLE in friction[_COEFFICIENT].dims:
-        handles.append(
-            Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label=f"{words_of_band(friction.sizes[SAMPLE])} of samples")
-        )
+        band = f"{words_of_band(friction, _COEFFICIENT)} of samples"
+        handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label=band))
     elif "friction_lower" in friction and np.isfinite(friction["friction_lower"].values).any():
         handles.append(Patch(facecolor=style.GREY, alpha=2.0 * _BAND, label="95 % band"))
     if np.isfinite(numerical_error(friction)).any():

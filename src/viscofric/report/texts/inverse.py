@@ -23,6 +23,7 @@ from viscofric.showing import aligned
 from viscofric.units import shown_celsius, shown_number
 
 _SHIFT_UNITS = {
+    "ball": "m",
     "temperature": "K",
     "reference": "K",
     "log10_shift_factor": "1",
@@ -154,6 +155,7 @@ _UNITS = {
     "viscoelastic": "1",
     "residual": "1",
 }
+_UNITS_OF_ANCHORS = {"indentation": "m", "contact_area": "m**2", "half_width": "m"}
 #: The modulus is printed so many decades beyond the frequencies of the contacts, at one frequency a decade.
 _BEYOND = 1
 
@@ -212,7 +214,7 @@ def identification_record(found: IdentifiedMaterial, inputs: dict[str, Any]) -> 
             "points": {name: points[name] for name in friction},
             "samples": [_modes(one.modes_at()) for one in found.samples.materials],
             "sentences": found.sentences,
-            "units": _UNITS | {"load": found.friction.load_unit},
+            "units": _UNITS | {"load": found.friction.load_unit, "prior_band": "rad/s"} | _UNITS_OF_ANCHORS,
         },
         digits=None,
     )

@@ -198,9 +198,9 @@ class SpectrumFit(Shown):
         """Return the numbers of the fit.
 
         ``rms_log10_storage``, ``rms_log10_loss`` and ``rms_log10_step`` (decades), ``modes``, ``tau_ratio``,
-        ``regularisation`` and ``measured_storage`` (Pa), where they are known; ``frequency_range`` (rad/s); the
-        attributes ``method``, ``E0_extrapolated``, ``E_inf_extrapolated``, ``E0_remark``, ``E_inf_remark``,
-        ``E_inf_at_limit`` and ``statements`` (JSON).
+        ``regularisation`` and ``measured_storage`` (Pa), where they are known; ``frequency_range`` and, along ``gap``
+        and ``end``, ``gaps`` in it (rad/s); the attributes ``method``, ``E0_extrapolated``, ``E_inf_extrapolated``,
+        ``E0_remark``, ``E_inf_remark``, ``E_inf_at_limit`` and ``statements`` (JSON).
         """
         known: dict[str, tuple[Any, str, str]] = {
             "rms_log10_storage": (self.rms_storage, "1", "rms misfit of log10 of the storage modulus"),
@@ -216,11 +216,15 @@ class SpectrumFit(Shown):
             "E0_extrapolated": int(self.E0_extrapolated),
             "E_inf_extrapolated": int(self.E_inf_extrapolated),
         }
-        return dataset(
+        found = dataset(
             "end",
             {name: entry for name, entry in known.items() if entry[0] is not None},
             attributes={"method": self.method, **extrapolated, **self.attributes},
         )
+        if self.gaps:
+            about = {"units": "rad/s", "long_name": "lowest and highest angular frequency of gaps in the measured ones"}
+            found["gaps"] = (("gap", "end"), np.array(self.gaps), about)
+        return found
 
     @property
     def _beyond(self) -> str:

@@ -35,6 +35,8 @@ SEVERAL = (["dma", "creep"], ["dma", "relaxation"])
 RAMP_LAWS = ("wlf", "arrhenius", "vft", "wlf+arrhenius")
 #: Keys that a predefined material has too; the others are for the conversion of sweeps.
 _OF_ANY = (*SOURCES, "name", "reference_temperature", "amplitude_sweep", "strain", "measured_at")
+#: Keys for what files do not state, also those of an amplitude sweep.
+_OF_READING = ("deformation", "temperature", "modulus_unit", "columns", "sheet")
 #: Keys that are invalid for step tests, which have one curve for each temperature …
 _OF_TWO_MODULI = ("shift_by", "shift_weights")
 #: … those for one kind of tests, not for sweeps and step tests together …
@@ -178,7 +180,8 @@ class MaterialTable(Table):
         elif len(given) > 1:
             yield f"{' and '.join(given)} are both given; give one of them"
         if given in (["file"], ["catalogue"]):
-            names = [name for name in type(self).model_fields if name not in _OF_ANY]
+            valid = _OF_ANY if self.amplitude_sweep is None else (*_OF_ANY, *_OF_READING)
+            names = [name for name in type(self).model_fields if name not in valid]
             yield from self._useless(names, f"for a predefined material ({given[0]})")
         elif given and self.reference_temperature is None:
             yield 'reference_temperature is missing; it is the temperature of the master curve, e.g. "30 degC"'
