@@ -25,7 +25,7 @@ fit = vf.superpose(sweeps, reference="30 degC")
 # As in the paper, the times are in geometric progression with ratio e. The compliances of the modes are found by
 # non-negative least squares: a negative one would return more energy than it received.
 
-spectrum = vf.fit_retardation_spectrum(fit.master_curve)
+spectrum = vf.fit_retardation_spectrum(fit)
 misfit = 10.0**spectrum.fit.rms_storage - 1.0, 10.0**spectrum.fit.rms_loss - 1.0  # given in decades
 print(f"{len(spectrum)} modes; root mean square misfit {100 * misfit[0]:.2f} % of E', {100 * misfit[1]:.2f} % of E''")
 

@@ -27,7 +27,7 @@ measured = vf.separate(vf.read_mtm(example / "mtm.csv"))
 # of the material, within the errors of the sweeps, give the 95 % band of the prediction.
 
 fit = vf.superpose(vf.read_dma(example / "dma.csv", deformation="tension"), reference="30 degC")
-spectrum = vf.fit_retardation_spectrum(fit.master_curve)
+spectrum = vf.fit_retardation_spectrum(fit)
 rubber = vf.Material(spectrum, shift=fit.shift_factors, poisson_ratio=0.5)
 
 predicted = vf.predict_friction(

@@ -22,7 +22,7 @@ from viscofric import report
 example = files("viscofric") / "example"
 measured = vf.separate(vf.read_mtm(example / "mtm.csv"))
 fit = vf.superpose(vf.read_dma(example / "dma.csv", deformation="tension"), reference="30 degC")
-rubber = vf.Material(vf.fit_retardation_spectrum(fit.master_curve), shift=fit.shift_factors, poisson_ratio=0.5)
+rubber = vf.Material(vf.fit_retardation_spectrum(fit), shift=fit.shift_factors, poisson_ratio=0.5)
 
 # %%
 # Shifted to 30 °C, friction at 90 °C is equivalent to friction at less than a micrometre per second, and friction at

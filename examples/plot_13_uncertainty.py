@@ -22,7 +22,7 @@ from viscofric import report
 sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="tension")
 few = vf.IsothermalSweeps(tuple(one for one in sweeps.isotherms if 290.0 < one.temperature < 400.0), "tension")
 fit = vf.superpose(few, reference="30 degC")
-spectrum = vf.fit_retardation_spectrum(fit.master_curve)
+spectrum = vf.fit_retardation_spectrum(fit)
 rubber = vf.Material(spectrum, shift=fit.shift_factors, poisson_ratio=0.5)
 
 # %%

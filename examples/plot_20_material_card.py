@@ -22,8 +22,8 @@ import viscofric as vf
 sweeps = vf.read_dma(files("viscofric") / "example" / "dma.csv", deformation="tension")
 fit = vf.superpose(sweeps, reference="30 degC")
 spectra = {
-    "all modes": vf.fit_retardation_spectrum(fit.master_curve),
-    "12 modes": vf.fit_retardation_spectrum(fit.master_curve, method="sparse", modes=12),
+    "all modes": vf.fit_retardation_spectrum(fit),
+    "12 modes": vf.fit_retardation_spectrum(fit, method="sparse", modes=12),
 }
 for name, spectrum in spectra.items():
     misfit = spectrum.fit

@@ -21,7 +21,7 @@ _ABOVE_THE_LEGEND = 36.0  # points
 def draw() -> bytes:
     """Go from the built-in example's sweeps to friction, and draw each step."""
     fit = viscofric.superpose(viscofric.read_dma(SOURCE / "example" / "dma.csv"), reference="30 degC")
-    spectrum = viscofric.fit_retardation_spectrum(fit.master_curve)
+    spectrum = viscofric.fit_retardation_spectrum(fit)
     rubber = viscofric.Material(spectrum, shift=fit.shift_factors)
     ball, load = viscofric.Ball(radius="9.525 mm"), "10 N"
     contact = viscofric.solve_steady(

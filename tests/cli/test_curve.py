@@ -124,7 +124,7 @@ def test_sweeps_whose_moduli_contradict_each_other_are_doubted_before_friction(t
     for name, modulus in (("right", known), ("swapped", swapped)):
         path = write_moduli(tmp_path / f"{name}.csv", modulus, (20, 30, 40), HERTZ)
         words = ("--dma", str(path), "--reference", "30 degC", *BALL, "--speed", "0.1 m/s")
-        doubted[name] = "Warning: Storage against loss modulus" in calls.succeed("curve", *words).stderr
+        doubted[name] = "Warning: E' and E'' are inconsistent" in calls.succeed("curve", *words).stderr
     assert doubted == {"right": False, "swapped": True}
 
 

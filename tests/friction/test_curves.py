@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 import viscofric as vf
 from friction.made_runs import friction_curves, traction_runs
 from refusals import refused
+from rheology.planted import write_moduli
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.friction.prediction import predict_friction
@@ -310,3 +312,21 @@ def test_material_without_shift_factors_has_one_temperature_which_is_noted(given
         vf.predict_friction(alone, CYLINDER, **CASE, temperatures=["30 degC", "60 degC"], load=500.0)
     with refused("no-shift"):
         vf.predict_friction(alone, CYLINDER, **CASE, load=500.0, heating=vf.Heating(rubber=body, counterface=body))
+
+
+def test_predictions_repeat_what_sweeps_contradict(tmp_path: Path) -> None:
+    def swapped(omega: float, kelvin: float) -> complex:
+        return 1j * complex(FLUOROELASTOMER.complex_modulus(omega, kelvin)).conjugate()
+
+    moduli = {"right": FLUOROELASTOMER.complex_modulus, "swapped": swapped}
+    found = {}
+    for name, modulus in moduli.items():
+        path = write_moduli(tmp_path / f"{name}.csv", modulus, (20, 30, 40), (0.1, 0.3, 1, 3, 10, 30, 100))
+        fit = vf.superpose(vf.read_dma(path, deformation="tension"), "30 degC")
+        material = vf.Material(vf.fit_retardation_spectrum(fit), shift=fit.shift_factors)
+        curves = vf.predict_friction(material, CYLINDER, **CASE, load=500.0)
+        alone = vf.solve_steady(material, CYLINDER, speed="1 m/s", load=500.0, accuracy=ACCURACY)
+        doubts = {"kramers-kronig-fails", "spectrum-misfit"}
+        found[name] = [codes(notes) & doubts for notes in (curves.notes, alone.warnings)]
+        assert len(curves.notes) == len(codes(curves.notes))
+    assert found == {"right": [set(), set()], "swapped": [doubts, doubts]}

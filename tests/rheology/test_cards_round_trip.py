@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from refusals import refused
 from viscofric.errors import DataFileError
-from viscofric.notes import codes, warned
+from viscofric.notes import Note, codes, warned
 from viscofric.rheology.cards import open_card, read_card, write_card
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.material import Material
@@ -201,10 +201,13 @@ def test_the_synthetic_fluoroelastomer_survives_every_program(tmp_path):
 
 def test_how_a_spectrum_was_fitted_is_kept(tmp_path):
     series = prony(5).to_retardation()
-    fit = SpectrumFit(0.01, 0.02, True, False, (1e-3, 1e5), ("E0 is extrapolated.",), gaps=((1.0, 20.0), (1e2, 2e3)))
+    notes = ("E0 is extrapolated.", Note("spectrum-misfit", "It misses.", values={"rms": 0.2}))
+    fit = SpectrumFit(0.01, 0.02, True, False, (1e-3, 1e5), notes, gaps=((1.0, 20.0), (1e2, 2e3)))
     material = Material(RetardationSpectrum(series.E0, series.E_inf, series.C, series.tau, fit), None, 0.45)
     for program in FORMATS:
-        assert read_card(write_card(material, tmp_path / "card", program, density=1e3)).spectrum.fit == fit
+        back = read_card(write_card(material, tmp_path / "card", program, density=1e3))
+        assert back.spectrum.fit == fit
+        assert [note.values for note in back.notes_at()] == [{"rms": 0.2}]  # results from it say so too
 
 
 @pytest.mark.parametrize("program", FORMATS)

@@ -165,8 +165,14 @@ def print_doubtful_checks(tree: DataTree, but: Iterable[str] = ()) -> None:
 
 
 def print_notes(notes: Iterable[str], reader: Reader = "shell", *, word: str = "Note") -> None:
-    """Print notes on the data, on standard error, in the words of a reader."""
+    """Print notes on the data, on standard error, in the words of a reader; each once, doubts as warnings."""
     from viscofric.notes import note_of
+    from viscofric.rheology.spectra.quality import DOUBTS
 
-    for note in notes:
-        click.echo(f"{word}: {plainly(note_of(note).words(reader))}", err=True)
+    ctx = click.get_current_context(silent=True)
+    said: set[str] = set() if ctx is None else ctx.meta.setdefault(__name__, set())
+    for note in map(note_of, notes):
+        if note not in said:
+            begun = "Warning" if note.code.startswith(DOUBTS) else word
+            click.echo(f"{begun}: {plainly(note.words(reader))}", err=True)
+        said.add(note)

@@ -178,10 +178,14 @@ def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
         raise click.UsageError("--dma needs --reference, the temperature of its master curve, such as '30 degC'.")
     made = make_rubber(table_of("material", parameters))
     print_notes(made.notes)
-    print_doubtful_checks(tree_of(made))
+    print_doubtful_checks(tree_of(made), but=_IN_RESULTS)
     first, *more = parameters["dma"]
     name = f"the rubber of {plainly(str(first.name))}" + (f" and {len(more)} more" if more else "")
     return NamedRubber(made.material, name, parameters["synthetic"] or made.synthetic, made)
+
+
+#: How checks of a material begin that results from it have as notes.
+_IN_RESULTS = ("Superposition", "Storage against loss", "Fit of the spectrum")
 
 
 def tree_of(rubber: Rubber) -> DataTree:
@@ -201,7 +205,7 @@ def _named(name: str) -> NamedRubber:
         study = load_study(name)
         rubber = make_rubber(study.material)
         print_notes(rubber.notes)
-        print_doubtful_checks(tree_of(rubber))
+        print_doubtful_checks(tree_of(rubber), but=_IN_RESULTS)
         synthetic = rubber.synthetic or study.data_origin == "synthetic"
         return NamedRubber(
             rubber.material, rubber.material.name or f"the rubber of {Path(name).name}", synthetic, rubber

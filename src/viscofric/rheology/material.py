@@ -260,7 +260,7 @@ class Material(Plotted):
         return self.at(temperature).complex_modulus(angular_frequency)
 
     def notes_at(self, temperature: Any = None) -> tuple[Note, ...]:
-        """Return a note where the shift law extrapolates beyond the temperatures that it was fitted to.
+        """Return notes on contacts at temperatures: what is in doubt of the measurement behind the material.
 
         Parameters
         ----------
@@ -270,8 +270,14 @@ class Material(Plotted):
         Returns
         -------
         tuple of Note
-            One at most, with the code ``extrapolated``.
+            Where the sweeps do not superpose (codes from ``superposition-``), E' and E'' contradict each other
+            (``kramers-kronig-fails``) or the spectrum does not follow them (``spectrum-misfit``), and where the shift
+            law extrapolates beyond the temperatures that it was fitted to (``extrapolated``).
         """
+        fit = getattr(self.spectrum, "fit", None)
+        return (*(() if fit is None else fit.doubts), *self._extrapolated(temperature))
+
+    def _extrapolated(self, temperature: Any) -> tuple[Note, ...]:
         if temperature is None or self.shift is None:
             return ()
         every = np.unique(in_kelvin(temperature))

@@ -104,9 +104,6 @@ def _from_step_tests(table: MaterialTable) -> Rubber:
         fit = superpose(tests, _reference(table), **_alone(table))
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
         spectrum = fit_retardation_spectrum(fit, tau_ratio=table.tau_ratio, method=table.spectrum, modes=table.modes)
-    if spectrum.fit is not None and not fit.check.holds:
-        doubts = (fit.check.sentences[0], *spectrum.fit.notes)
-        spectrum = replace(spectrum, fit=replace(spectrum.fit, notes=doubts))
     return Rubber(
         _material(table, spectrum, shift, fit.vertical_shift),
         step_tests=tests,
@@ -172,8 +169,7 @@ def _from_both(table: MaterialTable, liquids: bool) -> Rubber:
     fit, step_fit = joint.parts
     assert isinstance(fit, Superposition)
     assert isinstance(step_fit, StepSuperposition)
-    verdict = (*_verdict(fit), *(() if step_fit.check.holds else step_fit.check.sentences[:1]))
-    spectrum, flowing = _spectrum(table, joint, verdict, liquids)
+    spectrum, flowing = _spectrum(table, joint, (), liquids)
     return Rubber(
         _material(table, spectrum, shift, joint.vertical_shift),
         sweeps=sweeps,
@@ -201,7 +197,7 @@ def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
     with _errors_of(table.dma or ()):
         fit = superpose(sweeps, _reference(table), by=table.shift_by, weights=table.shift_weights, **_alone(table))
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
-    spectrum, flowing = _spectrum(table, fit.master_curve, _verdict(fit), liquids)
+    spectrum, flowing = _spectrum(table, fit, (), liquids)
     return Rubber(
         _material(table, spectrum, shift, fit.vertical_shift),
         sweeps=sweeps,
@@ -271,7 +267,7 @@ def _undecided(laws: LawComparison[ParametricLaw] | None, choice: str) -> tuple[
 
 def _spectrum(
     table: MaterialTable,
-    curve: MasterCurve | StepMasterCurve | JointSuperposition,
+    curve: MasterCurve | StepMasterCurve | Superposition | JointSuperposition,
     verdict: tuple[str, ...],
     liquids: bool,
 ) -> tuple[RetardationSpectrum | ModulusTable, tuple[str, ...]]:
@@ -281,18 +277,13 @@ def _spectrum(
     except LiquidError as error:
         if not liquids:
             raise
-        moduli = curve.parts[0].master_curve if isinstance(curve, JointSuperposition) else curve
+        first = curve.parts[0] if isinstance(curve, JointSuperposition) else curve
+        moduli = first.master_curve if isinstance(first, (Superposition, StepSuperposition)) else first
         assert not isinstance(moduli, StepMasterCurve)  # sweeps come first
         return ModulusTable.from_master_curve(moduli), (Note("liquid", f"No spectrum: {error}"),)
     if spectrum.fit is None or not verdict:
         return spectrum, ()
     return replace(spectrum, fit=replace(spectrum.fit, notes=(*verdict, *spectrum.fit.notes))), ()
-
-
-def _verdict(fit: Superposition) -> tuple[str, ...]:
-    check = fit.check
-    failed = [] if check.holds else [check.sentences[0]]
-    return tuple(failed if check.consistent else [*failed, check.sentences[-1]])
 
 
 def _alone(table: MaterialTable) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.record import Record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, note_of
-from viscofric.rheology.material import Material, unknown_frequencies
+from viscofric.rheology.material import EXTRAPOLATED, Material, unknown_frequencies
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.spectra.quality import SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -73,7 +73,8 @@ class StudyRubber:
         fit = self.spectrum_fit
         # The warnings of a predefined material are reported nowhere else.
         said = list(map(note_of, fit.notes)) if self.rubber.fit is None and fit is not None else []
-        said += self.material.notes_at(temperatures)
+        # Doubts about the measurement are checks of the results, or among the warnings above.
+        said += [note for note in self.material.notes_at(temperatures) if note.code == EXTRAPOLATED]
         if self.material.vertical_shift is not None:
             said.append(
                 Note(

@@ -21,7 +21,7 @@ from viscofric.errors import InputError, ViscofricError
 from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note, codes, counted, note_of, records
 from viscofric.rheology.material import EXTRAPOLATED, Material, unknown_frequencies
-from viscofric.rheology.spectra.quality import BEYOND, SpectrumFit
+from viscofric.rheology.spectra.quality import BEYOND, DOUBTS, SpectrumFit
 from viscofric.roughness.patches import contact_statistics
 from viscofric.units import shown_number
 
@@ -245,7 +245,7 @@ _OF_SOLUTION = ("load", "indentation", "contact_area", "front", "rear", "half_wi
 
 
 #: Codes of notes that are counted over all contacts of a curve or a study.
-_COUNTED = (BEYOND, EXTRAPOLATED)
+_COUNTED = (BEYOND, EXTRAPOLATED, *DOUBTS)
 
 
 def _common(solution: ContactSolution | PeriodicSolution, temperature: float, cells: int) -> dict[str, Any]:
@@ -259,7 +259,7 @@ def _common(solution: ContactSolution | PeriodicSolution, temperature: float, ce
         "complementarity": diagnostics.complementarity,
         "cells": cells,
         "products": diagnostics.products,
-        "warnings": tuple(note for note in map(note_of, solution.warnings) if note.code not in _COUNTED),
+        "warnings": tuple(note for note in map(note_of, solution.warnings) if not note.code.startswith(_COUNTED)),
     }
 
 
@@ -313,7 +313,9 @@ def columns_of(solutions: Iterable[ContactSolution]) -> dict[str, Any]:
         [indenter_record(solution, float(solution.temperature)) for solution in solved],
         units.pop() if units else "N",
     )
-    beyond = [[note for note in map(note_of, solution.warnings) if note.code in _COUNTED] for solution in solved]
+    beyond = [
+        [note for note in map(note_of, solution.warnings) if note.code.startswith(_COUNTED)] for solution in solved
+    ]
     unmeasured = np.array([BEYOND in codes(notes) for notes in beyond])
     if unmeasured.any():
         columns["within_measured_frequencies"] = 1.0 - unmeasured

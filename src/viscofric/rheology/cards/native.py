@@ -11,9 +11,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from viscofric import datasets
 from viscofric.errors import InputError, wrong_argument
 from viscofric.files import parse_json
-from viscofric.notes import Note, Remedy
+from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards.card import Solid, Writing, card_law
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
@@ -40,6 +41,8 @@ def _kinds() -> dict[str, type]:
 
 def plain(value: Any) -> Any:
     """Return a value in JSON's types: a dataclass as its class's name and its constructor's arguments."""
+    if isinstance(value, Note) and value.code:
+        return datasets.plain(value.record(), None)
     if value is None or isinstance(value, (bool, str, int)):
         return value
     if isinstance(value, (float, np.floating)):
@@ -82,7 +85,9 @@ def restored(value: Any, allowed: tuple[type, ...], field: str) -> Any:
 
 
 def _as_tuples(content: Any) -> Any:
-    """Return lists as tuples, also those in lists."""
+    """Return lists as tuples, also those in lists, and records of notes as notes."""
+    if isinstance(content, dict) and "code" in content:
+        return note_of(content)
     return tuple(map(_as_tuples, content)) if isinstance(content, list) else content
 
 

@@ -15,7 +15,7 @@ from viscofric.errors import LiquidError
 from viscofric.notes import Note, note_of
 from viscofric.rheology.spectra.misfit import STIFFEST, Misfit, Modes, frequencies_of, gaps_of
 from viscofric.rheology.spectra.mode_fits import nonnegative_modes
-from viscofric.rheology.spectra.quality import SpectrumFit
+from viscofric.rheology.spectra.quality import LARGEST_MISFIT, SpectrumFit
 from viscofric.rheology.spectra.response import shown_modulus
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.step_tests import StepMasterCurve
@@ -118,6 +118,11 @@ def judged(
         rms_step=first("rms_step"),
         gaps=gaps_of(curves),
     )
+    rms = max(value for value in (fit.rms_storage, fit.rms_loss, fit.rms_step) if value is not None)
+    if rms > LARGEST_MISFIT:
+        said = f"The spectrum lies {rms:.2g} decades (rms) from what was measured (good if ≤ {LARGEST_MISFIT:g})."
+        misfit = Note("spectrum-misfit", said, values={"rms": rms, "limit": LARGEST_MISFIT})
+        fit = replace(fit, notes=(misfit, *fit.notes))
     return replace(spectrum, fit=fit)
 
 

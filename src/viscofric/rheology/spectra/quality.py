@@ -22,6 +22,8 @@ _BEYOND_INDENTATION = "extrapolated: beyond the range of the indentation"
 _REACHED = "reached by the measurement"
 #: Code of the note on contacts at frequencies at which the material was not measured.
 BEYOND = "beyond-measured"
+#: How codes of notes begin that concern all results from a spectrum.
+DOUBTS = ("superposition-", "kramers-kronig-", "spectrum-misfit")
 _LITTLE = 0.01  # part of the friction that may rest on the extrapolated modulus without a note
 _ROUNDING = 1e-6  # frequencies beyond the measured ones by this part of them were measured
 #: Neighbouring frequencies this many decades apart leave a gap: across wider ones E'' of a fit with 1 % noise is off by
@@ -147,6 +149,12 @@ class SpectrumFit(Shown):
         """Return the note on results at frequencies that were not measured; `subject` begins its sentence."""
         known = "identified" if self.from_contact else "measured"
         return beyond_note(self.frequency_range, subject, known, self.gaps, **values)
+
+    @property
+    def doubts(self) -> tuple[Note, ...]:
+        """The notes that what was measured contradicts itself, or that the spectrum does not follow it."""
+        notes = [note for note in self.notes if isinstance(note, Note)]
+        return tuple(note for note in notes if note.code.startswith(DOUBTS))
 
     @property
     def from_friction(self) -> bool:

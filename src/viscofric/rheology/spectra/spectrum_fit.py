@@ -27,7 +27,7 @@ from viscofric.rheology.spectra.misfit import (
 from viscofric.rheology.spectra.mode_fits import lattice, nonnegative_modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.superposition.joint import JointSuperposition, level_note
-from viscofric.rheology.superposition.result import StepSuperposition, Superposition
+from viscofric.rheology.superposition.result import StepSuperposition, Superposed, Superposition
 from viscofric.step_tests import StepMasterCurve
 from viscofric.threads import one_blas_thread
 from viscofric.units import number, positive
@@ -59,9 +59,9 @@ def fit_retardation_spectrum(
     Parameters
     ----------
     master_curve : MasterCurve, StepMasterCurve, Superposition, StepSuperposition or JointSuperposition
-        At least four points; of a superposition its master curve is taken, of a joint one those of all kinds.  The
-        level of the first kind is kept; a kind that overlaps it by half a decade has a level of its own, which a note
-        states.
+        At least four points; of a superposition its master curve is taken, of a joint one those of all kinds, and where
+        it does not hold, the notes of the fit and of all results from the material say so.  The level of the first kind
+        is kept; a kind that overlaps it by half a decade has a level of its own, which a note states.
     tau_ratio : float
         Ratio of neighbouring retardation times, above 1; e in [1]_.  Without effect on sparse modes.
     method : {"non-negative", "regularised", "sparse"}
@@ -109,19 +109,27 @@ def fit_retardation_spectrum(
     >>> path = files("viscofric") / "example" / "dma.csv"  # synthetic
     >>> sweeps = vf.read_dma(path, deformation="tension")
     >>> fit = vf.superpose(sweeps, reference="30 degC")
-    >>> spectrum = vf.fit_retardation_spectrum(fit.master_curve)
+    >>> spectrum = vf.fit_retardation_spectrum(fit)
     >>> 20 < len(spectrum) < 40, spectrum.fit.rms_storage < 0.01  # decades
     (True, True)
     """
     asked = _Asked(method, number(tau_ratio, "tau_ratio"), modes, regularisation, largest_error)
     if isinstance(master_curve, JointSuperposition):
-        return _of_several(master_curve, asked)
+        return _with_doubts(_of_several(master_curve, asked), *master_curve.parts)
     curve = _curve_of(master_curve)
     asked.check(curve)
     fitted, strength, notes = asked.fitted(misfit_of(curve), curve)
-    return judged(
+    spectrum = judged(
         as_spectrum(fitted), curve, method=method, tau_ratio=asked.ratio, regularisation=strength, notes=notes
     )
+    return _with_doubts(spectrum, master_curve)
+
+
+def _with_doubts(spectrum: RetardationSpectrum, *tests: object) -> RetardationSpectrum:
+    """Return the spectrum with notes on superpositions behind it that do not hold, which results repeat."""
+    doubts = [note for one in tests if isinstance(one, Superposed) for note in one.check.doubts]
+    assert spectrum.fit is not None
+    return replace(spectrum, fit=replace(spectrum.fit, notes=(*doubts, *spectrum.fit.notes)))
 
 
 @dataclass(frozen=True)

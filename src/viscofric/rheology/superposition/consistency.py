@@ -15,7 +15,7 @@ from viscofric.arrays import Array
 from viscofric.data import Isotherm, MasterCurve
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
-from viscofric.notes import Note, Remedy
+from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
@@ -215,6 +215,12 @@ class Judged(Shown):
 
     verdict: Verdict
     figure_of_merit: float
+    sentences: tuple[str, ...]
+
+    @property
+    def consistent(self) -> bool:
+        """Whether the moduli belong to each other: true of one curve, which has no second one to contradict it."""
+        return True
 
     @property
     def roughly(self) -> bool:
@@ -228,6 +234,12 @@ class Judged(Shown):
         False where isotherms drift to one side, or where sweeps do not fix a step of α.
         """
         return self.verdict in ("holds", "other factors")
+
+    @property
+    def doubts(self) -> tuple[Note, ...]:
+        """Notes that superposition does not hold, or that E' and E'' do not belong to each other; none where all do."""
+        said = [*(() if self.holds else self.sentences[:1]), *(() if self.consistent else self.sentences[-1:])]
+        return tuple(map(note_of, said))
 
     def _dataset(self, temperatures: Array, sentences: Sequence[str], **more: Any) -> Dataset:
         return dataset(
@@ -338,9 +350,10 @@ def check(
     own = own_shifts(logs, shift_factors.log10_values)
     try:
         causality = kramers_kronig(master_curve)
-        causal_sentence = causality.sentence
+        causal_sentence = Note(f"kramers-kronig-{'holds' if causality.holds else 'fails'}", causality.sentence)
     except InputError as reason:
-        causality, causal_sentence = None, f"E' was not tested against E'': {reason}"
+        causality = None
+        causal_sentence = Note("kramers-kronig-untested", f"E' was not tested against E'': {reason}")
     drifting = drift(neighbours)
     verdict = verdict_of(figure, drifting, unidentified, own) if neighbours else "untested"
     headline, *others = _words(verdict, neighbours, figure, ratio, own, drifting, unidentified, vertical_shift)

@@ -92,11 +92,6 @@ class StepCheck(Judged):
             ("temperature", self.temperatures, "°C"),
         )
 
-    @property
-    def consistent(self) -> bool:
-        """True: one curve has no second one to contradict it."""
-        return True
-
     def to_dataset(self) -> Dataset:
         """Return the temperatures (K) of the tests as a labelled data set, with the verdict as attributes."""
         return self._dataset(self.temperatures, self.sentences)
