@@ -92,7 +92,10 @@ def test_options_of_keys_offer_what_the_run_file_knows(name: str) -> None:
     text = "".join(call(*name.split(), "--help").output.split())
     for one in keyed:
         about = TABLES[one.key.table].model_json_schema()["properties"][one.key.key]
-        known = about.get("enum") or about.get("anyOf", [{}])[0].get("enum", ())
+        about |= about.get("anyOf", [{}])[0]
+        names = ("description", "default", "enum", "type")
+        assert {name: one.key.about.get(name) for name in names} == {name: about.get(name) for name in names}, one.name
+        known = about.get("enum", ())
         choices = "" if one.is_flag else "|".join(known)
         assert choices.replace(" ", "") in text, one.name
         assert one.help, one.name
