@@ -517,7 +517,7 @@ CALLS: dict[str, Any] = {
     "separate": lambda: {"runs": vf.readers.TractionRuns(**READINGS), "zero": None, "coulomb": None, "outliers": "keep",
         "speed_tolerance": 0.05, "temperature_tolerance": 1.0},
     "read_dma": lambda: {"paths": EXAMPLE / "dma.csv", "deformation": "tension", "temperature": None, "modulus_unit":
-        None, "columns": None, "sheet": None},
+        None, "columns": None, "sheet": None, "leave_out_temperatures": [333.15]},
     "read_ramps": lambda: {"paths": EXAMPLE / "dma.csv", "deformation": "tension", "direction": None, "heating_rate":
         0.05, "modulus_unit": None, "columns": {}, "sheet": None},
     "read_amplitude_sweep": lambda: {"paths": at("payne.csv"), "deformation": "shear", "temperature": None,

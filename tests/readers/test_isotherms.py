@@ -273,3 +273,20 @@ def test_a_step_for_every_point_takes_no_time():
     sweeps = isothermal_sweeps([readings(np.full(count, 20.0), hertz, step=np.arange(count))])
     assert [len(one) for one in sweeps.isotherms] == [count]
     assert time.process_time() - begin < 10.0  # some 2 s; work that grows as the square takes more than 10 s
+
+
+def test_isotherms_are_left_out_on_request_and_named(tmp_path):
+    rows = [f"{T + 0.1},{f},{3 + f / T},0.3" for T in (20, 30, 40) for f in (1, 2, 5)]
+    path = tmp_path / "three.csv"
+    path.write_text("\n".join(["T (degC),f (Hz),E' (MPa),E'' (MPa)", *rows]))
+    kept = read_dma(path, leave_out_temperatures=["30 degC"])
+    np.testing.assert_allclose(kept.temperatures, [293.25, 313.25])
+    (note,) = (one for one in kept.notes if one.code == "temperatures-left-out")
+    assert note.values["temperatures"] == pytest.approx([303.25])
+    everything = read_dma(path)
+    assert "temperatures-left-out" not in codes(everything.notes)
+    for wrong, code in ((["35 degC"], "no-such-temperature"), ([20.0], "no-such-temperature")):
+        with refused(code):
+            read_dma(path, leave_out_temperatures=wrong)
+    with refused("none-left"):
+        read_dma(path, leave_out_temperatures=everything.temperatures)

@@ -107,7 +107,7 @@ def test_isotherms_that_drift_to_one_side_make_superposition_doubtful():
     assert check.figure_of_merit < 1.0
     assert max(abs(one.distance) for one in check.neighbours) < 0.02
     assert (check.verdict, check.holds, check.roughly) == ("doubtful", False, False)
-    assert codes(check.sentences) == {"superposition-doubtful"}
+    assert codes(check.sentences[:-1]) == {"superposition-doubtful"}
     remedy = check.sentences[0].remedy
     assert len({remedy.words(reader) for reader in READERS}) == len(READERS)
     assert abs(check.drift.distance) > 6.0 * check.drift.standard_error

@@ -129,6 +129,7 @@ def test_what_a_test_at_one_temperature_cannot_have_is_refused(tmp_path, more, c
     [
         {"shift_by": "storage"},
         {"shift_weights": [1.0, 0.5]},
+        {"leave_out_temperatures": "10 degC"},
         {"ramps": "ramp.csv"},
         {"relaxation": "other.csv"},
         {"dma": "sweeps.csv", "relaxation": "other.csv"},

@@ -30,6 +30,7 @@ INPUTS: dict[str, Any] = {
     "material.reference_temperature": "60 degC",
     "material.poisson_ratio": 0.49,
     "material.deformation": "compression",
+    "material.leave_out_temperatures": ["60 degC"],
     "material.shift": "wlf",
     "material.vertical_shift": "free",
     "material.spectrum": "regularised",

@@ -83,6 +83,7 @@ rubber_options = together(
     ),
     key("material.deformation", condition=_WITH_DMA),
     key("material.modulus_unit", metavar="UNIT", condition=_WITH_DMA),
+    key("material.leave_out_temperatures", metavar="T", multiple=True, condition=_WITH_DMA),
     column_options("'frequency=f in Hz'", condition=_WITH_DMA),
     click.option("--synthetic", is_flag=True, help="With --dma: the data are synthetic, and no remark (#) says so."),
     click.option(
@@ -103,7 +104,7 @@ rubber_options = together(
 
 
 #: What DMA files may not say themselves.
-_OF_FILES = ("deformation", "modulus_unit", "columns", "sheet")
+_OF_FILES = ("deformation", "modulus_unit", "leave_out_temperatures", "columns", "sheet")
 _SINGLE = ("rubber_modulus", "glass_modulus", "tau")
 
 

@@ -144,7 +144,8 @@ def _columns(table: MaterialTable) -> dict[str, Any]:
 
 def how_read(table: MaterialTable) -> dict[str, Any]:
     """Return what a reader of sweeps takes of the table besides the files."""
-    return {"temperature": table.temperature, "modulus_unit": table.modulus_unit, **_columns(table)}
+    names = ("temperature", "modulus_unit", "leave_out_temperatures")
+    return {name: getattr(table, name) for name in names} | _columns(table)
 
 
 def read_steps_of(table: MaterialTable) -> StepTests:

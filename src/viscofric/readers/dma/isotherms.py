@@ -15,7 +15,7 @@ from viscofric.errors import DataFileError, InputError, check_choice, short_note
 from viscofric.notes import Note, note_of
 from viscofric.readers.dma.checks import notes_on, of_one_amplitude, usable
 from viscofric.readers.dma.readings import AS_RAMPS, Points, Readings, Sorted, at, joined, listed
-from viscofric.units import shown_celsius
+from viscofric.units import Quantities, kelvin_hint, shown_celsius, to_si_array
 
 #: Measured temperatures of one isotherm scatter by some tenths of a kelvin, programmes step by several.
 ISOTHERM_GAP = 1.0  # K
@@ -258,7 +258,9 @@ class TracedSweeps:
         return np.setdiff1d(np.arange(len(self.points)), used)
 
 
-def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None = None) -> TracedSweeps:
+def traced_sweeps(
+    readings: Sequence[Readings], deformation: Deformation | None = None, leave_out: Quantities | None = None
+) -> TracedSweeps:
     """Sort the points of one or several files of one specimen into isotherms, and keep their assignment."""
     # The notes of the sweeps report what was left out, averaged or reordered, and what is doubtful: drifting
     # temperatures, outliers, strain amplitudes that differ between isotherms.
@@ -270,10 +272,14 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     groups, on_groups = isotherm_groups(points, keep, source)
     single = [of_one_amplitude(points, rows, source) for rows in groups]
     sweeps = [_isotherm(points, rows) for rows, _ in single]
+    on_request: list[Note] = []
+    if leave_out is not None:
+        sweeps, on_request = _without(sweeps, to_si_array(leave_out, "K", "leave_out_temperatures"))
     notes: list[Note] = [
         *opened,
         *on_left_out,
         *on_groups,
+        *on_request,
         *(note for _, some in single for note in some),
         *_on_order(points, keep, sweeps, len(readings)),
         *notes_on(points, sweeps),
@@ -283,6 +289,30 @@ def traced_sweeps(readings: Sequence[Readings], deformation: Deformation | None 
     known = deformation is not None or any(one.deformation is not None for one in readings)
     found = IsothermalSweeps(isotherms, kind, source, short_notes(notes), ", ".join(formats))
     return TracedSweeps(found, tuple(readings), points, tuple(sweeps), known)
+
+
+def _without(sweeps: list[Sorted], temperatures: Array) -> tuple[list[Sorted], list[Note]]:
+    """Return the isotherms but for those at some temperatures, and the note on these."""
+    kelvin = np.array([one.isotherm.temperature for one in sweeps])
+    nearest = np.abs(kelvin[:, None] - temperatures).argmin(axis=0)
+    argument = {"argument": "leave_out_temperatures"}
+    for asked, there in zip(temperatures, kelvin[nearest], strict=True):
+        if abs(asked - there) > ISOTHERM_GAP:
+            raise InputError(
+                f"leave_out_temperatures: no isotherm is at {shown_celsius(asked, 'z.4g')} °C; the nearest is at "
+                f"{shown_celsius(there)} °C",
+                code="no-such-temperature",
+                field="material.leave_out_temperatures",
+                remedy=kelvin_hint(asked),
+                values=argument,
+            )
+    out = set(nearest.tolist())
+    if len(out) == len(sweeps):
+        raise InputError("leave_out_temperatures: no isotherm is left; name fewer.", code="none-left", values=argument)
+    which = sorted(kelvin[place] for place in out)
+    said = f"Left out as requested: isotherms at {listed([f'{shown_celsius(one)} °C' for one in which], 0)}."
+    kept = [one for place, one in enumerate(sweeps) if place not in out]
+    return kept, [Note("temperatures-left-out", said, values={"temperatures": which})]
 
 
 def opening(readings: Sequence[Readings], deformation: Deformation | None) -> tuple[str, Deformation, list[Note]]:

@@ -26,7 +26,7 @@ from viscofric.readers.dma.tables import dma_table, reptate, workbook
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.source import Source, Test, insist_on_content, sources_of, unit_conversion
 from viscofric.readers.tables import holds_table, no_header
-from viscofric.units import Quantity
+from viscofric.units import Quantities, Quantity
 
 
 class Format(Protocol):
@@ -100,6 +100,7 @@ def read_dma(
     modulus_unit: str | None = None,
     columns: Mapping[str, str] | None = None,
     sheet: str | None = None,
+    leave_out_temperatures: Quantities | None = None,
 ) -> IsothermalSweeps:
     """Read frequency sweeps at several temperatures from files of a dynamic mechanical analyser or a rheometer.
 
@@ -129,6 +130,8 @@ def read_dma(
         columns not named here are recognised as without it.
     sheet : str, optional
         Name of the only sheet of a workbook to read.
+    leave_out_temperatures : float, str or quantity, or a list of them, optional
+        Temperatures of isotherms to leave out, to 1 K; K if plain numbers.  A note says which.
 
     Returns
     -------
@@ -143,7 +146,7 @@ def read_dma(
         most storage moduli or frequencies are not above zero, files contradict each other or are given twice, tension
         or shear is not stated, or the temperatures form a ramp, not isotherms.
     InputError
-        If no file is given, or an argument is wrong.
+        If no file is given, an argument is wrong, or no isotherm is at a temperature to be left out, or none is left.
 
     Examples
     --------
@@ -155,7 +158,7 @@ def read_dma(
     (24, (17,))
     """
     readings = read_files(paths, "read_dma", "frequency", deformation, temperature, modulus_unit, columns, sheet)
-    traced = traced_sweeps(readings, deformation)
+    traced = traced_sweeps(readings, deformation, leave_out_temperatures)
     if not traced.deformation_known:
         raise DataFileError(traced.sweeps.source, NOT_SAID)
     return traced.sweeps
@@ -168,11 +171,12 @@ def trace_dma(
     modulus_unit: str | None = None,
     columns: Mapping[str, str] | None = None,
     sheet: str | None = None,
+    leave_out_temperatures: Quantities | None = None,
 ) -> TracedSweeps:
     """Read the same as `read_dma`, and return the sweeps with every reading of the files."""
     # If nothing decides between tension and shear, this raises no error, so that the page can show the sweeps and ask.
     readings = read_files(paths, "read_dma", "frequency", deformation, temperature, modulus_unit, columns, sheet)
-    return traced_sweeps(readings, deformation)
+    return traced_sweeps(readings, deformation, leave_out_temperatures)
 
 
 def read_files(

@@ -42,7 +42,7 @@ _OF_TWO_MODULI = ("shift_by", "shift_weights")
 #: … those for one kind of tests, not for sweeps and step tests together …
 _OF_ONE_KIND = ("temperature", "modulus_unit", "columns", "sheet", "shift_factors", "fixed_shift_factors")
 #: … and those invalid for a master curve, and for temperature ramps.
-_TO_SHIFT = ("vertical_shift", "shift_by", "shift_weights", "fixed_shift_factors")
+_TO_SHIFT = ("leave_out_temperatures", "vertical_shift", "shift_by", "shift_weights", "fixed_shift_factors")
 
 
 def _by_kelvin(value: object) -> object:
@@ -78,6 +78,11 @@ def _in_catalogue(value: str) -> str:
     return catalogue_entry(value).name
 
 
+_Temperatures = Annotated[
+    tuple[Temperature, ...], BeforeValidator(listed), Field(min_length=1), one_or_more(schema_of(Temperature))
+]
+
+
 class MaterialTable(Table):
     """[material]: DMA files and how the material model is fitted to them, or a predefined material."""
 
@@ -103,12 +108,12 @@ class MaterialTable(Table):
     deformation: Literal["tension", "compression", "bending", "shear"] | None = Field(
         None, description="Deformation in the sweeps, if the file does not state it; E = 2(1+ν)G."
     )
-    temperature: (
-        Annotated[
-            tuple[Temperature, ...], BeforeValidator(listed), Field(min_length=1), one_or_more(schema_of(Temperature))
-        ]
-        | None
-    ) = Field(None, description="Temperature of files that do not state it: one for all, or one for each.")
+    temperature: _Temperatures | None = Field(
+        None, description="Temperature of files that do not state it: one for all, or one for each."
+    )
+    leave_out_temperatures: _Temperatures | None = Field(
+        None, description="Temperatures of isotherms of the sweeps to leave out."
+    )
     modulus_unit: Annotated[Words, AfterValidator(_unit_of_modulus)] | None = Field(
         None, description="Unit of moduli (of creep compliances '1/MPa') in files that do not state it, such as 'MPa'."
     )
@@ -217,7 +222,8 @@ class MaterialTable(Table):
     def _doubts_of_shifts(self) -> Iterator[str]:
         for name in ("creep", "relaxation"):
             if getattr(self, name) is not None and self.dma is None:
-                yield from self._useless(_OF_TWO_MODULI, f"for {name} tests, only for sweeps (dma)")
+                names = (*_OF_TWO_MODULI, "leave_out_temperatures")
+                yield from self._useless(names, f"for {name} tests, only for sweeps (dma)")
         for name in ("strain", "measured_at"):
             if getattr(self, name) is not None and self.amplitude_sweep is None:
                 yield f"{name} needs an amplitude_sweep, from which Kraus's law is found"

@@ -75,6 +75,14 @@ _LAWS = [
 ]
 SHIFT = [
     _REFERENCE,
+    field(
+        "material.leave_out_temperatures",
+        "Leave out temperatures",
+        "temperature",
+        list=True,
+        placeholder="none",
+        help="Isotherms of the sweeps that are not used, e.g. 60 °C, 70 °C.",
+    ),
     choice(
         "material.shift",
         "α(T) used",

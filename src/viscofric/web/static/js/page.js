@@ -17,7 +17,7 @@ const PLACES = {
   cluster: "export",
 };
 const OF_RUBBER = {
-  shift: ["shift", "vertical_shift", "shift_factors", "fixed_shift_factors"],
+  shift: ["leave_out_temperatures", "shift", "vertical_shift", "shift_factors", "fixed_shift_factors"],
   spectrum: ["spectrum", "modes", "tau_ratio"],
 };
 

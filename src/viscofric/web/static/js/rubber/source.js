@@ -37,7 +37,7 @@ export const worded = (kelvin) => `${Number((kelvin - 273.15).toFixed(2))} degC`
 /** "0.12 decades" */
 export const decades = (value, digits = 2) => `${value.toFixed(digits).replace("-", "−")} decades`;
 
-const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "assumed_shift"];
+const OF_FILES = ["deformation", "modulus_unit", "columns", "sheet", "temperature", "leave_out_temperatures", "assumed_shift"];
 const OF_SHIFTS = ["fixed_shift_factors", "shift_factors", "shift_factor_columns", "shift_factor_sheet"];
 
 /** [material] of other files: what says how a rubber is made stays, what belonged to the old files goes. */
