@@ -330,3 +330,33 @@ def test_predictions_repeat_what_sweeps_contradict(tmp_path: Path) -> None:
         found[name] = [codes(notes) & doubts for notes in (curves.notes, alone.warnings)]
         assert len(curves.notes) == len(codes(curves.notes))
     assert found == {"right": [set(), set()], "swapped": [doubts, doubts]}
+
+
+SOFT = vf.Material.standard_linear_solid(E0="50 kPa", E_inf="200 kPa", tau="10 ms")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("indenter", "load", "pull_off"),
+    [  # W = 50 mJ/m²: 3πWR/2; of a cylinder 3 (π E* W² R/16)^(1/3)
+        (vf.Ball("10 mm"), 1e-3, 1.5 * np.pi * 0.05 * 0.01),
+        (vf.Ball("10 mm"), 3e-2, None),
+        (vf.Cylinder("10 mm"), 1.0, 3.0 * (np.pi * 5e4 / 0.75 * 0.05**2 * 0.01 / 16.0) ** (1.0 / 3.0)),
+        (vf.Cylinder("10 mm"), 30.0, None),
+    ],
+)
+def test_adhesion_is_noted_where_it_would_pull_with_a_tenth_of_the_load(
+    indenter: Any, load: float, pull_off: float | None
+) -> None:
+    contact: dict[str, Any] = {"load": load, "accuracy": 0.1}
+    held = vf.motion.History(time=[0.0, 0.1], load=load)
+    found = [
+        vf.solve_steady(SOFT, indenter, speed="10 mm/s", **contact).warnings,
+        predict_friction(SOFT, indenter, speeds=np.geomspace(1e-3, 1.0, 20), **contact).notes,  # interpolated
+        vf.motion.solve_transient(SOFT, indenter, held, times=["50 ms"]).warnings,
+    ]
+    for notes in found:
+        assert [one.values["pull_off"] for one in notes if one.code == "adhesion"] == [
+            pytest.approx(one) for one in [pull_off] if one is not None
+        ]
+        assert not [one for one in notes if one.code == "adhesion" and one.values["load"] != load]

@@ -277,7 +277,11 @@ class _Falling(NamedTuple):
         time, depth, velocity, force, radius, stored, dissipated, by_springs = np.array(fine.rows).T
         widest, deepest = float(radius.max()), float(depth.max())
         self.indenter.check(Extent(widest, widest, widest), f"at {contacts[0].speed:g} m/s", "mass or the speed")
-        notes = [self.indenter.strain_warning(Extent(widest, widest, widest), deepest)]
+        relaxed = self.material.modes_at(temperature).E0 / (1.0 - self.material.poisson_ratio**2)
+        notes = [
+            self.indenter.strain_warning(Extent(widest, widest, widest), deepest),
+            self.indenter.adhesion_warning(float(force.max()), relaxed),
+        ]
         if contacts[-1].restitution == 0.0:
             said = "The indenter does not leave the surface again: it comes to rest on it."
             last, values = fine.contacts[-1], {}

@@ -380,7 +380,7 @@ def assemble(
         geometry=problem.kind,
         direction=history.direction,
         warnings=(
-            *_doubts(problem.indenter, moments, problem.schedule.control),
+            *_doubts(problem, moments),
             *_beyond_measured(problem, moments),
             *notes,
             *problem.material.notes_on_modes,
@@ -391,8 +391,9 @@ def assemble(
     )
 
 
-def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]], control: str) -> tuple[Note, ...]:
-    """Refuse a contact wider than the indenter; return notes on large strain and unresolved heights."""
+def _doubts(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
+    """Refuse a contact wider than the indenter; return notes on large strain, adhesion and unresolved heights."""
+    indenter, material = problem.indenter, problem.material
     if not isinstance(indenter, Indenter) or not moments:
         return ()
 
@@ -404,9 +405,10 @@ def _doubts(indenter: Indenter | PeriodicSurface, moments: list[Moment[Any]], co
     if math.isinf(widest.side):  # of a line contact
         widest = widest._replace(side=0.0)
     load = max(one.seen.load for one in moments)
-    indenter.check(widest, f"under {load:g} {indenter.geometry.load_unit}", control)
+    indenter.check(widest, f"under {load:g} {indenter.geometry.load_unit}", problem.schedule.control)
     deepest = max(one.seen.depth for one in moments)
-    return tuple(indenter.warnings(widest, deepest))
+    adhesion = indenter.adhesion_warning(load, problem.schedule.spectrum.E0 / (1.0 - material.poisson_ratio**2))
+    return (*indenter.warnings(widest, deepest), *([] if adhesion is None else [adhesion]))
 
 
 def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:

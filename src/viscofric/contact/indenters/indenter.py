@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from viscofric.contact.free.grids import Extent
 
 
+#: Work of adhesion of clean rubber on hard, smooth bodies where it is not known, J/m²; dry rubber on itself has 0.07
+#: (K. L. Johnson, K. Kendall, A. D. Roberts, Proc. R. Soc. A 324 (1971) 301).
+TYPICAL_ADHESION = 0.05
+LITTLE_ADHESION = 0.1  # pull-off force over the load up to which adhesion has no note
 SMALL_STRAIN = 0.3  # slope of the indenter within the contact beyond which linear contact is doubtful
 
 
@@ -60,6 +64,23 @@ class Indenter(Shown, ABC):
 
         `contact` is along x and y of the indenter, m; `indentation` in m.
         """
+
+    def pull_off(self, work_of_adhesion: float, modulus: float) -> float | None:
+        """Return the force (of a line contact, N/m) that pulls it off a solid of an E* at rest; None if not known."""
+        return None
+
+    def adhesion_warning(self, load: float, modulus: float) -> Note | None:
+        """Return a note where adhesion, which is left out, may matter: load in N (N/m), relaxed E* in Pa."""
+        force = self.pull_off(TYPICAL_ADHESION, modulus)
+        if force is None or not 0.0 < load < force / LITTLE_ADHESION:
+            return None
+        return Note(
+            "adhesion",
+            f"Adhesion is left out: with {1e3 * TYPICAL_ADHESION:g} mJ/m², typical of clean rubber on hard, smooth "
+            f"bodies, the pull-off force at rest (JKR) is {force / load:.2g} times the load, and contact and friction "
+            "are larger.",
+            values={"pull_off": force, "load": float(load), "work_of_adhesion": TYPICAL_ADHESION},
+        )
 
     def resolution_warning(self, contact: Extent) -> Note | None:
         """Return a note where the points that the surface is given by do not resolve it."""

@@ -63,6 +63,14 @@ class _Round(_Paraboloid):
         """Half the largest width that a contact can have, m."""
         return float(self.radius)
 
+    def pull_off(self, work_of_adhesion: float, modulus: float) -> float:
+        """Return the force (of a line contact, N/m) that pulls it off a solid of an E* at rest."""
+        # K. L. Johnson, K. Kendall, A. D. Roberts, Proc. R. Soc. A 324 (1971) 301; of a cylinder M. Barquins,
+        # J. Adhesion 26 (1988) 1.
+        if self.geometry.dimension > 1:
+            return 1.5 * math.pi * work_of_adhesion * float(self.radius)
+        return 3.0 * math.cbrt(math.pi * modulus * work_of_adhesion**2 * float(self.radius) / 16.0)
+
     def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
         """Return a note where the assumption of small strain is doubtful."""
         ratio = max(contact) / self.reach
