@@ -532,7 +532,7 @@ CALLS: dict[str, Any] = {
         "law": None},
     "catalogue_material": lambda: {"name": "synthetic fluoroelastomer"},
     "Material": lambda: {"spectrum": rubber().spectrum, "shift": wlf(), "poisson_ratio": 0.5, "name": "",
-        "vertical_shift": None, "citation": ""},
+        "vertical_shift": None, "citation": "", "synthetic": False},
     "Material.standard_linear_solid": lambda: (vf.Material, {"E0": 1e6, "E_inf": 1e7, "tau": 1e-3, "poisson_ratio":
         0.5}),
     "Material.at": lambda: (shifted(), {"temperature": 310.0}),

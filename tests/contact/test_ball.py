@@ -40,6 +40,7 @@ from viscofric.contact.operators.half_space import HalfSpaceOperator
 from viscofric.contact.reference import hertz_ball
 from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
+from viscofric.notes import codes
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.material import Material
 
@@ -403,7 +404,7 @@ def test_large_strain_is_a_warning() -> None:
     deep = solve_steady(SLS.material, SLS.ball, speed=0.0, load=load)
     assert len(deep.warnings) == 1
     assert "0.4" in deep.warnings[0]
-    assert SLS.solve().warnings == ()
+    assert not codes(SLS.solve().warnings) & {"large-strain"}
 
 
 @pytest.mark.slow

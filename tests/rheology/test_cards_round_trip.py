@@ -215,9 +215,10 @@ def test_how_a_spectrum_was_fitted_is_kept(tmp_path):
     "vertical",
     [DensityShift(298.15), VerticalShiftFactors([280.0, 300.0, 320.0], [-0.02, 0.0, 0.03], 298.15, 1e-4 * np.eye(3))],
 )
-def test_vertical_shift_and_citation_are_kept(tmp_path, program, vertical):
-    material = rubber(vertical_shift=vertical, citation="A. Author, J. Rubber 1 (2000) 1.")
+def test_vertical_shift_citation_and_mark_of_synthetic_data_are_kept(tmp_path, program, vertical):
+    material = rubber(vertical_shift=vertical, citation="A. Author, J. Rubber 1 (2000) 1.", synthetic=True)
     back = read_card(write_card(material, tmp_path / "card", program, density=1e3))
+    assert back.synthetic
     assert back.citation == material.citation
     assert back.vertical_shift.log10(310.0) == pytest.approx(vertical.log10(310.0), rel=1e-12)
     assert pytest.approx(material.at("40 degC").E0, rel=1e-12) == back.at("40 degC").E0

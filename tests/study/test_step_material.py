@@ -11,6 +11,7 @@ import viscofric as vf
 from cli.calls import call, succeed
 from refusals import refused
 from rheology.planted import write_moduli
+from viscofric.rheology.catalogue import is_synthetic
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.run_file.material import MaterialTable
@@ -82,6 +83,7 @@ def test_a_material_is_fitted_to_step_tests(tmp_path, monkeypatch, kind):
     assert curve[name].attrs["units"] == ("1/Pa" if kind == "creep" else "Pa")
     assert curve.attrs["rms_log10_step"] < 0.005
     assert results.tree.attrs["step_tests"] == kind
+    assert is_synthetic(vf.read_card(tmp_path / "out" / "rubber.json"))
     assert "storage_modulus_lower" in results.tree["spectrum_curve"]
     true = vf.synthetic_fluoroelastomer().at("10 degC")
     omega = np.array([1e-2, 1e-1])

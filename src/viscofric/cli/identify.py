@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -222,8 +222,9 @@ def command(
     answer(record, lambda: _print(found))
     print_notes(curves.notes)
     made_up = is_synthetic(synthetic, sources)
+    material = replace(found.material, synthetic=made_up)
     write_files(
-        ("material", out, lambda path: write_card(found.material, path, format="json")),
+        ("material", out, lambda path: write_card(material, path, format="json")),
         ("picture", picture, drawing("identified.identified_figure", found, known, mark=made_up)),
     )
 

@@ -113,8 +113,10 @@ def catalogue_material(name: str) -> Material:
 
 
 def is_synthetic(material: Material) -> bool:
-    """Whether a material is, by its name, a synthetic one of the catalogue."""
-    return any(_plain(entry.name) == _plain(material.name) for entry in _ENTRIES if entry.kind == "SYNTHETIC")
+    """Whether a material is synthetic, as it says itself or as one of the catalogue that has its name."""
+    return material.synthetic or any(
+        _plain(entry.name) == _plain(material.name) for entry in _ENTRIES if entry.kind == "SYNTHETIC"
+    )
 
 
 def _plain(name: str) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscofric.arguments import insist_on, text
+from viscofric.arguments import flag, insist_on, text
 from viscofric.arrays import ComplexArray
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError, brief
@@ -49,6 +49,8 @@ class Material(Plotted):
         b(T), used about the reference of `shift`; b = 1 without it.
     citation : str
         Where the parameters were published or measured.
+    synthetic : bool
+        Whether it is neither measured nor published; results and material files of it then say so.
 
     Raises
     ------
@@ -75,6 +77,7 @@ class Material(Plotted):
     name: str = ""
     vertical_shift: VerticalShift | None = None
     citation: str = ""
+    synthetic: bool = False
 
     if TYPE_CHECKING:  # what is given, converted when made
 
@@ -86,6 +89,7 @@ class Material(Plotted):
             name: str = "",
             vertical_shift: VerticalShift | None = None,
             citation: str = "",
+            synthetic: bool = False,
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -108,6 +112,7 @@ class Material(Plotted):
         object.__setattr__(self, "poisson_ratio", checked_poisson_ratio(self.poisson_ratio))
         text(self.name, "name of a material")
         text(self.citation, "citation of a material")
+        flag(self.synthetic, "synthetic")
 
     def _shown(self) -> Rows:
         return (

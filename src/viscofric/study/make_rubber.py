@@ -46,7 +46,12 @@ from viscofric.units import kelvin_hint, shown_celsius
 def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
     """Return the material of [material]; a liquid is its master curve with `liquids`, else a `LiquidError`."""
     made = at_strain(_at_small_strain(table, liquids), table)
-    return replace(made, synthetic=made.synthetic or any(map(says_synthetic, table.inputs)))
+    return called_synthetic(made) if made.synthetic or any(map(says_synthetic, table.inputs)) else made
+
+
+def called_synthetic(rubber: Rubber) -> Rubber:
+    """Return a material that is called synthetic, and its results too."""
+    return replace(rubber, synthetic=True, material=replace(rubber.material, synthetic=True))
 
 
 def _at_small_strain(table: MaterialTable, liquids: bool) -> Rubber:

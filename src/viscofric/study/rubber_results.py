@@ -17,7 +17,7 @@ from viscofric.rheology.cards import CardFormat, CardLaw, write_card
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.step_tests import StepMasterCurve
-from viscofric.study.make_rubber import make_rubber
+from viscofric.study.make_rubber import called_synthetic, make_rubber
 from viscofric.study.results.file import save_results
 from viscofric.study.results.results import StudyResults, input_hashes, provenance
 from viscofric.study.rubber import Rubber
@@ -54,11 +54,12 @@ def run_material(
     folder = Path(output)
     hashes = input_hashes(table.inputs)
     rubber = make_rubber(table, liquids=True)
+    rubber = called_synthetic(rubber) if synthetic else rubber
     draws = draw_rubber(rubber, samples)
     tree = xarray.DataTree.from_dict(rubber_groups(rubber, draws))
     tree.attrs = {
         "title": title,
-        "data_origin": "synthetic" if synthetic or rubber.synthetic else "measured",
+        "data_origin": "synthetic" if rubber.synthetic else "measured",
         "command": command,
         "notes": dumped(records([*rubber.notes, *(draws.notes if draws is not None else ())])),
         "warnings": "[]",

@@ -132,8 +132,11 @@ def command(
     status = 1 if None in made else status_of(results)
     if as_json:
         from viscofric.datasets import record
+        from viscofric.notes import listed
 
+        fit = getattr(rubber.material.spectrum, "fit", None)
         found = {"spectrum": record(rubber.material.to_dataset())} | outcome_record(results, figures, report)
+        found |= listed("spectrum_notes", () if fit is None else fit.notes)
         print_json(found | {"files": written, "cards": cards_made, "exit_status": status})
     else:
         _print(results)

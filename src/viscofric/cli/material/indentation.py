@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -121,10 +122,11 @@ def command(
     records = [one for path, at in zip(files, kelvin, strict=True) for one in _records(path, at, parameters)]
     found = identify_from_indentation(records, shape.indenter, **_settings(parameters))
     made_up = is_synthetic(synthetic, files)
+    material = replace(found.material, synthetic=made_up)
     data = found.to_dataset()
     answer(lambda: {"results": record(data), **listed("notes", found.notes)}, lambda: click.echo(str(found)))
     write_files(
-        ("material", out, lambda path: write_card(found.material, path, format="json")),
+        ("material", out, lambda path: write_card(material, path, format="json")),
         ("table", table, data.to_dataframe().to_csv),
         ("picture", picture, drawing("identified.indentation_figure", found, known, mark=made_up)),
     )

@@ -103,6 +103,7 @@ def about(material: Material) -> dict[str, Any]:
         for name, content in (
             ("name", material.name),
             ("citation", material.citation),
+            ("synthetic", material.synthetic or None),
             ("poisson_ratio", material.poisson_ratio),
             ("shift", plain(material.shift)),
             ("vertical_shift", plain(material.vertical_shift)),
@@ -124,6 +125,7 @@ def assembled(spectrum: RetardationSpectrum | ModulusTable, about: dict[str, Any
         name=str(about.get("name", "")),
         vertical_shift=restored(about.get("vertical_shift"), _VERTICAL, "vertical_shift"),
         citation=str(about.get("citation", "")),
+        synthetic=about.get("synthetic", False),
     )
 
 
@@ -159,7 +161,8 @@ def from_plain(content: Any) -> Material:
     version = content.get("version")
     if not isinstance(version, int) or not 1 <= version <= VERSION:
         raise wrong_argument("version", version, f"this viscofric reads version 1 to {VERSION}.", "newer-version")
-    known = {"format", "version", "name", "citation", "poisson_ratio", "shift", "vertical_shift", "fit", "spectrum"}
+    known = {"format", "version", "name", "citation", "synthetic", "poisson_ratio", "fit", "spectrum"}
+    known |= {"shift", "vertical_shift"}
     unknown = sorted(set(content) - known)
     if unknown:
         raise InputError(
