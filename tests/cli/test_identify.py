@@ -50,6 +50,8 @@ def test_the_planted_modulus_comes_back_where_it_is_identified(found: tuple[Path
     reported = found[1]
     band, modulus = reported["identified"], reported["modulus"]
     assert [note_of(one).words("python") for one in reported["note_records"]] == reported["notes"]
+    known = {note_of(one).words("python") for one in reported["note_records"]}
+    assert [one for one in reported["sentences"] if one in known]  # what the text prints of the result has codes here
     assert band["high"] > 100.0 * band["low"]
     omega = np.array(modulus["angular_frequency"])
     inside = (omega >= band["low"]) & (omega <= band["high"])

@@ -221,6 +221,7 @@ def test_curves_without_overlap_show_no_factor(tmp_path: Path) -> None:
     beside = call("master", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
     assert beside.exit_code == 0, beside.output
     reported = record("master", path, "--shift", "synthetic fluoroelastomer", "--reference", "30 degC")
+    assert "no-shift-factors" in {one["code"] for one in reported["note_records"]}
     law = vf.synthetic_fluoroelastomer().shift
     assert law is not None
     assert not reported["found"]

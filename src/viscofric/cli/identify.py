@@ -217,7 +217,7 @@ def command(
     def record() -> dict[str, Any]:
         inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
         inputs |= _inputs(parameters, options, shape.indenter.geometry.load_unit) | separation_record(parameters)
-        return identification_record(found, inputs) | listed("notes", curves.notes)
+        return identification_record(found, inputs) | listed("notes", (*curves.notes, *found.notes))
 
     answer(record, lambda: _print(found))
     print_notes(curves.notes)

@@ -23,6 +23,7 @@ from viscofric.cli.output import (
     write_files,
 )
 from viscofric.cli.rubber_options import shift_factor_options
+from viscofric.notes import Note, listed
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -88,10 +89,12 @@ def command(
 
     curves = friction_curves(sources, parameters)
     known, vertical = shifts(parameters, "known")
-    master = _shifted(curves, known, vertical, parameters)
+    notes = list(curves.notes)
+    master = _shifted(curves, known, vertical, parameters, notes)
     law, why, refused = chosen_law(master, parameters["law"])
-    print_notes([] if refused is None else [refused])
-    agreement = _agreement(master, known)
+    notes += [] if refused is None else [refused]
+    agreement = _agreement(master, known, notes)
+    notes += master.notes
     if out is not None and not master.found:
         raise refusal("no-factors", f"{out} is not written: friction determines no shift factors.")
 
@@ -100,10 +103,10 @@ def command(
         inputs |= {name: parameters[name] for name in ("law", "level_error")}
         inputs |= {name: optional_si(parameters[name], unit) for name, unit in (("reference", "K"), ("ball", "m"))}
         found = shift_record(master, law, agreement, inputs | separation_record(parameters))
-        return found | {"law_explanation": why or None}
+        return found | {"law_explanation": why or None} | listed("notes", notes)
 
     answer(record, lambda: _print(master, known, law, why, agreement))
-    print_notes((*curves.notes, *master.notes))
+    print_notes(notes)
     made_up = is_synthetic(synthetic, sources)
     draw = drawing("friction.shifted_figure", master, known, mark=made_up, synthetic=made_up)
     write_files(
@@ -113,9 +116,13 @@ def command(
 
 
 def _shifted(
-    curves: FrictionCurves, known: ShiftLaw | None, vertical: VerticalShift | None, parameters: dict[str, Any]
+    curves: FrictionCurves,
+    known: ShiftLaw | None,
+    vertical: VerticalShift | None,
+    parameters: dict[str, Any],
+    notes: list[str],
 ) -> FrictionMasterCurve:
-    """Shift friction curves by their own factors, or by those of the modulus where they have none."""
+    """Shift friction curves by their own factors, or by those of the modulus where they have none, and note it."""
     from viscofric.contact.indenters.shapes import Ball
     from viscofric.errors import SuperpositionError
     from viscofric.friction.shifting.shift import common_reference, shift_friction
@@ -125,24 +132,23 @@ def _shifted(
     if options["indenter"] is not None:
         options["vertical_shift"] = vertical
     elif vertical is not None:
-        click.echo(
-            "Note: the rubber has a vertical shift b(T), which changes the load at which curves coincide; it is left "
-            "out without the ball's radius (--ball).",
-            err=True,
+        said = (
+            "The rubber has a vertical shift b(T), which changes the load at which curves coincide; it is left out "
+            "without the ball's radius (--ball)."
         )
+        notes.append(Note("vertical-shift-left-out", said))
     try:
         about = common_reference(curves, known) if reference is None else reference
         return shift_friction(curves, reference=about, level_error=parameters["level_error"], **options)
     except SuperpositionError as error:
         if known is None:
             raise
-        click.echo(
-            f"Note: No shift factors from friction: {error.words('shell')} Those of the modulus are used.", err=True
-        )
+        said = f"No shift factors from friction: {error.words('shell')} Those of the modulus are used."
+        notes.append(Note("no-shift-factors", said))
         return shift_friction(curves, shift=known, reference=reference, **options)
 
 
-def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None) -> ShiftAgreement | None:
+def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None, notes: list[str]) -> ShiftAgreement | None:
     from viscofric.errors import InputError
     from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 
@@ -151,7 +157,7 @@ def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None) -> ShiftAgre
     try:
         return compare_shift_factors(master, known)
     except InputError as error:
-        print_notes([error.note])
+        notes.append(error.note)
         return None
 
 
