@@ -274,3 +274,26 @@ def test_a_material_is_identified_from_rebounds_and_stiffness(tmp_path: Path) ->
     assert (tmp_path / "E.svg").stat().st_size > 0
     assert call(*stiffness, *common, "--mass", "33 g").exit_code == 2
     assert call(*rebound, "--ball", "10 mm").exit_code == 2
+
+
+def test_a_card_without_units_is_converted_with_those_given(tmp_path: Path) -> None:
+    card = tmp_path / "card.inp"
+    card.write_text(
+        "*MATERIAL, NAME=TREAD\n*ELASTIC, MODULI=INSTANTANEOUS\n600., 0.49\n*VISCOELASTIC, TIME=PRONY\n"
+        "0.6, 0.6, 1e-2\n0.3, 0.3, 10.\n*TRS, DEFINITION=WLF\n86., 12., 108.\n",
+        encoding="utf-8",
+    )
+    made = tmp_path / "rubber.json"
+    refused = refusal("material", "convert", card, made, "--format", "json")
+    assert (refused.status, refused.code) == (1, "unit-unknown")
+    units = ("--read-modulus-unit", "MPa", "--read-time-unit", "ms", "--read-temperature-unit", "degF")
+    succeed("convert", card, made, "--format", "json", *units)
+    rubber, expected = (
+        vf.read_card(made),
+        vf.read_card(card, modulus_unit="MPa", time_unit="ms", temperature_unit="degF"),
+    )
+    assert rubber.spectrum.E_inf == pytest.approx(6e8)  # 600 MPa
+    assert expected.shift is not None
+    assert rubber.shift is not None
+    assert rubber.shift.reference == pytest.approx(303.15)  # 86 °F
+    np.testing.assert_allclose(rubber.complex_modulus(1e3), expected.complex_modulus(1e3), rtol=1e-12)

@@ -250,8 +250,11 @@ reading_options = together(
 )
 
 
-def find_rubber(name: str, parameter: str = "material") -> Material:
-    """Return the rubber of a file, else of the catalogue, and print what a card leaves open and its fit has noted."""
+def find_rubber(name: str, parameter: str = "material", **units: Any) -> Material:
+    """Return the rubber of a file, else of the catalogue, and print what a card leaves open and its fit has noted.
+
+    `units`: those of `open_card` that a card does not state.
+    """
     from viscofric.rheology.cards import open_card
     from viscofric.rheology.catalogue import catalogue_material
 
@@ -259,7 +262,7 @@ def find_rubber(name: str, parameter: str = "material") -> Material:
     if not (path.is_file() or path.suffix):
         with typed_as({"name": parameter}):
             return catalogue_material(name)
-    card = open_card(path)
+    card = open_card(path, **units)
     fit = getattr(card.material.spectrum, "fit", None)
     print_notes([*card.notes, *([] if fit is None else fit.notes)])
     return card.material

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import as_command
-from viscofric.cli.errors import print_notes
+from viscofric.cli.commands import Decorator, as_command
+from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import WRITTEN, refuse_to_overwrite
 from viscofric.cli.output import json_option, out_option, print_json
 
@@ -17,6 +17,11 @@ if TYPE_CHECKING:
 
 CARD_LAWS = ("best", "wlf", "vft", "arrhenius")
 FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json")
+
+
+def reading(unit: str, words: str) -> Decorator:
+    """Return a decorator that adds the option of a unit of the card that is read."""
+    return click.option(f"--read-{unit}", metavar="UNIT", help=words)
 
 
 @as_command("convert")
@@ -54,6 +59,9 @@ FORMATS = ("abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches", "json")
 @click.option(
     "--material-id", type=int, default=1, show_default=True, help="Number of the material in ANSYS and LS-DYNA cards."
 )
+@reading("modulus-unit", "Unit of moduli in MATERIAL, a card that does not state it, such as 'MPa'.")
+@reading("time-unit", "The same of times, such as 'ms'.")
+@reading("temperature-unit", "The same of temperatures, such as 'degC'.")
 @click.option("--density", metavar="RHO", help="Density, e.g. '1100 kg/m^3'; required for LS-DYNA.")
 @click.option(
     "--card-law",
@@ -67,6 +75,9 @@ def command(
     as_json: bool,
     form: CardFormat,
     card_law: CardLaw | None,
+    read_modulus_unit: str | None,
+    read_time_unit: str | None,
+    read_temperature_unit: str | None,
     **more: Any,
 ) -> None:
     """Write MATERIAL as a material card of another program to the file OUTPUT.
@@ -81,7 +92,13 @@ def command(
     if target is None or (output is not None and out is not None):
         raise click.UsageError("give the file to write, OUTPUT or --out, once.")
     refuse_to_overwrite([Path(rubber)], target)
-    material = find_rubber(rubber, "rubber")
+    units = {
+        "modulus_unit": read_modulus_unit,
+        "time_unit": read_time_unit,
+        "temperature_unit": read_temperature_unit,
+    }
+    with typed_as({name: f"read_{name}" for name in units}):
+        material = find_rubber(rubber, "rubber", **units)
     with warned() as notes:
         write_card(material, target, format=form, law=card_law, **more)
     if as_json:

@@ -65,11 +65,12 @@ SOFTEST = 1e4
 
 
 def give_units(names: Iterable[str]) -> Remedy:
-    """Return how the units of a card are given: only in Python, whose material file all others read."""
-    example = {"modulus_unit": "modulus_unit='MPa'", "time_unit": "time_unit='ms'"}
-    said = ", ".join(example[name] for name in names)
-    written = f"vf.write_card(vf.read_card('card.inp', {said}), 'rubber.json', format='json')"
-    return Remedy(f"with {said}", f"in Python, which makes a material file of the card: {written}")
+    """Return how the units of a card are given: commands, run files and the page read a material file made of it."""
+    example = {"modulus_unit": "MPa", "time_unit": "ms"}
+    said = ", ".join(f"{name}='{example[name]}'" for name in names)
+    typed = " ".join(f"--read-{name.replace('_', '-')} {example[name]}" for name in names)
+    made = f"by making a material file: viscofric material convert CARD rubber.json --format json {typed}"
+    return Remedy(f"with {said}", made, page=made)
 
 
 @dataclass(frozen=True)
