@@ -100,6 +100,28 @@ def test_a_contact_and_curves_of_contacts_note_frequencies_that_were_not_measure
     assert not vf.solve_steady(material, vf.Ball("10 mm"), speed=math.inf, load="1 N", accuracy=0.1).warnings
 
 
+def test_of_a_prony_series_without_a_measurement_friction_beyond_its_modes_is_marked() -> None:
+    prony = vf.RelaxationSpectrum(E0=1e6, E=[1e6, 1e6, 1e6], tau=[1e-4, 1e-3, 1e-2]).to_retardation()
+    ends = (1.0 / prony.tau.max(), 1e4)  # rad/s
+    ball, contact = vf.Ball("10 mm"), {"load": "1 N", "accuracy": 0.1}
+    speeds = (0.02, 1.0, 100.0)  # over 1.4 mm
+    contacts = [vf.solve_steady(vf.Material(prony), ball, speed=speed, **contact) for speed in speeds]
+    assert [[note.code for note in one.warnings] for one in contacts] == [["beyond-measured"], [], ["beyond-measured"]]
+    assert (contacts[0].warnings[0].values["low"], contacts[0].warnings[0].values["high"]) == pytest.approx(ends)
+    shifted = vf.Material(prony, shift=vf.WLF(C1=10.0, C2=100.0, reference="30 degC"))
+    curves = vf.predict_friction(shifted, ball, speeds=speeds, temperatures="30 degC", **contact)
+    assert curves.within_measured_frequencies.tolist() == [0.0, 1.0, 0.0]
+    assert codes(curves.notes) == {"frequencies-unknown", "beyond-measured"}
+    road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
+    fast = vf.solve_periodic(vf.Material(prony), road.to_surface(), speed="100 m/s", pressure="5 kPa")
+    theory = vf.persson_theory(
+        vf.Material(prony), vf.roughness.power_spectrum(road), speeds="100 m/s", pressure="5 kPa"
+    )
+    bounce = vf.motion.solve_impact(vf.Material(prony), vf.Ball("5 mm"), mass="4 kg", speed="1 mm/s", accuracy=1e-2)
+    for notes in (fast.warnings, theory.notes, bounce.warnings):
+        assert "beyond-measured" in codes(notes)
+
+
 def test_what_is_not_known_of_a_material_is_noted_in_every_result() -> None:
     law = vf.Arrhenius(activation_energy=1.286e5, reference="30 degC", fitted_range=(293.15, 313.15))
     material = vf.Material(vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").spectrum, shift=law)

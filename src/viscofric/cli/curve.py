@@ -183,4 +183,4 @@ def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
     click.echo(f"\nnumerical error  {percent(worst)} at most")
     if any(beyond):
-        click.echo("marked *         frequencies not measured")
+        click.echo("marked *         frequencies at which the material is not known")

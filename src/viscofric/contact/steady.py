@@ -431,6 +431,7 @@ def _beyond_measured(
 
     A table that extrapolates by itself was told to.
     """
-    if modes.fit is None or (not isinstance(known, RetardationSpectrum) and known.extrapolate != "refuse"):
+    frequencies = modes.known_frequencies
+    if frequencies is None or (not isinstance(known, RetardationSpectrum) and known.extrapolate != "refuse"):
         return ()
-    return modes.fit.beyond(abs(solution.speed) / (0.5 * (solution.front + solution.rear)))
+    return frequencies.beyond(abs(solution.speed) / (0.5 * (solution.front + solution.rear)))

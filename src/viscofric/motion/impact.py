@@ -301,9 +301,9 @@ class _Falling(NamedTuple):
                     f"gap, {1e6 * one.margin:.3g} µm, is within the errors of the solution."
                 )
                 notes.append(Note("rebound-not-certain", said, values={"gap": one.margin, "start": contact.start}))
-        fit = self.material.modes_at(temperature).fit
+        known = self.material.modes_at(temperature).known_frequencies
         lasting = np.array([one.contact_time for one in contacts])
-        beyond = () if fit is None else fit.beyond(np.pi / lasting, "frequency π over its duration")
+        beyond = () if known is None else known.beyond(np.pi / lasting, "frequency π over its duration")
         kelvin = None if temperature is None else to_si(temperature, "K", "temperature")
         # By Newton's law, independently of the springs: the loss of kinetic energy plus the work of gravity.
         work = 0.5 * self.mass * (velocity[0] ** 2 - velocity**2) + self.mass * self.gravity * (depth - depth[0])

@@ -415,8 +415,8 @@ def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note
     """Return a note where a motion is faster than its material was measured, also between the moments."""
     # Without sliding, also where it is slower.
     schedule, times = problem.schedule, [one.instant.time for one in moments]
-    fit = schedule.spectrum.fit
-    if fit is None or not moments:
+    known = schedule.spectrum.known_frequencies
+    if known is None or not moments:
         return ()
     velocities = [schedule.fastest(start, end) for start, end in pairwise([schedule.start, *times])]
     if not np.any(velocities):
@@ -426,7 +426,7 @@ def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note
         with np.errstate(divide="ignore"):
             rates = np.maximum(changes, 1.0 / since)
         # The first touch is always too quick, and of no consequence.
-        return fit.beyond(rates[load >= _LITTLE * load.max()], "rate of loading or 1/t after a jump")
+        return known.beyond(rates[load >= _LITTLE * load.max()], "rate of loading or 1/t after a jump")
     if isinstance(problem.indenter, PeriodicSurface):
         return _beyond_on_waves(problem, problem.indenter, moments, velocities)
     extents = [one.seen.extents for one in moments]
@@ -435,7 +435,7 @@ def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note
     )
     speed = np.hypot(*np.transpose(velocities))
     rate = np.divide(speed, half, out=np.zeros_like(half), where=half > 0.0)
-    return fit.beyond(np.where(rate > fit.frequency_range[1], rate, 0.0))
+    return known.beyond(np.where(rate > known.frequency_range[1], rate, 0.0))
 
 
 def _beyond_on_waves(

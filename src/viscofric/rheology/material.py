@@ -305,7 +305,9 @@ def unknown_frequencies(material: Material) -> tuple[Note, ...]:
     """Return a note on a spectrum whose measured frequencies are unknown; a table of moduli has its own."""
     if not isinstance(material.spectrum, RetardationSpectrum) or material.spectrum.fit is not None:
         return ()
-    said = "The measured frequency range of the material is unknown; extrapolation cannot be checked."
+    several = material.spectrum.known_frequencies is not None
+    taken = "those between its modes are taken for measured." if several else "extrapolation cannot be checked."
+    said = f"The frequencies at which the material was measured are unknown: {taken}"
     return (Note("frequencies-unknown", said),)
 
 

@@ -352,16 +352,16 @@ def _one_way(spectrum: PowerSpectrum) -> tuple[Note, ...]:
 
 def _beyond_measured(material: Material, found: PerssonTheory) -> tuple[Note, ...]:
     """Return a note where wave numbers q at frequencies qv that were not measured matter to the friction."""
-    fit = getattr(material.spectrum, "fit", None)
-    if fit is None:
+    known = getattr(material.spectrum, "known_frequencies", None)
+    if known is None:
         return ()
     frequency = found.speed[:, None] * found.wave_number
     if material.shift is not None and not np.isnan(found.temperature).any():
         frequency = frequency * material.shift(found.temperature[:, None, None] + found.temperature_rise_by_scale)
     parts = np.diff(found.friction_by_scale, axis=-1, prepend=0.0)
-    beyond = np.where(fit.covers(frequency), 0.0, parts).sum(axis=-1)
+    beyond = np.where(known.covers(frequency), 0.0, parts).sum(axis=-1)
     shares = np.divide(beyond, found.friction_coefficient, out=np.zeros_like(beyond), where=beyond > 0.0)
-    return counted([fit.beyond_part(share) for share in shares.ravel().tolist()], shares.ravel().tolist())
+    return counted([known.beyond_part(share) for share in shares.ravel().tolist()], shares.ravel().tolist())
 
 
 def _with_coulomb(

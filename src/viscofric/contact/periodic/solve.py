@@ -388,17 +388,17 @@ def beyond_measured(
 
     `waves`, Fourier coefficients of the pressure, are overwritten.
     """
-    fit = getattr(solid.spectrum, "fit", None)
-    if fit is None or friction == 0.0 or not all(map(math.isfinite, solid.velocity)):
+    known = getattr(solid.spectrum, "known_frequencies", None)
+    if known is None or friction == 0.0 or not all(map(math.isfinite, solid.velocity)):
         return ()
     qx, qy = wave_number(surface.shape, surface.spacing)
     frequency = np.abs(solid.velocity[0] * qx + solid.velocity[1] * qy)
-    measured = fit.covers(frequency)
+    measured = known.covers(frequency)
     if measured.all():
         return ()
     waves[measured] = 0.0
     share = abs(dissipation(transfer, surface.shape, surface.spacing, solid.toward, waves) / friction)
-    said: tuple[Note, ...] = fit.beyond_part(share)
+    said: tuple[Note, ...] = known.beyond_part(share)
     return said
 
 

@@ -33,8 +33,57 @@ WIDE_GAP = 1.1
 LARGEST_MISFIT = 0.05  # decades, rms of E' and of E''
 
 
+class KnownFrequencies:
+    """Angular frequencies at which a material is known, rad/s: a range with gaps."""
+
+    frequency_range: tuple[float, float]
+    gaps: tuple[tuple[float, float], ...] = ()
+
+    def covers(self, frequency: ArrayLike) -> Any:
+        """Whether each angular frequency is known, rad/s; the elastic limits, 0 and infinity, need no frequency."""
+        value = np.asarray(frequency, dtype=float)
+        return covers(self.frequency_range, value, self.gaps) | (value == 0.0) | np.isinf(value)
+
+    def beyond(self, frequency: ArrayLike, what: str = "frequency v/a") -> tuple[Note, ...]:
+        """Return a note on contacts whose frequency, one or (n,), rad/s, is not known; `what` it is."""
+        every = np.atleast_1d(np.asarray(frequency, dtype=float))
+        beyond = every[~self.covers(every)]
+        if not beyond.size:
+            return ()
+        first, last = float(beyond.min()), float(beyond.max())
+        at = "T" if every.size == 1 else f"At {beyond.size} of {every.size} points t"
+        subject = f"{at}he contact's {what}, {first:.3g}{'' if first == last else f' to {last:.3g}'} rad/s, lies"
+        return (self.beyond_note(subject, points=beyond.size, of=every.size, lowest=first, highest=last),)
+
+    def beyond_part(self, share: float) -> tuple[Note, ...]:
+        """Return a note on the part of a rough contact's friction at frequencies that are not known."""
+        if share <= _LITTLE:
+            return ()
+        return (
+            self.beyond_note(f"For {share:.0%} of the friction the frequencies 2πv/λ of the pressure lie", share=share),
+        )
+
+    def beyond_note(self, subject: str, **values: float) -> Note:
+        """Return the note on results at frequencies that are not known; `subject` begins its sentence."""
+        raise NotImplementedError
+
+
 @dataclass(frozen=True)
-class SpectrumFit(Shown):
+class FrequenciesOfModes(KnownFrequencies):
+    """Those of the modes of a spectrum whose measurement is unknown."""
+
+    frequency_range: tuple[float, float]
+
+    def beyond_note(self, subject: str, **values: float) -> Note:
+        """Return the note on results that are the tail of a single mode; `subject` begins its sentence."""
+        low, high = self.frequency_range
+        said = f"{subject} beyond those of the material's modes, {shown_range(self.frequency_range)}: the result there "
+        said += "is the tail of a single mode, and may be far from the truth."
+        return Note(BEYOND, said, values={**values, "low": low, "high": high})
+
+
+@dataclass(frozen=True)
+class SpectrumFit(KnownFrequencies, Shown):
     """Quality of the fit of a spectrum to a master curve.
 
     Parameters
@@ -121,35 +170,6 @@ class SpectrumFit(Shown):
             measured_storage=None if measured is None else (b * measured[0], b * measured[1]),
         )
 
-    def covers(self, frequency: ArrayLike) -> Any:
-        """Whether each angular frequency was measured, rad/s; the elastic limits, 0 and infinity, need no frequency."""
-        value = np.asarray(frequency, dtype=float)
-        return covers(self.frequency_range, value, self.gaps) | (value == 0.0) | np.isinf(value)
-
-    def beyond(self, frequency: ArrayLike, what: str = "frequency v/a") -> tuple[Note, ...]:
-        """Return a note on contacts whose frequency, one or (n,), rad/s, was not measured; `what` it is."""
-        every = np.atleast_1d(np.asarray(frequency, dtype=float))
-        beyond = every[~self.covers(every)]
-        if not beyond.size:
-            return ()
-        first, last = float(beyond.min()), float(beyond.max())
-        at = "T" if every.size == 1 else f"At {beyond.size} of {every.size} points t"
-        subject = f"{at}he contact's {what}, {first:.3g}{'' if first == last else f' to {last:.3g}'} rad/s, lies"
-        return (self.beyond_note(subject, points=beyond.size, of=every.size, lowest=first, highest=last),)
-
-    def beyond_part(self, share: float) -> tuple[Note, ...]:
-        """Return a note on the part of a rough contact's friction at frequencies that were not measured."""
-        if share <= _LITTLE:
-            return ()
-        return (
-            self.beyond_note(f"For {share:.0%} of the friction the frequencies 2πv/λ of the pressure lie", share=share),
-        )
-
-    def beyond_note(self, subject: str, **values: float) -> Note:
-        """Return the note on results at frequencies that were not measured; `subject` begins its sentence."""
-        known = "identified" if self.from_contact else "measured"
-        return beyond_note(self.frequency_range, subject, known, self.gaps, **values)
-
     @property
     def doubts(self) -> tuple[Note, ...]:
         """The notes that what was measured contradicts itself, or that the spectrum does not follow it."""
@@ -165,6 +185,11 @@ class SpectrumFit(Shown):
     def from_contact(self) -> bool:
         """Whether the spectrum was identified from friction or indentation, without a master curve."""
         return self.method in (FROM_FRICTION, FROM_INDENTATION)
+
+    def beyond_note(self, subject: str, **values: float) -> Note:
+        """Return the note on results at frequencies that were not measured; `subject` begins its sentence."""
+        known = "identified" if self.from_contact else "measured"
+        return beyond_note(self.frequency_range, subject, known, self.gaps, **values)
 
     @property
     def E0_remark(self) -> str:

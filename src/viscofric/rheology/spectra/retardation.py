@@ -15,11 +15,14 @@ from viscofric.data import MasterCurve
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, wrong_argument
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
-from viscofric.rheology.spectra.quality import SpectrumFit
-from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times
+from viscofric.rheology.spectra.quality import FrequenciesOfModes, KnownFrequencies, SpectrumFit
+from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times, mode_column
 from viscofric.showing import Items, Rows, rows_of
 from viscofric.step_tests import StepMasterCurve, step_columns
 from viscofric.units import Quantity, checked_modes, in_si, positive, to_si
+
+#: Modes of a measured rubber, rather than of a model of one process.
+_SEVERAL = 2
 
 #: Largest difference of 1/E_inf + ΣC from 1/E0, relative to 1/E0.
 BALANCE = 1e-6
@@ -257,6 +260,14 @@ class RetardationSpectrum(ModeSpectrum):
             attributes={} if self.fit is None else self.fit.step_misfit,
         )
         return curve.to_dataset().assign(columns.data_vars).assign_attrs(columns.attrs)
+
+    @property
+    def known_frequencies(self) -> KnownFrequencies | None:
+        """Frequencies at which the spectrum is known: of its measurement, or of several modes; else None."""
+        tau = self.tau[self.C > 0.0]
+        if self.fit is not None or len(tau) < _SEVERAL:
+            return self.fit
+        return FrequenciesOfModes((float(1.0 / tau.max()), float(1.0 / self.to_relaxation().tau.min())))
 
     def shifted(self, alpha: float, b: float = 1.0) -> RetardationSpectrum:
         """Return the spectrum at a temperature with shift factor α (and vertical shift b).
