@@ -80,6 +80,7 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     from viscofric.files import marked
     from viscofric.friction.curve_files import write_friction_curves
     from viscofric.friction.prediction import predict_friction
+    from viscofric.rheology.material import unknown_frequencies
 
     velocities = chosen_speeds(parameters)
     rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
@@ -102,7 +103,9 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     made_up = is_made_up(rubber, parameters)
     curves = replace(curves, source=marked(curves.source, synthetic=made_up))
     answer(lambda: _record(curves, rubber, shape, parameters), lambda: _print(name, rubber, curves))
-    print_notes(curves.notes)
+    of_material = unknown_frequencies(rubber.material)
+    print_notes(of_material)
+    print_notes([note for note in curves.notes if note not in of_material], word="Warning")  # of contacts, as `solve`
     write_files(
         ("curves", out, partial(write_friction_curves, curves)),
         ("picture", picture, drawing(_figure_of(curves), curves, mark=made_up)),
@@ -158,11 +161,11 @@ def _figure_of(curves: FrictionCurves) -> str:
 
 def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
     """Print a table of friction: a line for each speed, a column for each temperature."""
-    from viscofric.report.texts.numbers import percent, significant
+    from viscofric.report.texts.numbers import percent, prefixed, significant
     from viscofric.showing import aligned
     from viscofric.units import shown_celsius
 
-    click.echo(f"{name}{rubber.mark}, {significant(float(curves.load[0]), 4)} {curves.load_unit}\n")
+    click.echo(f"{name}{rubber.mark}, {prefixed(float(curves.load[0]), None, curves.load_unit)}\n")
     kelvins = list(dict.fromkeys(curves.temperature.tolist()))
     measured = curves.within_measured_frequencies
     beyond = [] if measured is None else [value == 0.0 for value in measured.tolist()]

@@ -30,6 +30,7 @@ from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.contact.settings import ContactSettings
 from viscofric.errors import InputError, brief
 from viscofric.heat.heating import Heating
+from viscofric.notes import Remedy
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
@@ -417,9 +418,12 @@ def _steady_material(
         return SteadyMaterial(glassy, none, none, counterface)
     if speed > LONGEST_MEMORY / max(spectrum.tau):
         raise InputError(
-            f"speed: the memory would be more than {LONGEST_MEMORY:g} contact radii long; give an infinite speed "
-            "(math.inf), at which the solid is elastic.",
+            f"speed: the memory would be more than {LONGEST_MEMORY:g} contact radii long, so that the solid is elastic "
+            "with its glassy modulus; ",
             code="too-fast",
+            remedy=Remedy(
+                "give an infinite speed (math.inf).", "give 'infinite' as the speed, or a warmer temperature."
+            ),
         )
     return SteadyMaterial(glassy, plane_strain * np.asarray(spectrum.C), speed * np.asarray(spectrum.tau), counterface)
 

@@ -275,8 +275,8 @@ def shear_stress(
     insist_on_curves(curves, "curves")
     if curves.coulomb is None or curves.coulomb_error is None:
         raise InputError(
-            "curves have no Coulomb friction with its standard error; separate() finds both from runs of both "
-            "directions of slip.",
+            "curves have no Coulomb friction with its standard error; both are found from runs of both directions of "
+            "slip.",
             code="no-coulomb",
         )
     insist_on(shift, "shift", ShiftLaw, type(None), right="a law (WLF, …), ShiftFactors or None")

@@ -153,6 +153,8 @@ def value_label(dataset: Dataset, name: str, value: object) -> str:
         return f"{short(math.degrees(number))}°"
     if unit == "m":
         return length(number)
+    if unit == "N/m":
+        return f"{short(number / 1e3)} N/mm"
     if unit in ("", "1"):
         return f"{_spoken(name)} {short(number)}"
     return f"{short(number)} {unit}"

@@ -266,7 +266,7 @@ def shifts_of(
         if reference is not None and abs(reference - only) > SAME_TEMPERATURE:
             wanted = f"reference = {shown_celsius(reference)} °C"
             raise InputError(
-                f"{wanted} was not measured, only {shown_celsius(only)} °C was; give shift=.",
+                f"{wanted} was not measured, only {shown_celsius(only)} °C was; give the shift factors.",
                 code="no-such-temperature",
             )
         return points, Shifts.unknown(points.temperatures, only)
@@ -312,14 +312,14 @@ def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputEr
     wanted = f"{shown_celsius(reference)} °C"
     if np.abs(points.temperatures - reference).min() > SAME_TEMPERATURE:
         return InputError(
-            f"reference = {wanted} was not measured, and α(T) is to be found; choose one of {shown} °C, and describe "
-            "the material at another with its at_reference().",
+            f"reference = {wanted} was not measured, and α(T) is to be found; choose one of {shown} °C: its shift "
+            "factors describe the material at another.",
             code="no-such-temperature",
         )
     why = "; ".join(f"{note[0].lower()}{note[1:-1]}" for note in found.notes if codes([note]) == {CURVE_LEFT_OUT})
     return InputError(
         f"reference = {wanted}: α(T) is to be found, and {why}; choose one of {shown} °C, give "
-        "shift=, or measure there over more speeds.",
+        "the shift factors, or measure there over more speeds.",
         code="no-such-temperature",
     )
 

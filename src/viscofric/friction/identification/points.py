@@ -74,7 +74,7 @@ def usable_points(
     if load is None and len(curves) and curves.load_unit != unit:
         raise InputError(
             f"load of the friction curves is in {curves.load_unit}, but a {indenter.noun} takes a load in {unit}; "
-            "give the indenter that was measured with, or load=.",
+            "give the indenter that was measured with, or the load.",
             code="load-unit",
         )
     notes: list[str] = []

@@ -92,7 +92,7 @@ class Shifts:
             raise InputError(
                 f"temperature = {shown_celsius(temperature)} °C of an anchor or prior lies outside those of the "
                 f"friction curves, {shown_celsius(float(low))} to {shown_celsius(float(high))} °C, so that its shift "
-                "factor is not found; give shift=, or one measured among them.",
+                "factor is not found; give the shift factors, or one measured among them.",
                 code="outside-measured",
             )
         return np.asarray(weights_between(self.temperatures, np.array([temperature]))[0])

@@ -378,7 +378,7 @@ def _deformation(readings: Sequence[Readings], given: Deformation | None) -> tup
     if given is not None and (given == "shear") != (kind == "shear"):
         raise DataFileError(
             first.source,
-            f"the header states {kind}{by}, but deformation={given!r} was requested.",
+            f"the header states {kind}{by}, but {given} was requested.",
             code="deformation-contradicts",
         )
     notes = [Note("deformation", f"The file's header states that the moduli were measured in {kind}{by}.")]

@@ -17,7 +17,7 @@ from viscofric.arguments import flag
 from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import read_bytes
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.readers.dma.instruments.eplexor import SHIFT_LIST, ShiftList, shift_list
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
@@ -291,12 +291,9 @@ def _falling(path: str, kelvin: Array, values: Array, inverse: bool) -> Array:
                 "the shift factors fall as the temperature rises already; leave out inverse=True.",
                 code="factors-fall",
             )
-        raise DataFileError(
-            path,
-            "the shift factors rise with temperature, but α must fall, E(ω, T) = E(α(T) ω, T0); flip the sign of the "
-            "logarithm, or give inverse=True.",
-            code="factors-rise",
-        )
+        rise = "the shift factors rise with temperature, but α must fall, E(ω, T) = E(α(T) ω, T0); flip the sign of "
+        remedy = Remedy("the logarithm, or give inverse=True.", "the logarithm in the file.")
+        raise DataFileError(path, Note("factors-rise", rise, remedy=remedy))
     return values
 
 

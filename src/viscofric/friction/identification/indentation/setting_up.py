@@ -190,8 +190,8 @@ def shifts_of(
     if reference is not None and abs(kelvin[nearest] - reference) > SAME_TEMPERATURE:
         measured = ", ".join(shown_celsius(float(one)) for one in kelvin)
         raise InputError(
-            f"reference = {shown_celsius(reference)} °C was not measured, only {measured} °C; give shift=, or describe "
-            "the material there with its at_reference().",
+            f"reference = {shown_celsius(reference)} °C was not measured, only {measured} °C; give the shift "
+            "factors, or choose one of these: its shift factors describe the material at another.",
             code="no-such-temperature",
             field="reference",
         )
