@@ -19,7 +19,7 @@ from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
-from viscofric.rheology.superposition.joined_isotherms import ranges
+from viscofric.rheology.superposition.joined_isotherms import LARGEST_MISFIT, ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.rheology.superposition.overlap import LogSweep, OverlapQuality, OwnShifts, own_shifts
 from viscofric.showing import Plotted, Rows, Shown
@@ -34,6 +34,9 @@ _DEGREE = ((8, 3), (5, 2), (2, 1))  # (points, degree)
 #: Number of segments of the curve for distances from it; their length causes an error below 1e-4 decades.
 _SEGMENTS = 40
 _KNOTS = np.linspace(-1.0, 1.0, _SEGMENTS + 1)
+#: Points are compared with an isotherm whose values of both quantities end this far from them at most; two sweeps whose
+#: moduli differ by more than half of it at every shift are not joined.
+FARTHEST = 2.0 * LARGEST_MISFIT  # decades
 #: Isotherms drift apart if at least this many neighbours lie to the same side of each other on the whole …
 RUN = 3
 #: … by more than this in sum, the difference of two isotherms that repeat to 0.02 decades …
@@ -171,8 +174,10 @@ def _distances(one: _Curve, other: _Curve) -> tuple[float, float, int]:
     nearest = np.argmin(np.sum(offset**2, axis=2), axis=1)
     each = np.arange(len(points))
     place = place[each, nearest]
-    # A foot beyond an end of the other curve: no comparison.
+    # A foot beyond an end of the other curve: no comparison. Nor of points far from all of it, to which the bend of a
+    # curve at its end may turn.
     beside = ~(((nearest == 0) & (place < 0.0)) | ((nearest == _SEGMENTS - 1) & (place > 1.0)))
+    beside &= np.all((points >= line.min(axis=0) - FARTHEST) & (points <= line.max(axis=0) + FARTHEST), axis=1)
     if np.count_nonzero(beside) < 2:
         return 0.0, 0.0, 0
     tangent = along[nearest] / np.sqrt(length[nearest])[:, None]
