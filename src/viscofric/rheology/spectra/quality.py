@@ -114,8 +114,8 @@ class SpectrumFit(KnownFrequencies, Shown):
     measured_storage : tuple of float or None
         Smallest and largest E' measured, Pa; None where they are not known.
     E_inf_at_limit : bool
-        Whether E_inf is the largest that the fit allows, 30 times the largest measured E': the sweeps do not reach it,
-        and it is no result.
+        Whether E_inf is the largest that the fit allows, 30 times the largest measured E': the measurement does not
+        reach it, and it is no result.
     E0_missed, E_inf_missed : bool
         Whether E0 lies above the softest measured E', or E_inf below the stiffest, by more than 5 %: the fit does not
         follow these points.
