@@ -55,6 +55,19 @@ def test_the_contact_that_is_solved_lies_between_its_bounds() -> None:
     assert 0.9 * size["smallest_radius"] < radius < size["largest_radius"]
 
 
+def test_inertia_counts_where_the_rubber_moves_a_fifth_as_fast_as_its_shear_waves() -> None:
+    """An elastic rubber, 3 MPa and 1000 kg/m³, of ν = ½ has shear waves of √(1000) = 31.6 m/s."""
+    spectrum = vf.RetardationSpectrum(E0="3 MPa", E_inf="3 MPa", C=[], tau=[])
+    material = vf.Material(spectrum, shift=vf.WLF(C1=10.0, C2=100.0, reference="30 degC"))
+    light = vf.ThermalProperties(0.28, 1000.0, 1700.0, "light rubber")
+    for speed, holds in ((7.0, True), (7.2, False)):  # the square of 1/31.6 of it is 0.049 and 0.0518
+        at_speed = friction_curves(np.array([0.1, speed]), np.full(2, 303.15), np.full(2, 0.01))
+        check = checks(material, BALL, at_speed, rubber=light)["quasi-static"]
+        assert (check.holds, check.values["speed"]) == (holds, speed)
+        assert check.value == pytest.approx(speed**2 / 1000.0)
+        assert check.values["wave_speed"] == pytest.approx(1000.0**0.5)
+
+
 def test_heat_beyond_any_shift_law_has_a_finite_effect() -> None:
     """Friction in wrong units heats by thousands of K, and α(T) falls by hundreds of decades."""
     huge = friction_curves(SPEED, KELVIN, np.full(4, 3e4))

@@ -211,6 +211,10 @@ def test_assumptions_say() -> None:
             "The strain of the rubber is 5.4 to 7.4 % (0.2 a/R, at 60 °C, 20 mm/s and 25 N), about the limit of linear "
             "contact theory, 6 %; filled rubber may soften above 0.1 % (Payne effect), which only a strain sweep shows."
         ),
+        "quasi-static": (
+            "Shear waves in the rubber run at 53 m/s (at |E(v/a)|, with 1150 kg/m³; at 60 °C, 200 mm/s and 25 N). "
+            "Inertia, which is left out, changes friction by about 0.0014 % there (good if ≤ 5 %)."
+        ),
         "one temperature": (
             "Coulomb heat is not included, as no Coulomb friction is known; the viscoelastic loss warms the face of "
             "the contact by 0.00056 K, and the rubber where the loss is released by 0.0022 K (at 30 °C, 20 mm/s and 25 "
@@ -248,7 +252,7 @@ def test_assumptions_say() -> None:
         (
             "13 mm",
             (
-                "Whether 13 mm of rubber can be taken as a half-space depends on the radius: solve the contact and "
+                "Whether 13 mm of rubber can be taken as a half-space depends on its size: solve the contact and "
                 "give contact_radius. With the estimate, friction on a bonded layer of 13 mm is about 4.5 % lower "
                 "than on the half-space, the indentation about 14 % smaller (at 30 °C, 20 mm/s and 25 N)."
             ),

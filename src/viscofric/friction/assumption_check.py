@@ -29,7 +29,7 @@ class AssumptionCheck(Shown, Check):
     Attributes
     ----------
     name : str
-        "half-space", "small contact", "linearity", "uncoupled" or "one temperature".
+        "half-space", "small contact", "linearity", "uncoupled", "quasi-static" or "one temperature".
     value : float or None
         The number compared with the limit, an upper bound; None where something needed was not given.
     limit : float
@@ -132,7 +132,8 @@ class Place(NamedTuple):
         return {"temperature": self.temperature, "speed": self.speed, "load": self.load}
 
     def __str__(self) -> str:
-        load = f"{plain(self.load, 3)} {self.load_unit}"
+        line = self.load_unit == "N/m"
+        load = f"{plain(1e-3 * self.load, 3)} N/mm" if line else f"{plain(self.load, 3)} {self.load_unit}"
         return f"at {shown_celsius(self.temperature, 'z.0f')} °C, {shown_speed(self.speed, 3)} and {load}"
 
 
@@ -150,7 +151,7 @@ def modes_by_temperature(material: Material) -> Callable[[float], RetardationSpe
 class ContactSize:
     """Size of one contact, as solved or between two of Hertz's."""
 
-    smallest: float  # m, limits of its radius; the same where it was solved
+    smallest: float  # m, limits of its radius, of a line contact half its width; the same where it was solved
     largest: float  # m
     relaxed: float  # m, Hertz's radius at the relaxed modulus E0, of a round contact: none is larger
     curvature: float  # 1/m, of the equivalent paraboloid
@@ -190,14 +191,19 @@ class ContactSize:
         return cls(radius, scale.length, scale.length, curvature, where)
 
     @property
+    def measure(self) -> str:
+        """What the size is called."""
+        return "half width of the contact" if self.where.load_unit == "N/m" else "contact radius"
+
+    @property
     def values(self) -> dict[str, float]:
         """Limits of the radius, m, and the place."""
         return {"smallest_radius": self.smallest, "largest_radius": self.largest, **self.where.values}
 
     def __str__(self) -> str:
         if self.smallest == self.largest:
-            return f"The contact radius is {1e3 * self.largest:.2g} mm ({self.where})"
+            return f"The {self.measure} is {1e3 * self.largest:.2g} mm ({self.where})"
         return (
-            f"The contact radius is about {1e3 * self.smallest:.2g} and at most {1e3 * self.largest:.2g} mm "
+            f"The {self.measure} is about {1e3 * self.smallest:.2g} and at most {1e3 * self.largest:.2g} mm "
             f"(Hertz's at |E(v/a)| and at the relaxed modulus, {self.where})"
         )

@@ -1,4 +1,4 @@
-"""Check of the assumptions behind predicted friction: half-space, small strain, no coupling, one temperature."""
+"""Check of the assumptions behind predicted friction: half-space, small strain, no coupling or inertia, isothermal."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from viscofric.arrays import Array
 from viscofric.contact.bodies import Layer
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
-from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, Place, verdict
+from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, Place, modes_by_temperature, verdict
 from viscofric.friction.coulomb import check_coupling
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.finite_thickness import check_half_space
@@ -18,7 +18,7 @@ from viscofric.heat.result import HeatColumns
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.thermal import BODIES, FILLED_RUBBER, PTFE, ThermalProperties
-from viscofric.units import Quantities, Quantity, plain, positive, to_si_array
+from viscofric.units import Quantities, Quantity, plain, positive, to_si, to_si_array
 
 #: Representative strain under a ball over a/R (D. Tabor, The Hardness of Metals (1951); K. L. Johnson, Contact
 #: Mechanics (1985), section 6.3).
@@ -77,6 +77,8 @@ def check_assumptions(
         - "linearity": representative strain 0.2 a/R, at most that of the limit above, 6 %.
         - "uncoupled", where Coulomb friction is known: estimated change of friction by its shear, over viscoelastic
           friction, at most 5 %.  It vanishes on a half-space of ν = ½ only.
+        - "quasi-static": square of the speed over that of shear waves in the rubber, √(|E(v/a)|/(2(1+ν)ρ)), which is
+          about the relative change of friction by inertia, at most 5 %.
         - "one temperature": relative change of friction by its own heat, at most 5 %; unknown where the face of the
           contact is warm enough for more, and the rubber below is not.  It holds for curves predicted with heating.
 
@@ -112,6 +114,7 @@ def check_assumptions(
     half-space True
     small contact True
     linearity True
+    quasi-static True
     one temperature True
     """
     insist_on_curves(curves, "curves")
@@ -140,6 +143,7 @@ def check_assumptions(
         _small_contact(steepest, indenter.noun),
         _linearity(steepest),
         *(() if coupled is None else (coupled,)),
+        _quasi_static(material, sizes, rubber),
         isothermal,
     )
 
@@ -180,6 +184,30 @@ def _linearity(size: ContactSize) -> AssumptionCheck:
         values={"lowest": low, "highest": high, **size.where.values},
     )
     return AssumptionCheck.of("linearity", holds, sentence, high, limit)
+
+
+def _quasi_static(material: Material, sizes: list[ContactSize], rubber: ThermalProperties) -> AssumptionCheck:
+    """Return the check of the speed against that of shear waves, by K. L. Johnson, Contact Mechanics, section 11.3."""
+    modes_at, density = modes_by_temperature(material), to_si(rubber.density, "kg/m^3", "density")
+
+    def waves(size: ContactSize) -> float:
+        where = size.where
+        modulus = abs(complex(modes_at(where.temperature).complex_modulus(where.speed / size.smallest)))
+        return float(np.sqrt(modulus / (2.0 * (1.0 + material.poisson_ratio) * density)))
+
+    speeds = [waves(size) for size in sizes]
+    parts = [(size.where.speed / one) ** 2 for size, one in zip(sizes, speeds, strict=True)]
+    row = int(np.argmax(parts))
+    where = sizes[row].where
+    holds = parts[row] <= CHANGE
+    sentence = Note(
+        "quasi-static",
+        f"Shear waves in the rubber run at {plain(speeds[row], 2)} m/s (at |E(v/a)|, with {density:.4g} kg/m³; "
+        f"{where}). Inertia, which is left out, changes friction by about {plain(100.0 * parts[row], 2)} % there "
+        f"(good if ≤ {100.0 * CHANGE:.0f} %){'.' if holds else '; at lower speeds it does not matter.'}",
+        values={"wave_speed": speeds[row], "change": parts[row], "density": density, **where.values},
+    )
+    return AssumptionCheck.of("quasi-static", holds, sentence, parts[row], CHANGE)
 
 
 def _heated(curves: HeatColumns) -> AssumptionCheck:

@@ -223,7 +223,8 @@ def check_half_space(
     enough = worst.thickness_for(passes)
     limit = min(1.0 / THICK, widest.largest / enough)
     there = "" if str(where) == str(widest.where) else f" ({where})"
-    radii, percent = f"{THICK:.0f} contact radii ({1e3 * THICK * widest.largest:.2g} mm)", f"{100.0 * passes:.0f} %"
+    several = "half widths" if worst.line else "contact radii"
+    radii, percent = f"{THICK:.0f} {several} ({1e3 * THICK * widest.largest:.2g} mm)", f"{100.0 * passes:.0f} %"
     # lengths in m, changes from the half-space to a bonded layer as parts of the values there
     values: dict[str, float | None] = {
         **widest.values,
@@ -255,7 +256,7 @@ def check_half_space(
             ),
             None: Note(
                 "radius-not-known",
-                f"{widest}. Whether {rubber} can be taken as a half-space depends on the radius: solve the contact "
+                f"{widest}. Whether {rubber} can be taken as a half-space depends on its size: solve the contact "
                 f"and give contact_radius. With the estimate, {felt}.",
                 values=values,
             ),
@@ -278,7 +279,8 @@ def check_half_space(
 def _effect(effect: ThicknessEffect, thickness: float, worst: ContactOnLayers) -> str:
     """Return the change on a bonded layer in words."""
     if thickness < THINNEST * worst.radius:
-        return "it is thinner than the contact radius, and such a layer behaves quite differently from a half-space"
+        size = "half the contact's width" if worst.line else "the contact radius"
+        return f"it is thinner than {size}, and such a layer behaves quite differently from a half-space"
     friction = f"friction on a bonded layer of {_mm(thickness)} is {_change(effect.friction, 'lower', 'higher')}"
     if worst.line:
         return f"{friction} than on the half-space; the indentation of a line contact cannot be compared with it"

@@ -168,6 +168,7 @@ _ASSUMPTIONS = {
     "half-space": "Half-space",
     "linearity": "Linear viscoelasticity",
     "uncoupled": "Pressure independent of shear",
+    "quasi-static": "No inertia",
     "one temperature": "Isothermal",
 }
 
