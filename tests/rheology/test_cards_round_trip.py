@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from refusals import refused
 from viscofric.errors import DataFileError
-from viscofric.notes import Note, codes, warned
+from viscofric.notes import Note, Remedy, codes, warned
 from viscofric.rheology.cards import open_card, read_card, write_card
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.material import Material
@@ -408,4 +408,21 @@ def test_broken_json_is_refused(tmp_path):
         read_card(path)
     path.write_text('{"format": "viscofric material", "poisson_ratio": NaN}')
     with refused("damaged", DataFileError):
+        read_card(path)
+
+
+def test_material_files_keep_what_notes_advise_each_reader(tmp_path):
+    advice = Note("few-points", "Few points; ", remedy=Remedy("give more=.", "give --more."), values={"points": 3})
+    fit = SpectrumFit(None, None, False, False, (1.0, 1e3), notes=(advice, "A sentence alone."))
+    solid = Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
+    path = write_card(replace(solid, spectrum=replace(solid.spectrum, fit=fit)), tmp_path / "r.json", format="json")
+    first, second = read_card(path).spectrum.fit.notes
+    assert (first.record(), second) == (advice.record(), "A sentence alone.")
+    content = json.loads(path.read_text(encoding="utf-8"))
+    content["fit"]["notes"] = ["As files were written so far."]
+    path.write_text(json.dumps(content), encoding="utf-8")
+    assert read_card(path).spectrum.fit.notes == ("As files were written so far.",)
+    content["fit"]["notes"] = [{"text": "without a code"}, 3]
+    path.write_text(json.dumps(content), encoding="utf-8")
+    with refused("wrong-notes", DataFileError):
         read_card(path)

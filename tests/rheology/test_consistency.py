@@ -10,7 +10,7 @@ import pytest
 import viscofric as vf
 from rheology.planted import planted_sweeps, synthetic_polymer
 from viscofric.data import Isotherm, IsothermalSweeps
-from viscofric.notes import READERS, codes
+from viscofric.notes import READERS, codes, notes_in
 from viscofric.rheology.superposition.consistency import NeighbourDistance, drift, neighbour_distances
 from viscofric.rheology.superposition.result import check_superposition
 
@@ -126,6 +126,11 @@ def test_isotherms_that_drift_to_one_side_make_superposition_doubtful():
     assert codes(check.sentences[:-1]) == {"superposition-doubtful"}
     remedy = check.sentences[0].remedy
     assert len({remedy.words(reader) for reader in READERS}) == len(READERS)
+    # The data set that results store has the words for every reader, too.
+    stored = notes_in(check.to_dataset().attrs, "sentence_records")
+    assert [[one.words(reader) for reader in READERS] for one in stored[:1]] == [
+        [check.sentences[0].words(reader) for reader in READERS]
+    ]
     assert abs(check.drift.distance) > 6.0 * check.drift.standard_error
     # The errors of α hold what the vertical shift would change: the two models do not contradict each other, …
     mended = vf.superpose(measured, "30 degC", vertical="free")

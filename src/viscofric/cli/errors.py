@@ -156,12 +156,13 @@ def _typed(parameter: click.Parameter) -> str:
 
 def print_doubtful_checks(tree: DataTree, but: Iterable[str] = ()) -> None:
     """Print every check of results that did not pass, but for these, as a warning; the report has them all."""
+    from viscofric.notes import note_of
     from viscofric.report.texts.checks import all_checks
 
     left_out = tuple(but)
     for check in all_checks(tree):
         if check.verdict in ("warning", "failed") and not check.name.startswith(left_out):
-            click.echo(f"Warning: {check.name}: {check.sentence}", err=True)
+            click.echo(f"Warning: {check.name}: {note_of(check.sentence).words('shell')}", err=True)
 
 
 def print_notes(notes: Iterable[str], reader: Reader = "shell", *, word: str = "Note") -> None:

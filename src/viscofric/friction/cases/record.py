@@ -21,7 +21,7 @@ from viscofric.errors import InputError, ViscofricError
 from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note, codes, counted, note_of, records
 from viscofric.rheology.material import EXTRAPOLATED, Material, unknown_frequencies
-from viscofric.rheology.spectra.quality import BEYOND, DOUBTS, KnownFrequencies, SpectrumFit
+from viscofric.rheology.spectra.quality import BEYOND, DOUBTS, KnownFrequencies
 from viscofric.roughness.patches import contact_statistics
 from viscofric.units import shown_number
 

@@ -14,7 +14,7 @@ from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.datasets import Dataset, DataTree
 from viscofric.friction.assumption_check import assumption_checks_of
 from viscofric.friction.intervals import consistency_check
-from viscofric.notes import Note, notes_in
+from viscofric.notes import Note, by_reader, notes_in
 from viscofric.report.results import (
     SAME_TEMPERATURE,
     group,
@@ -26,7 +26,6 @@ from viscofric.report.results import (
     numbers,
     reach,
     rubbers,
-    sentences,
     values,
 )
 from viscofric.report.sweeps import solved_cases
@@ -112,7 +111,9 @@ def _superposition(tree: DataTree) -> Iterator[Check]:
     yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
     whole = group(tree, "superposition")
     if whole is not None:
-        words = " ".join(sentences(whole.attrs, "sentences"))
+        said = notes_in(whole.attrs, "sentence_records" if "sentence_records" in whole.attrs else "sentences")
+        code = said[0].code if said else ""
+        words = Note(code, "", remedy=by_reader(lambda reader: " ".join(one.words(reader) for one in said)))
         holds, roughly = (number(whole.attrs, name) == 1.0 for name in ("holds", "roughly"))
         fails = whole.attrs.get("verdict", "roughly" if roughly else "fails") == "fails"
         yield Check("Superposition", "passed" if holds else "failed" if fails else "warning", words)

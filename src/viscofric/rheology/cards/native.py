@@ -14,7 +14,7 @@ import numpy as np
 from viscofric import datasets
 from viscofric.errors import InputError, wrong_argument
 from viscofric.files import parse_json
-from viscofric.notes import Note, Remedy, note_of
+from viscofric.notes import Note, Remedy, dumped, note_of, records
 from viscofric.rheology.cards.card import Solid, Writing, card_law
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
@@ -107,16 +107,30 @@ def about(material: Material) -> dict[str, Any]:
             ("poisson_ratio", material.poisson_ratio),
             ("shift", plain(material.shift)),
             ("vertical_shift", plain(material.vertical_shift)),
-            ("fit", plain(getattr(material.spectrum, "fit", None))),
+            ("fit", _plain_fit(getattr(material.spectrum, "fit", None))),
         )
         if content not in (None, "")
     }
 
 
+def _plain_fit(fit: SpectrumFit | None) -> Any:
+    """Return the fit of a spectrum as plain values, its notes with their remedies for all readers."""
+    return None if fit is None else {**plain(fit), "notes": json.loads(dumped(records(fit.notes)))}
+
+
+def _fit_of(value: Any) -> SpectrumFit:
+    """Return the fit of `_plain_fit`; its notes may also be sentences."""
+    fit: SpectrumFit = restored(value, (SpectrumFit,), "fit")
+    try:
+        return replace(fit, notes=tuple(map(note_of, fit.notes)))
+    except (AttributeError, KeyError, TypeError):
+        raise InputError("fit has notes that are no sentences with codes.", code="wrong-notes") from None
+
+
 def assembled(spectrum: RetardationSpectrum | ModulusTable, about: dict[str, Any]) -> Material:
     """Return the material of a spectrum and of the values from `about`."""
     if about.get("fit") is not None and isinstance(spectrum, RetardationSpectrum):
-        fit = restored(about["fit"], (SpectrumFit,), "fit")
+        fit = _fit_of(about["fit"])
         spectrum = RetardationSpectrum(spectrum.E0, spectrum.E_inf, spectrum.C, spectrum.tau, fit)
     return Material(
         spectrum,

@@ -16,7 +16,7 @@ from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, wrong_argument
 from viscofric.rheology.spectra.interconversion import reciprocal_modes
 from viscofric.rheology.spectra.quality import FrequenciesOfModes, KnownFrequencies, SpectrumFit
-from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times, mode_column
+from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times
 from viscofric.showing import Items, Rows, rows_of
 from viscofric.step_tests import StepMasterCurve, step_columns
 from viscofric.units import Quantity, checked_modes, in_si, positive, to_si

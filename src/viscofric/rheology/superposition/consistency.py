@@ -15,7 +15,7 @@ from viscofric.arrays import Array
 from viscofric.data import Isotherm, MasterCurve
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
-from viscofric.notes import Note, Remedy, note_of
+from viscofric.notes import Note, Remedy, dumped, note_of, records
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
@@ -256,6 +256,7 @@ class Judged(Shown):
                 "roughly": int(self.roughly),
                 "figure_of_merit": self.figure_of_merit,
                 "sentences": json.dumps(list(sentences), ensure_ascii=False),
+                "sentence_records": dumped(records(sentences)),
                 **more,
             },
         )
