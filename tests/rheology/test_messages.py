@@ -169,7 +169,7 @@ SAID = [
         lambda: SOLID.at("60 degC"),
         "no-shift",
         (
-            "temperature = '60 degC': this material has no shift, so its temperature cannot be chosen; give "
+            "temperature: this material has no shift, so its temperature cannot be chosen; give "
             "Material(spectrum, shift=WLF(…)) or leave out temperature."
         ),
     ),

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from viscofric.arguments import flag, insist_on, text
 from viscofric.arrays import ComplexArray
 from viscofric.datasets import Dataset
-from viscofric.errors import InputError, brief
+from viscofric.errors import InputError
 from viscofric.notes import Note, Remedy, without
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_law import in_kelvin
@@ -180,8 +180,7 @@ class Material(Plotted):
             return spectrum
         if self.shift is None:
             raise InputError(
-                f"temperature = {brief(temperature)}: this material has no shift, so its temperature cannot be "
-                "chosen; ",
+                "temperature: this material has no shift, so its temperature cannot be chosen; ",
                 code="no-shift",
                 remedy=Remedy(
                     "give Material(spectrum, shift=WLF(…)) or ",
