@@ -146,6 +146,15 @@ def test_the_best_law_is_the_one_that_was_planted(sweeps: Path) -> None:
     assert isinstance(made.material.shift, vf.WLF)
 
 
+def test_a_law_far_from_the_factors_is_noted_in_the_material_file(sweeps: Path, tmp_path: Path) -> None:
+    # Planted with WLF from 40 K below the reference, where an Arrhenius law is off by decades.
+    for law, noted in (("wlf", set()), ("arrhenius", {"law-misfit"}), ("measured", set())):
+        made = rubber(dma=str(sweeps), shift=law, **REFERENCE)
+        again = vf.read_card(vf.write_card(made.material, tmp_path / "rubber.json", format="json"))
+        assert codes(again.spectrum.fit.notes) & {"law-misfit"} == noted
+        assert "law-misfit" not in codes(made.notes)  # the check of the fit says it there
+
+
 def test_a_file_that_is_missing_is_named_once(sweeps: Path) -> None:
     with refused("no-file", DataFileError, naming="such.csv"):
         rubber(dma=str(sweeps), shift_factors="no such.csv", **REFERENCE)

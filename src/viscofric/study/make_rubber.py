@@ -25,6 +25,7 @@ from viscofric.rheology.material import Material
 from viscofric.rheology.ramps.superpose import RampLaw, assumed_of, superpose_ramps
 from viscofric.rheology.shifts.law_comparison import LawComparison
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+from viscofric.rheology.shifts.parametric_law import law_misfit
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_files import read_shift_factors
 from viscofric.rheology.shifts.shift_law import NOMINAL
@@ -40,7 +41,7 @@ from viscofric.study.at_strain import at_strain
 from viscofric.study.rubber import Rubber
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.tables import with_options
-from viscofric.units import kelvin_hint, shown_celsius
+from viscofric.units import kelvin_hint, plain, shown_celsius
 
 
 def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
@@ -109,6 +110,9 @@ def _from_step_tests(table: MaterialTable) -> Rubber:
         fit = superpose(tests, _reference(table), **_alone(table))
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
         spectrum = fit_retardation_spectrum(fit, tau_ratio=table.tau_ratio, method=table.spectrum, modes=table.modes)
+        if spectrum.fit is not None:
+            off = _off(shift, fit.shift_factors)
+            spectrum = replace(spectrum, fit=replace(spectrum.fit, notes=(*off, *spectrum.fit.notes)))
     return Rubber(
         _material(table, spectrum, shift, fit.vertical_shift),
         step_tests=tests,
@@ -175,7 +179,7 @@ def _from_both(table: MaterialTable, liquids: bool) -> Rubber:
     fit, step_fit = joint.parts
     assert isinstance(fit, Superposition)
     assert isinstance(step_fit, StepSuperposition)
-    spectrum, flowing = _spectrum(table, joint, (), liquids)
+    spectrum, flowing = _spectrum(table, joint, _off(shift, joint.shift_factors), liquids)
     return Rubber(
         _material(table, spectrum, shift, joint.vertical_shift),
         sweeps=sweeps,
@@ -203,7 +207,7 @@ def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
     with _errors_of(table.dma or ()):
         fit = superpose(sweeps, _reference(table), by=table.shift_by, weights=table.shift_weights, **_alone(table))
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
-    spectrum, flowing = _spectrum(table, fit, (), liquids)
+    spectrum, flowing = _spectrum(table, fit, _off(shift, fit.shift_factors), liquids)
     return Rubber(
         _material(table, spectrum, shift, fit.vertical_shift),
         sweeps=sweeps,
@@ -255,11 +259,12 @@ def _from_master_curve(table: MaterialTable, path: Path, liquids: bool) -> Rubbe
 
 def _from_curve(table: MaterialTable, curve: MasterCurve | StepMasterCurve, liquids: bool) -> Rubber:
     shift: ShiftLaw | None = None
-    laws, used = None, ""
+    laws, used, off = None, "", ()
     if table.shift_factors is not None:
         factors = _given_factors(table, table.shift_factors, curve.reference)
         shift, laws, used = _law_or_table(table.shift, factors)
-    spectrum, flowing = _spectrum(table, curve, (), liquids)
+        off = _off(shift, factors)
+    spectrum, flowing = _spectrum(table, curve, off, liquids)
     notes = (*flowing, *_undecided(laws, table.shift))
     return Rubber(_material(table, spectrum, shift), laws=laws, shift_used=used, notes=notes)
 
@@ -290,6 +295,17 @@ def _spectrum(
     if spectrum.fit is None or not verdict:
         return spectrum, ()
     return replace(spectrum, fit=replace(spectrum.fit, notes=(*verdict, *spectrum.fit.notes))), ()
+
+
+def _off(law: ShiftLaw | None, factors: ShiftFactors) -> tuple[Note, ...]:
+    """Return a note, which stays with the spectrum, on a law that is used though it lies far from the factors."""
+    if not isinstance(law, ParametricLaw):
+        return ()
+    misfit = law_misfit(law, factors.temperatures, factors.log10_values)
+    if misfit["misfit_holds"]:
+        return ()
+    said = f"The shift factors lie {plain(misfit['rms'], 2)} decades (rms) from the law that is used "
+    return (Note("law-misfit", f"{said}(good if ≤ {misfit['misfit_limit']:g}).", values={"rms": misfit["rms"]}),)
 
 
 def _alone(table: MaterialTable) -> dict[str, Any]:
