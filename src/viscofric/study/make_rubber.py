@@ -259,7 +259,8 @@ def _from_master_curve(table: MaterialTable, path: Path, liquids: bool) -> Rubbe
 
 def _from_curve(table: MaterialTable, curve: MasterCurve | StepMasterCurve, liquids: bool) -> Rubber:
     shift: ShiftLaw | None = None
-    laws, used, off = None, "", ()
+    off: tuple[Note, ...] = ()
+    laws, used = None, ""
     if table.shift_factors is not None:
         factors = _given_factors(table, table.shift_factors, curve.reference)
         shift, laws, used = _law_or_table(table.shift, factors)
