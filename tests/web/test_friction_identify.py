@@ -82,6 +82,7 @@ def test_progress_runs_from_begin_to_end(identified: dict[str, Any], heard: list
 
 def test_the_rubber_can_be_fetched(context: Context, identified: dict[str, Any]) -> None:
     rubber = vf.read_card(context.downloads / identified["download"])
+    assert rubber.synthetic == identified["from_synthetic"]
     modulus = identified["modulus"]
     found = np.asarray(rubber.complex_modulus(np.array(modulus["angular_frequency"])))
     np.testing.assert_allclose(found.real, modulus["storage_modulus"], rtol=1e-4)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
@@ -80,13 +81,13 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         progress=report,
         **chosen,
     )
-    reply = _reply(found, curves, rubber if options.beside else None, anchor, context)
     made_up = measured(study, context).synthetic
     of_rubber = made is not None and (made.synthetic or study.get("data_origin") == "synthetic")
-    about = {
-        "temperature": _temperatures(study, found.material, context),
-        "from_synthetic": made_up or (leans and of_rubber),
-    }
+    from_synthetic = made_up or (leans and of_rubber)
+    material = replace(found.material, synthetic=from_synthetic)
+    write_card(material, context.downloads / _DOWNLOAD, format="json")
+    reply = _reply(found, curves, rubber if options.beside else None, anchor)
+    about = {"temperature": _temperatures(study, material, context), "from_synthetic": from_synthetic}
     numbers: dict[str, Any] = plain(reply | about)
     view = identified_view(
         numbers, plain(measured_points(curves)), synthetic=made_up or (None if options.beside else False)
@@ -120,9 +121,8 @@ def _poisson_ratio(study: dict[str, Any], rubber: Material | None) -> float:
 
 
 def _reply(
-    found: IdentifiedMaterial, curves: FrictionCurves, rubber: Material | None, anchor: Anchor | None, context: Context
+    found: IdentifiedMaterial, curves: FrictionCurves, rubber: Material | None, anchor: Anchor | None
 ) -> dict[str, Any]:
-    write_card(found.material, context.downloads / _DOWNLOAD, format="json")
     modulus, factors = record(found.to_dataset(), _DIGITS), found.shift_dataset()
     at = None
     if anchor is not None and hasattr(anchor, "modulus"):
