@@ -83,7 +83,12 @@ rubber_options = together(
     ),
     key("material.deformation", condition=_WITH_DMA),
     key("material.modulus_unit", metavar="UNIT", condition=_WITH_DMA),
-    key("material.leave_out_temperatures", metavar="T", multiple=True, condition=_WITH_DMA),
+    key(
+        "material.leave_out_temperatures",
+        metavar="T",
+        multiple=True,
+        help="With --dma: isotherms to leave out, e.g. '60 degC'; repeatable.",
+    ),
     column_options("'frequency=f in Hz'", condition=_WITH_DMA),
     click.option("--synthetic", is_flag=True, help="With --dma: the data are synthetic, and no remark (#) says so."),
     click.option(
