@@ -310,3 +310,12 @@ def test_a_smooth_spectrum_of_the_acrylic_adhesive_keeps_to_its_data(real_data, 
     # smooth curve follows.
     assert spectrum.fit.rms_storage < 0.013
     assert spectrum.fit.rms_loss < 0.025
+
+
+def test_columns_are_those_of_the_times_though_they_change_in_place() -> None:
+    omega = np.geomspace(1.0, 1e3, 5)
+    misfit, tau = ModulusMisfit(omega, 1e6 * (1.0 + 1j * omega)), np.array([0.1, 1.0])
+    assert misfit.columns(tau[:0]).tolist() == [[1.0]] * len(omega)  # a glass alone
+    for factor in (1.0, 3.0):
+        tau *= factor
+        assert misfit.columns(tau)[:, 1:] == pytest.approx(1.0 / (1.0 + 1j * np.multiply.outer(omega, tau)), rel=1e-12)
