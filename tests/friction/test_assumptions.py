@@ -219,8 +219,8 @@ def test_a_maximum_on_the_way_is_seen() -> None:
     mode = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
     rubber, ball, n = replace(mode, shift=RUBBER.shift), vf.Ball(radius="10 mm"), 41
     made = friction_curves(np.geomspace(0.1, 10.0, n), np.full(n, 303.15), np.full(n, 0.05), load=5.0)
-    change = warming._change(rubber, ball, made, np.full(n, 0.4))
-    small = warming._change(rubber, ball, made, np.full(n, 1e-3))
+    change = warming._change(rubber, ball, made, np.full(n, 0.4), {})
+    small = warming._change(rubber, ball, made, np.full(n, 1e-3), {})
     assert small.min() < 1e-4  # the maximum is among them
     assert change.min() > 0.01
 
