@@ -161,14 +161,15 @@ def _settled(before: Array, after: Array) -> bool:
     return bool(np.all(np.abs(np.log(after / before)) < SETTLED))
 
 
-def scatter_of(squares: float, freedom: float, larger: Array, distances: Array) -> float:
+def scatter_of(squares: float, freedom: float, larger: Array, distances: Array | None = None) -> float:
     """Return the factor of variances from the sum of squared residuals with weights, and their freedom.
 
-    `larger` (n,) are the factors of single points, `distances` (n,) their squared distances over their variances.
+    `larger` (n,) are the factors of single points, `distances` (n,) their squared distances over their variances, if
+    they are those from one curve.
     """
     mean = squares / (MEAN_SQUARE * max(freedom - np.count_nonzero(larger >= LEFT_OUT), 1.0))
     # As many outliers as a fifth of the freedom would make it grow without limit.
-    median = float(np.median(distances))
+    median = 0.0 if distances is None else float(np.median(distances))
     return min(mean, MOST_OVER_MEDIAN * median) if median > 0.0 else mean
 
 

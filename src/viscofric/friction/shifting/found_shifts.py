@@ -175,7 +175,6 @@ def _fit(
     """Fit log10 α (n,) of all isotherms from a start, and its covariance; points far from the curve count less."""
     ends = np.cumsum([len(isotherm) for isotherm in chosen])[:-1]
     counted, values = list(chosen), start
-    of_own_curves = np.concatenate([isotherm.larger for isotherm in chosen])
 
     def fit(larger: Array, _: float) -> tuple[Array, Array, float]:
         nonlocal counted, values
@@ -188,7 +187,7 @@ def _fit(
         freedom, away = curves.freedom - len(chosen) + 1.0, distances(curves, larger)
         return covariance, away / scatter_of(float(np.sum(curves.residual**2)), freedom, larger, away), 1.0
 
-    covariance, _, _ = with_tails(np.where(of_own_curves < LEFT_OUT, 1.0, LEFT_OUT), fit)
+    covariance, _, _ = with_tails(np.ones(sum(map(len, chosen))), fit)
     return counted, values, TAILS_COST / MEAN_SQUARE * covariance
 
 

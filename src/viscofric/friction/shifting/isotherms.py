@@ -37,6 +37,8 @@ _FEWEST_FOR_SCATTER, _FEWEST_ABOUT_PARABOLA = 3, 5
 #: Number of parabolas through three points that are tried, and least distance of outliers from the best, in standard
 #: deviations and in decades.
 _PARABOLAS, _FAR, _OFF_PARABOLA = 200, 4.0, 0.06
+#: Factor by which a variance is far less.
+_FAR_LESS = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +138,11 @@ def _with_tails(isotherms: list[FrictionIsotherm]) -> list[FrictionIsotherm]:
         ]
         return None, np.concatenate(squares), 1.0
 
-    return counted(with_tails(np.concatenate(_off_parabolas(isotherms)), fit)[1])
+    found = counted(with_tails(np.ones(sum(map(len, isotherms))), fit)[1])
+    # Curves bend more than parabolas: points are left out where all others then scatter far less.
+    without = counted(with_tails(np.concatenate(_off_parabolas(isotherms)), fit)[1])
+    scales = scatter_scale(found), scatter_scale(without)
+    return without if scales[0] and scales[1] and scales[0] > _FAR_LESS * scales[1] else found
 
 
 def _off_parabolas(isotherms: list[FrictionIsotherm]) -> list[Array]:
@@ -223,11 +229,7 @@ def scatter_scale(isotherms: Sequence[FrictionIsotherm]) -> float | None:
     if freedom < 1.0:
         return None
     squares = sum(float(np.sum(isotherm.curves.residual**2)) for isotherm in several)
-    larger, away = (
-        np.concatenate(parts)
-        for parts in zip(*((one.larger, distances(one.curves, one.larger)) for one in several), strict=True)
-    )
-    return scatter_of(squares, freedom, larger, away)
+    return scatter_of(squares, freedom, np.concatenate([isotherm.larger for isotherm in several]))
 
 
 def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[Indices]) -> Array:
