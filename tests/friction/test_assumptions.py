@@ -225,6 +225,12 @@ def test_a_maximum_on_the_way_is_seen() -> None:
     assert change.min() > 0.01
 
 
+def test_changes_at_several_temperatures_are_those_at_each_alone() -> None:
+    made, decades = curves(), np.full(4, 0.4)
+    alone = [warming._change(RUBBER, BALL, made.select(np.array([row])), decades[:1], {})[0] for row in range(4)]
+    assert warming._change(RUBBER, BALL, made, decades, {}) == pytest.approx(alone, rel=1e-9)
+
+
 def test_a_hot_contact_is_reported() -> None:
     """The same under PTFE, which is no better a conductor than the rubber."""
     measured = replace(curves(), coulomb=np.full(4, 0.5), slip=0.2 * SPEED)
