@@ -149,7 +149,7 @@ def print_outcome(results: StudyResults, quiet: bool = False) -> None:
     """Print notes (unless it is to be quiet), warnings and failures: few of each, the report has them all."""
     from viscofric.report.texts.study import grouped_failures
 
-    notes = () if quiet else results.notes
+    notes = () if quiet else tuple(dict.fromkeys(results.notes))
     if len(notes) > _MOST_LINES:
         click.echo(f"{len(notes)} notes on the data: see the report.", err=True)
     elif notes:
