@@ -273,8 +273,9 @@ def traced_sweeps(
     single = [of_one_amplitude(points, rows, source) for rows in groups]
     sweeps = [_isotherm(points, rows) for rows, _ in single]
     on_request: list[Note] = []
-    if leave_out is not None:
-        sweeps, on_request = _without(sweeps, to_si_array(leave_out, "K", "leave_out_temperatures"))
+    unwanted = to_si_array([] if leave_out is None else leave_out, "K", "leave_out_temperatures")
+    if unwanted.size:
+        sweeps, on_request = _without(sweeps, unwanted)
     notes: list[Note] = [
         *opened,
         *on_left_out,
