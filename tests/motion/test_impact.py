@@ -252,6 +252,13 @@ def test_the_curve_over_temperature_has_a_minimum_in_the_transition():
     assert one.to_dataset().velocity.size == one.velocity.size
 
 
+def test_adhesion_of_several_impacts_is_noted_once() -> None:
+    speeds = [1e-4, 1e-3]  # m/s, with forces below those of adhesion
+    curve = vf.motion.restitution_curve(rubber(1e-3), vf.Ball("1 mm"), speeds=speeds, mass="10 mg", accuracy=1e-2)
+    (note,) = (one for one in curve.warnings if one.code == "adhesion")
+    assert [note.values["contacts"], note.values["of"]] == [2, 2]
+
+
 def test_what_cannot_fall_is_refused():
     with refused("negative"):
         vf.motion.solve_impact(rubber(1e-3), BALL, mass=1.0, speed=1.0, gravity=-9.81)

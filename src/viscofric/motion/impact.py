@@ -18,7 +18,7 @@ from viscofric.motion.impact_solution import ImpactContact, ImpactSolution, Rest
 from viscofric.motion.memory import Modes
 from viscofric.motion.solution import TransientErrors, TransientSolution
 from viscofric.motion.springs import impact_radius, is_body_of_revolution, profile, row
-from viscofric.notes import Note
+from viscofric.notes import Note, counted
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantities, Quantity, number, positive, to_si, to_si_array
@@ -201,7 +201,7 @@ def restitution_curve(
     def table(name: str) -> Array:
         return np.array([[getattr(hit, name) for hit in row] for row in hits], dtype=float)
 
-    notes = tuple(dict.fromkeys(note for row in hits for hit in row for note in hit.warnings))
+    notes = counted([hit.warnings for row in hits for hit in row], of="impacts")
     return RestitutionCurve(
         speed=each, temperature=kelvin, restitution=table("restitution"), restitution_error=table("restitution_error"),
         contact_time=table("contact_time"), peak_force=table("peak_force"),
