@@ -134,6 +134,7 @@ def test_curves_go_into_a_pipe_without_the_table() -> None:
     assert [line[:1] for line in done.stdout.splitlines()] == ["#", "#", "#", "#", "s", "1"]
     noted = done.stdout.splitlines()[2:4]
     assert ['"temperature-assumed"' in noted[0], '"frequencies-unknown"' in noted[1]] == [True, True]
+    assert [line.split()[0] for line in done.stderr.splitlines()] == ["Note:", "Note:"]  # nothing to warn of
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from viscofric.friction.curves import FrictionCurves
     from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
+#: Codes of notes on the material, rather than on contacts.
+_ON_MATERIAL = {"frequencies-unknown", "temperature-assumed"}
 _EXAMPLE = """\b
 Example:
   viscofric curve --material "synthetic fluoroelastomer" --ball "9.525 mm" --load "25 N" \\
@@ -80,7 +82,7 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     from viscofric.files import marked
     from viscofric.friction.curve_files import write_friction_curves
     from viscofric.friction.prediction import predict_friction
-    from viscofric.rheology.material import unknown_frequencies
+    from viscofric.notes import codes
 
     velocities = chosen_speeds(parameters)
     rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
@@ -103,9 +105,8 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     made_up = is_made_up(rubber, parameters)
     curves = replace(curves, source=marked(curves.source, synthetic=made_up))
     answer(lambda: _record(curves, rubber, shape, parameters), lambda: _print(name, rubber, curves))
-    of_material = unknown_frequencies(rubber.material)
-    print_notes(of_material)
-    print_notes([note for note in curves.notes if note not in of_material], word="Warning")  # of contacts, as `solve`
+    for note in curves.notes:  # those of contacts are warnings, as of `solve`
+        print_notes([note], word="Note" if codes([note]) & _ON_MATERIAL else "Warning")
     write_files(
         ("curves", out, partial(write_friction_curves, curves)),
         ("picture", picture, drawing(_figure_of(curves), curves, mark=made_up)),
