@@ -125,6 +125,14 @@ def test_convert_there_and_back_loses_nothing(fitted: tuple[Path, str], tmp_path
     np.testing.assert_allclose(after.complex_modulus(1.0), before.complex_modulus(1.0), rtol=1e-12)
 
 
+def test_show_calls_synthetic_materials_so() -> None:
+    marked = {}
+    for name in ("synthetic tread rubber", "PVB interlayer"):
+        said = json.loads(succeed("show", name, "--frequency", "1 Hz", "--json").stdout)["material"]["synthetic"]
+        marked[name] = (said, "SYNTHETIC" in succeed("show", name, "--frequency", "1 Hz").stdout)
+    assert marked == {"synthetic tread rubber": (True, True), "PVB interlayer": (False, False)}
+
+
 def test_catalogue_is_listed_with_its_sources() -> None:
     done = succeed("list")
     for entry in vf.catalogue():

@@ -117,6 +117,7 @@ class Material(Plotted):
     def _shown(self) -> Rows:
         return (
             ("name", self.name or None),
+            ("synthetic", self.synthetic or None),
             ("spectrum", self.spectrum),
             ("Poisson ratio", self.poisson_ratio),
             ("shift", None if self.shift is None else self.shift),

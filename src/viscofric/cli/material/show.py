@@ -35,6 +35,7 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], ou
     """
     from viscofric.cli.rubber_options import find_rubber
     from viscofric.datasets import record
+    from viscofric.rheology.catalogue import is_synthetic
 
     material = find_rubber(rubber, "rubber")
     moduli = _moduli(material, temperature, frequency)
@@ -43,6 +44,7 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], ou
             write_dataset(path, moduli)
     if as_json:
         about = {name: getattr(material, name) for name in ("name", "citation", "poisson_ratio", "reference")}
+        about["synthetic"] = is_synthetic(material)
         spectrum = material.to_dataset(temperature)
         print_json({"material": about, "spectrum": record(spectrum), "modulus": record(moduli)})
     elif out != DASH:
@@ -50,11 +52,14 @@ def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], ou
 
 
 def _about(material: Material) -> list[str]:
+    from viscofric.rheology.catalogue import is_synthetic
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.units import shown_celsius
 
     spectrum = material.spectrum
     lines = [material.name or "a rubber without a name"]
+    if is_synthetic(material):
+        lines.append("SYNTHETIC, not measured")
     if material.citation:
         lines.append(f"source: {material.citation}")
     if isinstance(spectrum, RetardationSpectrum):

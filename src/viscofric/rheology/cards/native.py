@@ -288,6 +288,8 @@ def _remarks(material: Material, writing: Writing, poisson_ratio: float, shift_w
     ]
     if material.name:
         sentences.insert(0, material.name)
+    if material.synthetic:
+        sentences.append("SYNTHETIC, not measured.")
     if material.citation:
         sentences.append(f"Source: {material.citation}")
     sentences.append(
