@@ -43,7 +43,12 @@ _BESIDE = ("with_creep", "with_relaxation")
     help="Reference temperature of the master curve, e.g. '20 degC'.",
 )
 @reading_options
-@key("material.leave_out_temperatures", metavar="T", multiple=True)
+@key(
+    "material.leave_out_temperatures",
+    metavar="T",
+    multiple=True,
+    help="Isotherms of the sweeps to leave out, e.g. '60 degC'; repeatable.",
+)
 @key("material.name", help="Name of the material, for reports and cards.")
 @click.option("--creep", is_flag=True, help="FILES are creep tests, J(t) at several temperatures, instead of sweeps.")
 @click.option("--relaxation", is_flag=True, help="FILES are relaxation tests, E(t) or G(t), instead of sweeps.")
