@@ -253,10 +253,12 @@ def test_the_curve_over_temperature_has_a_minimum_in_the_transition():
 
 
 def test_adhesion_of_several_impacts_is_noted_once() -> None:
+    material, ball, how = rubber(1e-3), vf.Ball("1 mm"), {"mass": "10 mg", "accuracy": 1e-2}
     speeds = [1e-4, 1e-3]  # m/s, with forces below those of adhesion
-    curve = vf.motion.restitution_curve(rubber(1e-3), vf.Ball("1 mm"), speeds=speeds, mass="10 mg", accuracy=1e-2)
-    (note,) = (one for one in curve.warnings if one.code == "adhesion")
-    assert [note.values["contacts"], note.values["of"]] == [2, 2]
+    (note,) = vf.motion.restitution_curve(material, ball, speeds=speeds, **how).warnings
+    assert [note.code, note.values["contacts"], note.values["of"]] == ["adhesion", 2, 2]
+    alike = vf.motion.restitution_curve(material, ball, speeds=[1e-4, 1e-4], **how)
+    assert alike.warnings == vf.motion.solve_impact(material, ball, speed=1e-4, **how).warnings
 
 
 def test_what_cannot_fall_is_refused():

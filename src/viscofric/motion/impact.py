@@ -201,7 +201,9 @@ def restitution_curve(
     def table(name: str) -> Array:
         return np.array([[getattr(hit, name) for hit in row] for row in hits], dtype=float)
 
-    notes = counted([hit.warnings for row in hits for hit in row], of="impacts")
+    every = [hit.warnings for row in hits for hit in row]
+    of_all = [note for note in every[0] if all(note in notes for notes in every)]  # such as those on the material
+    notes = (*of_all, *counted([[note for note in notes if note not in of_all] for notes in every], of="impacts"))
     return RestitutionCurve(
         speed=each, temperature=kelvin, restitution=table("restitution"), restitution_error=table("restitution_error"),
         contact_time=table("contact_time"), peak_force=table("peak_force"),
