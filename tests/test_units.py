@@ -150,6 +150,8 @@ def test_positive_insists():
         positive("0 N", "N", "load")
     with refused("not-positive", naming="temperature = '-300 degC'"):
         positive("-300 degC", "K", "temperature")
+    with refused("too-small", naming="load = 1e-300"):
+        positive(1e-300, "N", "load")
 
 
 def test_the_hint_to_write_degrees_comes_with_small_numbers_only():

@@ -344,7 +344,7 @@ def positive(value: Quantity, unit: str, name: str) -> float:
         least = "absolute zero" if unit == "K" else "zero"
         raise _wrong("not-positive", name, value, unit, f"must be above {least}")
     if number < 1.0 / LARGEST:
-        raise _wrong("too-small", "speed", value, unit, f"is below {1.0 / LARGEST:g}, too small for computations")
+        raise _wrong("too-small", name, value, unit, f"is below {1.0 / LARGEST:g}, too small for computations")
     return number
 
 
