@@ -414,8 +414,10 @@ def test_ls_dyna_wlf_multiplies_time(tmp_path):
 
 
 def test_the_first_ls_dyna_material_of_a_deck_is_read_and_named(tmp_path):
-    card = opened(tmp_path, LS_DYNA + LS_DYNA.partition("\n")[2], modulus_unit="MPa", time_unit="s")
-    assert ("first-of-several", {"materials": 2, "read": "7"}) in [(note.code, note.values) for note in card.notes]
+    deck = LS_DYNA.replace("         7   1.1E-09", "   1234567   1.1E-09") + LS_DYNA.partition("\n")[2]
+    card = opened(tmp_path, deck, modulus_unit="MPa", time_unit="s")
+    expected = ("first-of-several", {"materials": 2, "read": "1234567"})
+    assert expected in [(note.code, note.values) for note in card.notes]
 
 
 def test_ls_dyna_long_format_is_reported_by_keyword_or_deck(tmp_path):

@@ -141,7 +141,8 @@ def _cards(text: str, notes: list[str]) -> tuple[str, list[float], list[list[flo
         )
     count = sum(1 for _, line in lines if _KEYWORD.match(line.strip()))
     if count > 1:
-        notes.append(first_of_several(count, f"{head[0]:g}", f"{head[0]:g}"))
+        first = f"{head[0]:.10g}"  # MID has up to ten digits
+        notes.append(first_of_several(count, first, first))
     terms = [row[:4] for row in rows[2:] if any(row[:4])]
     if not terms:
         raise InputError("*MAT_GENERAL_VISCOELASTIC contains no terms GI, BETAI.", code="no-terms")
