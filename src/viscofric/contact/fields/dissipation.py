@@ -15,6 +15,7 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+import scipy.fft
 
 from viscofric.arrays import gauss, non_negative_fit
 from viscofric.contact.fields.stress import rectangle_corners, strip_ends
@@ -29,8 +30,6 @@ _DEPTHS = 6
 _TOGETHER, _ON_CELLS = 2.5, 4.0
 #: Places ahead of the cells, whose distance grows from step to step by this factor.
 _AHEAD, _GROWTH = 10, 1.8
-#: Numbers of the stress of several modes that are followed at once: few rows of a line take no longer than one.
-_AT_ONCE = 1 << 17
 
 
 class Modes(NamedTuple):
@@ -146,26 +145,26 @@ def _passing(stress: Array, before: Array, step: float, steps: Array, modes: Mod
     change = np.diff(stress, axis=1)
     even = np.square(change).sum(0)
     energy = np.zeros(stress.shape[1:])
-    count = max(_AT_ONCE // stress.size, 1)
-    for mode in range(0, len(modes.C), count):
-        C, tau = (one[mode : mode + count, None, None] for one in modes)
-        on = np.zeros((len(tau), *stress[:, 0].shape))
+    count = change.shape[1]
+    length = scipy.fft.next_fast_len(2 * count, real=True)
+    waves = scipy.fft.rfft(change, length, axis=1)  # what follows a change of the stress fades, by convolution
+    for C, tau in zip(*modes, strict=True):
+        on = np.zeros_like(stress[:, 0])
         for row, time in enumerate(steps.tolist()):
-            left = np.exp(-time / tau)
+            left = math.exp(-time / tau)
             on = left * on + tau / time * (1.0 - left) * (before[:, row + 1] - before[:, row])
-        left, ratio = np.exp(-step / tau), tau / step
+        left, ratio = math.exp(-step / tau), tau / step
         rest = 1.0 - left
-        first = np.empty((len(tau), *change.shape))
-        for row in range(change.shape[1]):
-            first[:, :, row] = on
-            on = left * on + ratio * rest * change[:, row]
+        fading = left ** np.arange(count)
+        kernel = scipy.fft.rfft(ratio * rest * np.append(0.0, fading[:-1]), length)
+        later = scipy.fft.irfft(kernel[:, None] * waves, length, axis=1)[:, :count]
+        first = fading[:, None] * on[:, None] + later
         twice = 0.5 * tau * (1.0 - left**2)
         each = (
             np.square(ratio) * even * (step - 2.0 * tau * rest + twice)
-            + 2.0 * ratio * (change * first).sum(1) * (tau * rest - twice)
-            + np.square(first).sum(1) * twice
+            + 2.0 * ratio * (change * first).sum(0) * (tau * rest - twice)
+            + np.square(first).sum(0) * twice
         )
-        released = (0.5 * C / tau * each).sum(0)
-        energy[:-1] += released
-        energy[1:] += released
+        energy[:-1] += 0.5 * C / tau * each
+        energy[1:] += 0.5 * C / tau * each
     return energy / step
