@@ -414,6 +414,16 @@ def test_steep_indenters_are_a_warning(
     assert size is None or warning.values[name] == pytest.approx(size, abs=5e-3)
 
 
+def test_steepness_is_that_of_the_spline_through_few_heights() -> None:
+    """Of eight points a wave, where differences of neighbours would be a tenth smaller, and below the limit."""
+    x = 1e-4 * np.arange(-7, 8)
+    waves = 0.32 * 8e-4 / (2.0 * np.pi) * (1.0 - np.cos(2.0 * np.pi * x / 8e-4))
+    for indenter in (Profile(waves, 1e-4), HeightMap(np.add.outer(waves, 1e-3 * waves), 1e-4)):
+        warning = indenter.strain_warning(Extent(4e-4, 4e-4, 4e-4), 1e-5)
+        assert warning is not None
+        assert warning.values["slope"] == pytest.approx(0.32, rel=5e-3)  # of the spline, whose error is 0.25 %
+
+
 def test_gentle_indenters_are_none() -> None:
     assert solve_steady(RUBBER, CONE, speed=0.0, load=LOAD).warnings == ()
     assert solve_steady(RUBBER, VISCOELASTIC["height map"], speed=0.0, load=LOAD).warnings == ()

@@ -87,10 +87,9 @@ class _Heights(Indenter):
 
     def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
         """Return a note where the assumption of small strain is doubtful."""
-        z = np.asarray(self.z)
-        slopes = np.array([np.gradient(z, step, axis=axis) for axis, step in enumerate(self._steps)])
-        steepness = np.linalg.norm(slopes, axis=0)[self._within(contact)]
-        return too_steep(float(steepness.max(initial=0.0)))
+        x, *y = (points[places] for points, places in zip(self._points, self._within(contact), strict=True))
+        along, across = (slope(x, y[0] if y else np.zeros(())) for slope in (self.slope, self.slope_across))
+        return too_steep(float(np.hypot(along, across).max(initial=0.0)))
 
     def resolution_warning(self, contact: Extent) -> Note | None:
         """Return a note where noise, or roughness that the points do not resolve, bends the surface."""
