@@ -16,6 +16,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 import viscofric as vf
+from refusals import refused
 from rheology.planted import planted_sweeps
 from viscofric.data import IsothermalSweeps
 from viscofric.datasets import dataset
@@ -90,6 +91,8 @@ def test_sweeps_as_read_are_drawn_in_their_own_modulus(axes: Axes) -> None:
     assert [str(line.get_label()) for line in axes.lines][::5] == ["10 °C", "60 °C"]
     np.testing.assert_allclose(axes.lines[2].get_ydata(), sweeps.isotherms[2].loss_modulus / 1e6)
     assert scale.get_clim() == pytest.approx((10.0, 60.0))
+    with refused("wrong-choice"):
+        rubber.plot_isotherms(axes, sweeps, "tangent")
 
 
 def test_isotherms_that_were_joined_are_drawn_as_tensile(axes: Axes, fit: vf.rheology.Superposition) -> None:

@@ -10,7 +10,7 @@ from matplotlib.cm import ScalarMappable
 
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset
-from viscofric.errors import InputError
+from viscofric.errors import InputError, check_choice
 from viscofric.report.data import (
     Master,
     Moduli,
@@ -57,6 +57,7 @@ def plot_isotherms(axes: Axes, isotherms: Sweeps, modulus: Literal["storage", "l
     matplotlib.cm.ScalarMappable
         Temperatures in °C to colours, for a colour bar (`style.temperature_bar`).
     """
+    check_choice(modulus, "modulus", "storage", "loss")
     return draw_diagram(axes, isotherms, "frequency", modulus, marker="s" if modulus == "storage" else "o")
 
 
