@@ -12,14 +12,13 @@ import numpy as np
 import viscofric as vf
 from viscofric.report.figures.rough import (
     plot_contact_map,
-    plot_friction_by_cut_off,
     plot_friction_by_wavelength,
     plot_power_spectra,
     plot_rough_friction,
     plot_topography,
 )
 from viscofric.report.figures.saving import save_picture
-from viscofric.report.figures.style import INK, new_figure
+from viscofric.report.figures.style import INK, looks, new_figure, speed_ticks
 
 FIGURES = Path(__file__).resolve().parent.parent / "docs" / "figures"
 POINTS, SPACING, SHORTEST = 256, 4e-6, 32e-6
@@ -83,9 +82,15 @@ def main() -> None:
 
     def cut_offs() -> object:
         figure = new_figure()
-        plot_friction_by_cut_off(
-            figure.subplots(), limited, [f"waves down to {text.replace('um', 'µm')}" for text in cut]
-        )
+        axes = figure.subplots()
+        for look, theory, text in zip(looks(len(cut)), limited, cut, strict=True):
+            label = f"waves down to {text.replace('um', 'µm')}"
+            drawn = {"color": look.colour, "linestyle": look.dashes, "label": label}
+            axes.plot(theory.speed, theory.friction_coefficient[0], **drawn)
+        axes.set(xscale="log", xlabel="speed (m/s)", ylabel="friction coefficient")
+        axes.set_ylim(bottom=0.0)
+        speed_ticks(axes.xaxis)
+        axes.legend()
         return figure
 
     for name, draw in {

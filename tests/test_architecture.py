@@ -315,6 +315,21 @@ def test_no_module_imports_parts_of_scipy_that_take_half_a_second_for_one_functi
     assert [module for module, path in MODULES.items() if slow.search(path.read_text("utf-8"))] == []
 
 
+def test_scripts_and_benchmarks_import_what_there_is() -> None:
+    """Most of them are run by hand only."""
+    lacking = []
+    for path in sorted(one for folder in ("benchmarks", "scripts") for one in (ROOT / folder).rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "viscofric":
+                home = importlib.import_module(str(node.module))
+                lacking += [
+                    f"{path.name}: {node.module}.{one.name}"
+                    for one in node.names
+                    if not hasattr(home, one.name) and f"{node.module}.{one.name}" not in MODULES
+                ]
+    assert lacking == []
+
+
 PACKAGES = [module_name(path.with_suffix(".py")) for path in sorted(SOURCE.rglob("__init__.pyi"))]
 
 
