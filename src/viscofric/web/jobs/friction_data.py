@@ -55,8 +55,8 @@ def drawn_line(line: Predicted | None) -> dict[str, Any] | None:
     """Return a line over the speed with its 95 % band; NaN where it has a gap."""
     if line is None:
         return None
-    names = ("speed", "friction", "lower", "upper", "extrapolated")
-    return {name: getattr(line.rows(), name) for name in names}
+    names, rows = ("speed", "friction", "lower", "upper", "extrapolated"), line.rows()
+    return {name: getattr(rows, name) for name in names}
 
 
 def table_record(table: Table | None) -> dict[str, Any] | None:
