@@ -300,10 +300,11 @@ def _of_coulomb(fits: list[Fit], weights: Array, zero_error: float) -> tuple[Rat
     hidden = length * min(
         (threshold(some, CHANCE) + _SURELY) * one for some, one in ((freedom, error), (other_freedom, other_error))
     )
-    # Without degrees of freedom of its own, the course is used where it matters to viscoelastic friction.
+    # Without degrees of freedom of its own, the course is used where it matters to viscoelastic friction; the residual
+    # alone where it would show a change that is noted: of some orders it has hardly any.
     least = _least_change(fits, weights)
     if course.freedom < _ENOUGH and abs(course.value) <= least:
-        error = np.inf
+        error, other_error = np.inf, other_error if length * other_error <= _WORN else np.inf
     apart = threshold(min(freedom, other_freedom), CHANCE) * math.hypot(error, other_error)
     if abs(course.value - residual.value) > apart + ROUNDING * abs(course.value):
         return _NONE, 0.0
