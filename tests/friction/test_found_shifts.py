@@ -182,6 +182,19 @@ def test_shifts_of_marginal_overlap_are_reported_and_their_errors_hold() -> None
     assert abs(np.mean(off)) < 0.7
 
 
+@pytest.mark.parametrize("noise", [0.0, 1e-3])
+def test_exact_friction_keeps_its_points_about_a_maximum(noise: float) -> None:
+    """The curve of few points is off by more than they scatter: four of nine temperatures were left out."""
+    celsius = range(26, 75, 6)
+    curves = made(peak, *celsius, speeds=np.geomspace(0.02, 0.8, 9), noise=noise)
+    factors = shift_friction(curves).shift_factors
+    assert len(factors.temperatures) == len(celsius)
+    away = factors.standard_errors > 0.0
+    # Three standard errors; without noise the curve itself is off, by a thousandth of a decade.
+    assert np.all(np.abs(deviation(factors))[away] < 3.0 * factors.standard_errors[away])
+    assert np.all(np.abs(deviation(factors)) < 2e-3)
+
+
 @pytest.mark.slow
 def test_a_fifth_of_points_far_off_hardly_changes_shift_factors() -> None:
     """By 30 to 60 %, where scatter is 1.8 %: no shift factors were found in most of such tests."""

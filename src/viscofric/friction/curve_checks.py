@@ -127,8 +127,10 @@ def outliers(squares: Array, larger: Array, freedom: float, least: float) -> tup
     return over, far & (left_out | (not several))
 
 
-def with_tails(start: Array, fit: Callable[[Array, float], tuple[Found, Array, float]]) -> tuple[Found, Array, Array]:
-    """Fit points, those far from the others with less weight, or none.
+def with_tails(
+    start: Array, fit: Callable[[Array, float], tuple[Found, Array, float]], *, far: bool = True
+) -> tuple[Found, Array, Array]:
+    """Fit points, those far from the others with less weight, or none if `far`.
 
     `start` (n,) are factors of the variances of points, one where nothing is known of them.  `fit` takes such factors
     and the one of all, and returns what it found, the squared distances (n,) of the points over their errors, and the
@@ -144,9 +146,9 @@ def with_tails(start: Array, fit: Callable[[Array, float], tuple[Found, Array, f
     for _ in range(2 * ROUNDS):
         found, squares, after = fit(larger, scale)
         before, larger, scale = scale * larger, _counted_less(squares / after, far=from_robust), after
-        if not from_robust and _settled(before, scale * larger):
+        if far and not from_robust and _settled(before, scale * larger):
             from_robust, larger = True, _counted_less(squares / scale, far=True)
-        if from_robust and _settled(before, scale * larger):
+        if from_robust is far and _settled(before, scale * larger):
             break
     return found, larger, squares
 

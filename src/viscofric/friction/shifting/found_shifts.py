@@ -44,6 +44,8 @@ NOTED = 1.5
 SURE = 2.0
 #: By which variances grow at most because the scatter is found from few points.
 LARGEST_FACTOR = 5.0
+#: Points that are nearer to the common curve do not count less: it is off exact friction by as much, decades.
+BIAS = 2e-3
 #: Friction whose differences chance makes more often than this may be constant; many pairs were looked at.
 CONSTANT = 1e-4
 #: Code of the notes on temperatures that were left out.
@@ -185,7 +187,9 @@ def _fit(
         weight = 1.0 / (larger * np.concatenate([isotherm.variance for isotherm in counted]))
         curves = Basis.of(places).curves(friction, weight)
         freedom, away = curves.freedom - len(chosen) + 1.0, distances(curves, larger)
-        return covariance, away / scatter_of(float(np.sum(curves.residual**2)), freedom, larger, away), 1.0
+        squares = away / scatter_of(float(np.sum(curves.residual**2)), freedom, larger, away)
+        near = curves.residual[:, 0] ** 2 < weight * BIAS**2
+        return covariance, np.where(near, np.minimum(squares, 1.0), squares), 1.0
 
     covariance, _, _ = with_tails(np.ones(sum(map(len, chosen))), fit)
     return counted, values, TAILS_COST / MEAN_SQUARE * covariance

@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from viscofric.arrays import Array, Indices, Integers
+from viscofric.arrays import Array, Indices, Integers, Mask
 from viscofric.friction.curve_checks import LEFT_OUT, error_freedom, scatter_of, with_tails
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import nominal_rows
@@ -138,9 +138,13 @@ def _with_tails(isotherms: list[FrictionIsotherm]) -> list[FrictionIsotherm]:
         ]
         return None, np.concatenate(squares), 1.0
 
-    found = counted(with_tails(np.ones(sum(map(len, isotherms))), fit)[1])
-    # Curves bend more than parabolas: points are left out where all others then scatter far less.
-    without = counted(with_tails(np.concatenate(_off_parabolas(isotherms)), fit)[1])
+    # Curves bend more than parabolas, and more than those of few points: points are left out only where some lie off
+    # parabolas and all others then scatter far less.
+    found = counted(with_tails(np.ones(sum(map(len, isotherms))), fit, far=False)[1])
+    off = np.concatenate(_off_parabolas(isotherms))
+    if np.all(off == 1.0):
+        return found
+    without = counted(with_tails(off, fit)[1])
     scales = scatter_scale(found), scatter_scale(without)
     return without if scales[0] and scales[1] and scales[0] > _FAR_LESS * scales[1] else found
 
@@ -160,14 +164,24 @@ def _off_parabolas(isotherms: list[FrictionIsotherm]) -> list[Array]:
             squares = (one.friction - (design @ through)[..., 0]) ** 2
             middle = np.partition(squares / one.variance, (count + 3) // 2, axis=1)[:, (count + 3) // 2]
             best = int(np.argmin(middle))
-            left = np.sqrt(squares[best])
+            left = one.friction - design @ through[best, :, 0]
             scatter.append(1.4826 * (1.0 + 5.0 / (count - 3.0)) * math.sqrt(middle[best]))
         away.append(left)
     least = _FAR * float(np.median(scatter)) if scatter else 0.0
     return [
-        np.where(left > np.maximum(least * np.sqrt(one.variance), _OFF_PARABOLA), LEFT_OUT, 1.0)
+        np.where(_off(left, np.maximum(least * np.sqrt(one.variance), _OFF_PARABOLA)), LEFT_OUT, 1.0)
         for left, one in zip(away, isotherms, strict=True)
     ]
+
+
+def _off(left: Array, least: Array) -> Mask:
+    """Return which points are farther than `least` from a parabola, besides those where the curve bends from it."""
+    # Such a bend, as beyond a maximum, has two points or more up to an end to one side, which is 0 of those near.
+    side = np.sign(left) * (np.abs(left) > least)
+    from_start = np.logical_and.accumulate(side == side[0])
+    to_end = np.logical_and.accumulate(side[::-1] == side[-1])[::-1]
+    bent = (from_start & from_start[:2].all()) | (to_end & to_end[-2:].all())
+    return np.asarray((side != 0.0) & ~bent)
 
 
 def distances(curves: Curves, larger: Array) -> Array:
