@@ -833,6 +833,14 @@ def test_specimens_below_each_other_are_not_averaged(tmp_path, titles, header):
         read_dma(write(tmp_path, "Sample A", "T = 20 °C", *own, "Sample B", "T = 20 °C", *own))
 
 
+@pytest.mark.parametrize("words", [("Frequency sweep 1",), ("Run 1", "Strain 0.1 %")])
+def test_other_lines_beside_that_of_the_temperature_leave_tables_as_they_are(tmp_path, words):
+    own = ["f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "10;6;0.7"]
+    for before, after in ((words, ()), ((), words), (words, words)):
+        lines = [line for T in (20, 40) for line in (*before, f"Temperature {T} °C", *after, *own)]
+        assert read_dma(write(tmp_path, *lines)).temperatures - 273.15 == pytest.approx([20.0, 40.0])
+
+
 def test_lines_of_words_between_rows_state_their_temperature(tmp_path):
     rows = [f"{f};{5 + n};0.5" for n, f in enumerate((1, 10, 100))]
     for second in ("T = 40 °C", "Temperature: 40 °C;;", "Temperature (°C);40"):
@@ -882,11 +890,12 @@ def test_a_loss_tangent_in_per_cent_without_its_unit_is_seen(tmp_path):
         ("Ep (MPa)", "tg delta"),
         ("E prime (MPa)", "tanδ"),
         ("貯蔵弾性率E'(MPa)", "損失正接tanδ"),
+        ("E' 貯蔵弾性率 (MPa)", "tan δ 損失正接"),
         ("Young modulus E' (MPa)", "loss factor"),
         ("module d'Young E' (MPa)", "tan d"),
     ],
 )
-def test_symbols_stand_behind_words_of_any_script(tmp_path, storage, tangent):
+def test_symbols_stand_beside_words_of_any_script(tmp_path, storage, tangent):
     rows = ["20;1;5;0.1", "20;10;6;0.2"]
     sweeps = read_dma(write(tmp_path, f"T (°C);f (Hertz);{storage};{tangent}", *rows))
     assert sweeps.deformation == "tension"
@@ -896,8 +905,9 @@ def test_symbols_stand_behind_words_of_any_script(tmp_path, storage, tangent):
 def test_a_column_that_may_be_the_temperature_is_asked_for(tmp_path):
     lines = ["Upper Temp. [°C];f (Hz);G' (kPa);G'' (kPa)", "60;1;5;0.5", "60;10;6;0.7"]
     path = write(tmp_path, *lines, name="rubber_25C.csv")
-    with refused("missing-columns", None, "'Upper Temp. [°C]'"):
-        read_dma(path)
+    for what_to_do in ("'Upper Temp. [°C]'", "give temperature = "):
+        with refused("missing-columns", None, what_to_do):
+            read_dma(path)
     named = read_dma(path, columns={"temperature": "Upper Temp. [°C]"})
     assert named.temperatures - 273.15 == pytest.approx([60.0])
     assert read_dma(path, temperature="62 degC").temperatures - 273.15 == pytest.approx([62.0])

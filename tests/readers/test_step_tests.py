@@ -234,3 +234,10 @@ def test_specimens_of_one_temperature_are_not_one_test(tmp_path):
         path.write_text("\n".join(lines), encoding="utf-8")
         with refused("several-specimens", DataFileError):
             vf.read_step_tests(path, deformation="shear")
+
+
+def test_rows_whose_temperatures_have_units_are_no_titles(tmp_path):
+    path = tmp_path / "creep.csv"
+    path.write_text("T;t (s);J(t) (1/MPa)\n" + "".join(f"25 °C;{time};0.1\n" for time in (1, 10)), encoding="utf-8")
+    with refused("no-unit", DataFileError):
+        vf.read_step_tests(path, deformation="shear")

@@ -38,10 +38,9 @@ _SAID_LOGARITHM = re.compile(r"(log[\s_]*10|log|lg|ln)(?=[\s_(\[]|[eg]['*])", re
 #: Quantities that are of logarithms already, by the beginning or the end of their names.
 _OF_LOGARITHMS = re.compile(r"log.*|.*(error|scatter)")
 _ARGUMENT = re.compile(r"\((?P<first>[^()]*)\)(?P<rest>.*)|\((?P<whole>.*)\)")
-#: "storage modulus E'", "貯蔵弾性率E'": words and the symbol behind them.
-_WITH_SYMBOL = re.compile(
-    r"(?P<words>.*\S(?=\s)|[\u3040-\u9fff\uac00-\ud7a3]+)\s*(?P<symbol>[^\s\u3040-\u9fff\uac00-\ud7a3]+)"
-)
+#: "storage modulus E'", "貯蔵弾性率E'": words and the symbol behind them, or, with a blank, the other way round.
+_CJK = r"[\u3040-\u9fff\uac00-\ud7a3]"
+_WITH_SYMBOL = re.compile(rf"(?P<words>.*\S(?=\s)|{_CJK}+(?!{_CJK}))\s*(?P<symbol>\S+)")
 _A_MODULUS = re.compile(r"(elastic |young('s)? )?modulus|module( d'(young|élasticité))?|modul|m[oó]dulo", re.IGNORECASE)
 _CELSIUS = re.compile(r"°?[CF]|deg[CF]|℃", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")

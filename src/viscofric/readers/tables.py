@@ -556,27 +556,33 @@ def _stacked(
     # Each has the header again, or, where titles count, only a line of words above it: "T = 40 °C", "Sample B".
     blocks: list[list[NumberedRow]] = [[]]
     titles: list[Title] = []
-    of_header = _plain(header)
+    of_header, after_header = _plain(header), False
     for number, cells in body:
         if cells and " ".join(cells[0].split()) == of_header[0] and _plain(cells) == of_header:
             above: Title = ()
-            while blocks[-1] and sum(map(is_number, blocks[-1][-1][1])) < 2:
-                above = (tuple(blocks[-1].pop()[1]), *above)
-            if not blocks[-1] and len(blocks) > 1:  # the words above this header
-                above = (*titles.pop(), *above)
-                blocks.pop()
+            while len(blocks) > 1 or blocks[-1]:  # the words above this header, of which some began a table
+                if not blocks[-1]:
+                    above = (*titles.pop(), *above)
+                    blocks.pop()
+                elif sum(map(is_number, blocks[-1][-1][1])) < 2:
+                    above = (tuple(blocks[-1].pop()[1]), *above)
+                else:
+                    break
             titles.append(above)
             blocks.append([])
+            after_header = True
         elif words.several == "titled" and not any(one.stated for one in columns) and _is_title(cells, words):
             if len(blocks) == 1 or blocks[-1]:
                 blocks.append([])
                 titles.append(())
             titles[-1] = (*titles[-1], tuple(cells))
-        elif blocks[-1] or len(blocks) == 1 or not _is_row_of_units(columns, cells):
+            after_header = False
+        elif not after_header or not _is_row_of_units(columns, cells):
             if not any(map(is_number, cells)) and not words.missing(named(cells, words)):
                 problem = "a second table with other headings begins here; give each table a file of its own, or the "
                 raise DataFileError(path, f"{problem}same headings in the same order.", number, code="several-tables")
             blocks[-1].append((number, cells))
+            after_header = False
     return blocks, titles
 
 
@@ -588,7 +594,7 @@ def _plain(cells: Sequence[str]) -> list[str]:
 def _is_title(cells: Sequence[str], words: Vocabulary) -> bool:
     """Return whether a row between others names a specimen, or states a temperature and nothing else."""
     filled = [cell.strip() for cell in cells if cell.strip().lower() not in MISSING]
-    if not 0 < len(filled) <= 3 or is_number(filled[0]):
+    if not 0 < len(filled) <= 3 or is_number(filled[0]) or sum(map(is_number, filled)) > 1:
         return False
     stated = {what for what, _ in words.stated_in(" ".join(filled))[1]}
     states = stated <= {"temperature"} and temperature_of_title(filled) is not None

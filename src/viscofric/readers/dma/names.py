@@ -381,14 +381,15 @@ def insist_on_one_specimen(table: Table, conditions: Array, what: str) -> None:
     if table.block is not None:
         first, *others = words_above(table)
         words = [first or "nothing", *others]
-        told.append(("the lines above its tables say", [words[n - 1] for n in table.block], "delete these lines"))
+        told.append(("the lines above its tables say", [words[n - 1] for n in table.block], "delete these words"))
     for said, labels, change in told:
         seen: dict[tuple[float, ...], str] = {}
         for row in np.flatnonzero(np.all(np.isfinite(conditions), axis=1)):
             label = labels[row]
             other = seen.setdefault(tuple(conditions[row]), label)
             if label and other and label != other:
-                problem = f"{said} {other!r} and {label!r} at one {what}; keep the rows of one specimen, or {change} "
+                both = " and ".join(one if one == "nothing" else repr(one) for one in (other, label))
+                problem = f"{said} {both} at one {what}; keep the rows of one specimen, or {change} "
                 raise DataFileError(
                     table.path, f"{problem}to join them.", int(table.lines[row]), code="several-specimens"
                 )

@@ -349,8 +349,9 @@ def _temperature(
         return known
     other = next((one for one in table.columns if not one.quantity and converted("1", one.unit, "K") is not None), None)
     if other is not None:
-        problem = f"no column is called temperature; rename {other.heading!r} if it is one"
-        remedy = or_name_it(table.vocabulary.key, "temperature", other.heading)
+        problem = f"no column is called temperature; if {other.heading!r} is not one, give "
+        remedy = setting("material.temperature", "Temperature of the sweep", "'25 degC'") + "; if it is, rename it"
+        remedy += or_name_it(table.vocabulary.key, "temperature", other.heading)
         raise table.refused("missing-columns", problem, remedy, ["temperature"])
     found, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
     swept = angular[angular > 0.0]
