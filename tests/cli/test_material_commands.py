@@ -305,3 +305,8 @@ def test_a_card_without_units_is_converted_with_those_given(tmp_path: Path) -> N
     assert rubber.shift is not None
     assert rubber.shift.reference == pytest.approx(303.15)  # 86 °F
     np.testing.assert_allclose(rubber.complex_modulus(1e3), expected.complex_modulus(1e3), rtol=1e-12)
+    own = tmp_path / "own.inp"
+    succeed("convert", "PVB interlayer", own, "--format", "abaqus")
+    for stated in (made, own, "PVB interlayer"):  # these have units of their own
+        refused = refusal("material", "convert", stated, tmp_path / "no", "--format", "json", *units[:2])
+        assert refused.code == "unit-not-needed"

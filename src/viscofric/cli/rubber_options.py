@@ -260,11 +260,14 @@ def find_rubber(name: str, parameter: str = "material", **units: Any) -> Materia
 
     `units`: those of `open_card` that a card does not state.
     """
+    from viscofric.errors import not_needed
     from viscofric.rheology.cards import open_card
     from viscofric.rheology.catalogue import catalogue_material
 
     path = Path(name)
     if not (path.is_file() or path.suffix):
+        for unit in (unit for unit, given in units.items() if given):
+            raise not_needed(name, unit, "unit-not-needed", "is a material of the catalogue, with units of its own")
         with typed_as({"name": parameter}):
             return catalogue_material(name)
     card = open_card(path, **units)

@@ -12,7 +12,15 @@ from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from viscofric.arguments import insist_on, whole_number
-from viscofric.errors import DataFileError, InputError, check_choice, not_written, short_notes, wrong_argument
+from viscofric.errors import (
+    DataFileError,
+    InputError,
+    check_choice,
+    not_needed,
+    not_written,
+    short_notes,
+    wrong_argument,
+)
 from viscofric.files import file_path, read_text
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
@@ -282,7 +290,7 @@ def open_card(
     Raises
     ------
     DataFileError
-        If the file cannot be read as a card, with the reason.
+        If the file cannot be read as a card, with the reason, or units are given and the file states its own.
 
     Examples
     --------
@@ -299,8 +307,13 @@ def open_card(
     for name, unit in units:
         insist_on(unit, name, str, type(None), right="the text of a unit, such as 'MPa'")
     text = read_text(path, LARGEST_CARD)
+    given = next((name for name, unit in units if unit is not None), None)
     try:
-        if format == "json" or (format is None and native.recognises_json(text)):
+        is_json = format == "json" or (format is None and native.recognises_json(text))
+        content = None if is_json else stored_content(text)
+        if given and (is_json or content is not None):
+            raise not_needed(path, given, "unit-not-needed", "was written by viscofric, and states its units")
+        if is_json:
             return Card(native.read_json(text), native.NAME_JSON)
         found: str = format or next((key for key, one in _PROGRAMS.items() if one.recognises(text)), "")
         if not found:
@@ -312,7 +325,6 @@ def open_card(
             )
         if format is not None and not _PROGRAMS[found].recognises(text):
             raise InputError(f"is not {_PROGRAMS[found].name}.", code="other-card")
-        content = stored_content(text)
         reading = Reading(modulus_unit or modulus_unit_of(content), time_unit, temperature_unit)
         solid = _PROGRAMS[found].read(text, reading, content)
         _insist_on_units(solid)
