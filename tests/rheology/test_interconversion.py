@@ -70,6 +70,14 @@ def test_relaxation_and_retardation_times_interlace():
     assert retardation.tau[-1] > prony.tau[-1]
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_frequencies_of_modes_reach_from_the_slowest_retardation_to_the_fastest_relaxation(seed):
+    prony = series(seed, modes=2 + seed)
+    slowest, fastest = prony.to_retardation().known_frequencies.frequency_range
+    assert fastest == pytest.approx(1.0 / prony.tau.min(), rel=1e-9)  # Newton's steps end at 1e-12
+    assert slowest == pytest.approx(1.0 / prony.to_retardation().tau.max(), rel=1e-15)
+
+
 def test_standard_linear_solid_has_the_textbook_times():
     E0, E1, tau = 2e6, 6e6, 0.3
     retardation = RelaxationSpectrum(E0, [E1], [tau]).to_retardation()

@@ -58,6 +58,20 @@ def merged(strengths: Array, positions: Array) -> tuple[Array, Array]:
     return np.bincount(place, weights=strengths[keep], minlength=len(unique)).astype(float), unique
 
 
+def largest_position(level: float, strengths: Array, positions: Array) -> float:
+    """Return the largest of the positions that `reciprocal_modes` returns, a hundred times as fast."""
+    weights, largest = strengths * positions / level, float(positions.max())
+    behind = largest - positions
+    # Newton's method from the left, where the function is convex and falls, does not overshoot.  Each mode by itself
+    # would have it at p + w.
+    distance = step = float((weights - behind).max())
+    while step > 1e-12 * distance:
+        terms = weights / (behind + distance)
+        step = (float(terms.sum()) - 1.0) / float((terms / (behind + distance)).sum())
+        distance += max(step, 0.0)
+    return largest + distance
+
+
 def reciprocal_modes(level: float, strengths: Array, positions: Array) -> tuple[Array, Array]:
     """Return strengths and ascending positions (m,) of the modes of the reciprocal function."""
     # From a relaxation series (level E0 > 0, strengths E_k ≥ 0 and relaxation times, (n,)) to C_k and retardation

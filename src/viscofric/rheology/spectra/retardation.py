@@ -14,7 +14,7 @@ from viscofric.arrays import Array, ComplexArray
 from viscofric.data import MasterCurve
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, wrong_argument
-from viscofric.rheology.spectra.interconversion import reciprocal_modes
+from viscofric.rheology.spectra.interconversion import largest_position, reciprocal_modes
 from viscofric.rheology.spectra.quality import FrequenciesOfModes, KnownFrequencies, SpectrumFit
 from viscofric.rheology.spectra.response import FrequencyResponse, checked_shift, checked_times
 from viscofric.showing import Items, Rows, rows_of
@@ -264,10 +264,10 @@ class RetardationSpectrum(ModeSpectrum):
     @property
     def known_frequencies(self) -> KnownFrequencies | None:
         """Frequencies at which the spectrum is known: of its measurement, or of several modes; else None."""
-        tau = self.tau[self.C > 0.0]
-        if self.fit is not None or len(tau) < _SEVERAL:
+        C, rates = self.C[self.C > 0.0], 1.0 / self.tau[self.C > 0.0]
+        if self.fit is not None or len(rates) < _SEVERAL:
             return self.fit
-        return FrequenciesOfModes((float(1.0 / tau.max()), float(1.0 / self.to_relaxation().tau.min())))
+        return FrequenciesOfModes((float(rates.min()), largest_position(1.0 / self.E_inf, C, rates)))
 
     def shifted(self, alpha: float, b: float = 1.0) -> RetardationSpectrum:
         """Return the spectrum at a temperature with shift factor α (and vertical shift b).
