@@ -221,10 +221,9 @@ def _assumed(kelvins: Array, *, heated: bool) -> tuple[Note, ...]:
     """Return the note on the one temperature of a material without shift factors; raise where it needs others."""
     if heated or len(kelvins) > 1:
         raise InputError(
-            ("heating: " if heated else "temperatures: ") + "the material has no shift factors, so that its modulus is "
-            "known at one temperature only; ",
+            "the material has no shift factors, so that its modulus is known at one temperature only; ",
             code="no-shift",
-            remedy=without("heating") if heated else Remedy("give one of them.", "give one --temperature."),
+            remedy=without("heating") if heated else Remedy("give one of the temperatures.", "give one --temperature."),
         )
     said = f"The material has no shift factors: its modulus is taken to be that at {shown_celsius(kelvins[0])} °C."
     return (Note("temperature-assumed", said, values={"temperature": float(kelvins[0])}),)
