@@ -317,6 +317,22 @@ def test_contacts_beyond_the_measured_frequencies_are_reported(tmp_path: Path) -
 
 
 @pytest.mark.slow
+def test_contacts_beyond_the_modes_of_an_unknown_measurement_are_reported(tmp_path: Path) -> None:
+    unset = dict.fromkeys(["deformation", "poisson_ratio", "reference_temperature", "shift", "tau_ratio"], "")
+    changes = {"dma": 'catalogue = "PVB interlayer"', "temperature": 'temperature = "40 degC"'} | unset
+    beyond, within = (
+        run_study(_small_study(tmp_path, **changes, speed=f"speed = [{speeds}]"), output=tmp_path / f"{number}.results")
+        for number, speeds in enumerate(['"1 mm/s", "1e12 m/s"', '"1 mm/s"'])
+    )
+    assert beyond.tree["prediction"]["within_measured_frequencies"].values.tolist() == [1, 0]
+    assert "beyond-measured" in {warning.code for warning in beyond.warnings}
+    # What is unknown is not said to be measured.
+    assert "within_measured_frequencies" not in within.tree["prediction"]
+    assert "beyond-measured" not in {warning.code for warning in within.warnings}
+    assert "frequencies-unknown" in {note.code for note in within.notes}
+
+
+@pytest.mark.slow
 def test_temperatures_without_shift_factor_are_reported_before_anything_is_solved(tmp_path: Path) -> None:
     with refused("outside-measured"):
         run_study(_small_study(tmp_path, temperature='temperature = ["90 degC", "400 degC"]'))

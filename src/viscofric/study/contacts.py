@@ -140,11 +140,11 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
     for index, rubber in enumerate(rubbers):
         own = [(part, number, one) for part, number, one in found if part.cases[number].material == index]
         beyond = [one for one in own if rubber.is_within(one[0].cases[one[1]], one[2]) is False]
-        if beyond and rubber.spectrum_fit is not None:
+        if beyond and rubber.known_frequencies is not None:
             part, number, _ = beyond[0]
             subject = f"In {len(beyond)} of {len(own)} contacts, such as {part.place(number)}, "
             subject += part.cases[number].FREQUENCIES
-            notes.append(rubber.spectrum_fit.beyond_note(subject, contacts=len(beyond), of=len(own)))
+            notes.append(rubber.known_frequencies.beyond_note(subject, contacts=len(beyond), of=len(own)))
     return notes
 
 

@@ -16,7 +16,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, note_of
 from viscofric.rheology.material import EXTRAPOLATED, Material, unknown_frequencies
 from viscofric.rheology.shifts.laws import ShiftLaw
-from viscofric.rheology.spectra.quality import SpectrumFit
+from viscofric.rheology.spectra.quality import KnownFrequencies, SpectrumFit
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES, sample_materials
@@ -55,12 +55,18 @@ class StudyRubber:
         """Fit of the spectrum with the measured range of frequencies; None if unknown."""
         return getattr(self.material.spectrum, "fit", None)
 
+    @property
+    def known_frequencies(self) -> KnownFrequencies | None:
+        """Frequencies at which the spectrum is known, be it of its modes alone; None of a table or a single mode."""
+        return getattr(self.material.spectrum, "known_frequencies", None)
+
     def is_within(self, case: Case, record: Record) -> bool | None:
         """Whether a contact's frequencies (v/a, or 2πv/λ), reduced by α(T), were measured; None if not known."""
-        if self.spectrum_fit is None:
+        if self.known_frequencies is None:
             return None
         rate = float(self.shift(record.temperature)) * record.speed
-        return bool(self.spectrum_fit.covers(rate / np.array(case.lengths(record))).all())
+        inside = bool(self.known_frequencies.covers(rate / np.array(case.lengths(record))).all())
+        return None if inside and self.spectrum_fit is None else inside
 
     @property
     def notes(self) -> list[Note]:
@@ -90,11 +96,17 @@ class StudyRubber:
 def all_within(
     rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Record | None]
 ) -> list[bool] | None:
-    """Return for each case whether it was solved and its frequencies were measured; None if a range is not known."""
-    if any(rubber.spectrum_fit is None for rubber in rubbers):
+    """Return for each case whether it was solved and its frequencies were measured; None if that is not known.
+
+    Of a material whose measurement is unknown, contacts count as measured where others lie beyond all modes.
+    """
+    if any(rubber.known_frequencies is None for rubber in rubbers):
         return None
     pairs = zip(cases, records, strict=True)
-    return [one is not None and bool(rubbers[case.material].is_within(case, one)) for case, one in pairs]
+    found = [None if one is None else rubbers[case.material].is_within(case, one) is not False for case, one in pairs]
+    if False not in found and any(rubber.spectrum_fit is None for rubber in rubbers):
+        return None
+    return list(map(bool, found))
 
 
 def band_columns(rubbers: Sequence[StudyRubber], cases: Sequence[Case], records: Sequence[Any]) -> BandColumns | None:
