@@ -109,10 +109,7 @@ def _from_step_tests(table: MaterialTable) -> Rubber:
     with _errors_of(table.steps):
         fit = superpose(tests, _reference(table), **_alone(table))
         shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
-        spectrum = fit_retardation_spectrum(fit, tau_ratio=table.tau_ratio, method=table.spectrum, modes=table.modes)
-        if spectrum.fit is not None:
-            off = _off(shift, fit.shift_factors)
-            spectrum = replace(spectrum, fit=replace(spectrum.fit, notes=(*off, *spectrum.fit.notes)))
+        spectrum, _ = _spectrum(table, fit, _off(shift, fit.shift_factors), liquids=False)
     return Rubber(
         _material(table, spectrum, shift, fit.vertical_shift),
         step_tests=tests,
@@ -279,7 +276,7 @@ def _undecided(laws: LawComparison[ParametricLaw] | None, choice: str) -> tuple[
 
 def _spectrum(
     table: MaterialTable,
-    curve: MasterCurve | StepMasterCurve | Superposition | JointSuperposition,
+    curve: MasterCurve | StepMasterCurve | Superposition | StepSuperposition | JointSuperposition,
     verdict: tuple[str, ...],
     liquids: bool,
 ) -> tuple[RetardationSpectrum | ModulusTable, tuple[str, ...]]:
