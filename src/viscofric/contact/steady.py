@@ -291,8 +291,7 @@ class _Solved(NamedTuple):
         # What was given comes back as it was given, free of the rounding of sums and units.
         found = replace(found, **self.given, coulomb=float(self.settings.coulomb))
         notes: list[Note | None] = [*self.indenter.warnings(self.contact, found.indentation)]
-        relaxed = self.spectrum.E0 / (1.0 - self.material.poisson_ratio**2)
-        notes.append(self.indenter.adhesion_warning(found.load, relaxed))
+        notes.append(self.indenter.adhesion_warning(found.load, self.spectrum.E0, self.material.poisson_ratio))
         if self.settings.layer is not None:
             notes.append(self.settings.layer.strain_warning(found.indentation))
         beyond = _beyond_measured(found, self.material.spectrum, self.spectrum)

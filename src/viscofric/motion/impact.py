@@ -279,10 +279,10 @@ class _Falling(NamedTuple):
         time, depth, velocity, force, radius, stored, dissipated, by_springs = np.array(fine.rows).T
         widest, deepest = float(radius.max()), float(depth.max())
         self.indenter.check(Extent(widest, widest, widest), f"at {contacts[0].speed:g} m/s", "mass or the speed")
-        relaxed = self.material.modes_at(temperature).E0 / (1.0 - self.material.poisson_ratio**2)
+        modes = self.material.modes_at(temperature)
         notes = [
             self.indenter.strain_warning(Extent(widest, widest, widest), deepest),
-            self.indenter.adhesion_warning(float(force.max()), relaxed),
+            self.indenter.adhesion_warning(float(force.max()), modes.E0, self.material.poisson_ratio),
         ]
         if contacts[-1].restitution == 0.0:
             said = "The indenter does not leave the surface again: it comes to rest on it."
@@ -303,7 +303,7 @@ class _Falling(NamedTuple):
                     f"gap, {1e6 * one.margin:.3g} µm, is within the errors of the solution."
                 )
                 notes.append(Note("rebound-not-certain", said, values={"gap": one.margin, "start": contact.start}))
-        known = self.material.modes_at(temperature).known_frequencies
+        known = modes.known_frequencies
         lasting = np.array([one.contact_time for one in contacts])
         beyond = () if known is None else known.beyond(np.pi / lasting, "frequency π over its duration")
         kelvin = None if temperature is None else to_si(temperature, "K", "temperature")

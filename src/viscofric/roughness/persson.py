@@ -352,7 +352,7 @@ def _one_way(spectrum: PowerSpectrum) -> tuple[Note, ...]:
 
 def _beyond_measured(material: Material, found: PerssonTheory) -> tuple[Note, ...]:
     """Return a note where wave numbers q at frequencies qv that were not measured matter to the friction."""
-    known = getattr(material.spectrum, "known_frequencies", None)
+    known = material.spectrum.known_frequencies
     if known is None:
         return ()
     frequency = found.speed[:, None] * found.wave_number

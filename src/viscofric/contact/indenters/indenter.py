@@ -69,9 +69,9 @@ class Indenter(Shown, ABC):
         """Return the force (of a line contact, N/m) that pulls it off a solid of an E* at rest; None if not known."""
         return None
 
-    def adhesion_warning(self, load: float, modulus: float) -> Note | None:
-        """Return a note where adhesion, which is left out, may matter: load in N (N/m), relaxed E* in Pa."""
-        force = self.pull_off(TYPICAL_ADHESION, modulus)
+    def adhesion_warning(self, load: float, E0: float, poisson_ratio: float) -> Note | None:
+        """Return a note where adhesion, which is left out, may matter: load in N (N/m), relaxed modulus in Pa."""
+        force = self.pull_off(TYPICAL_ADHESION, E0 / (1.0 - poisson_ratio**2))
         if force is None or not 0.0 < load < force / LITTLE_ADHESION:
             return None
         return Note(

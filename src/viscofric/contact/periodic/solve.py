@@ -388,7 +388,7 @@ def beyond_measured(
 
     `waves`, Fourier coefficients of the pressure, are overwritten.
     """
-    known = getattr(solid.spectrum, "known_frequencies", None)
+    known = solid.spectrum.known_frequencies
     if known is None or friction == 0.0 or not all(map(math.isfinite, solid.velocity)):
         return ()
     qx, qy = wave_number(surface.shape, surface.spacing)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.bodies import Layer
+    from viscofric.rheology.spectra.quality import KnownFrequencies
 
 
 class Compliant(Protocol):
@@ -25,6 +26,10 @@ class Compliant(Protocol):
     @property
     def E_inf(self) -> float:
         """Glass modulus, Pa."""
+
+    @property
+    def known_frequencies(self) -> KnownFrequencies | None:
+        """Frequencies at which it is known; None where notes say nothing of them."""
 
     def compliance(self, angular_frequency: ArrayLike) -> ComplexArray:
         """S(ω) = 1/E(ω), 1/Pa."""

@@ -176,9 +176,9 @@ class IndenterCase(Case):
             case, numbers = cases[number], _with_units(between.found, row, place)
             if math.isinf(ends[0].half_width):
                 numbers["half_width"] = math.inf
-            relaxed = _stiffness(rubbers.of(case), None, 0.5)
+            material = rubbers.of(case)
             try:
-                doubts = _doubts(case, _extent(numbers), numbers["indentation"], relaxed)
+                doubts = _doubts(case, _extent(numbers), numbers["indentation"], place.b * modes.E0, material)
             except InputError as error:
                 yield number, Failure.of(error, case.label)
                 continue
@@ -240,11 +240,11 @@ def _extent(numbers: dict[str, float]) -> Extent:
     return Extent(numbers["rear"], numbers["front"], 0.0 if math.isinf(side) else side)
 
 
-def _doubts(case: IndenterCase, contact: Extent, indentation: float, relaxed: float) -> tuple[Note, ...]:
+def _doubts(case: IndenterCase, contact: Extent, indentation: float, E0: float, material: Material) -> tuple[Note, ...]:
     """Return the warnings that `solve_steady` would give; raise `InputError` if it is wider than the indenter."""
     case.indenter.check(contact, f"under {case.load:g} {case.indenter.geometry.load_unit}")
     doubts: list[Note | None] = [*case.indenter.warnings(contact, indentation)]
-    doubts.append(case.indenter.adhesion_warning(case.load, relaxed))
+    doubts.append(case.indenter.adhesion_warning(case.load, E0, material.poisson_ratio))
     if case.layer is not None:
         doubts.append(case.layer.strain_warning(indentation))
     return tuple(note_of(doubt) for doubt in doubts if doubt)

@@ -21,7 +21,7 @@ from viscofric.errors import InputError, ViscofricError
 from viscofric.friction.sensitivity import ComplianceSensitivity
 from viscofric.notes import Note, codes, counted, note_of, records
 from viscofric.rheology.material import EXTRAPOLATED, Material, unknown_frequencies
-from viscofric.rheology.spectra.quality import BEYOND, DOUBTS, KnownFrequencies
+from viscofric.rheology.spectra.quality import BEYOND, DOUBTS
 from viscofric.roughness.patches import contact_statistics
 from viscofric.units import shown_number
 
@@ -350,7 +350,7 @@ def columns_of_contacts(
     """Return what `columns_of_records` does, and which frequencies were measured, of contacts warmer by (n,), K."""
     columns = columns_of_records(records, load_unit)
     columns["notes"] += (*unknown_frequencies(material), *material.notes_at(columns["temperature"]))
-    known: KnownFrequencies | None = getattr(material.spectrum, "known_frequencies", None)
+    known = material.spectrum.known_frequencies
     if known is None:  # a table of moduli has notes of its own
         return columns
     alpha = 1.0 if material.shift is None else material.shift(columns["temperature"] + warmer)

@@ -175,6 +175,11 @@ class ModulusTable(FrequencyResponse, Items[tuple[float, float, float]]):
         """Glass modulus E(∞), Pa; only where the ends are treated as plateaus."""
         return float(self.complex_modulus(np.inf).real)
 
+    @property
+    def known_frequencies(self) -> None:
+        """None: outside the table it has no modulus, or one that it was told to extrapolate."""
+        return None
+
     @cached_property
     def _curves(self) -> tuple[Any, Any]:
         from scipy.interpolate import PchipInterpolator

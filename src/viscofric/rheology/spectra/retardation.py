@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -268,6 +268,10 @@ class RetardationSpectrum(ModeSpectrum):
         if self.fit is not None or len(rates) < _SEVERAL:
             return self.fit
         return FrequenciesOfModes((float(rates.min()), largest_position(1.0 / self.E_inf, C, rates)))
+
+    def noted(self, *notes: str) -> RetardationSpectrum:
+        """Return the spectrum with notes before those of its fit, if it has one."""
+        return self if self.fit is None else replace(self, fit=replace(self.fit, notes=(*notes, *self.fit.notes)))
 
     def shifted(self, alpha: float, b: float = 1.0) -> RetardationSpectrum:
         """Return the spectrum at a temperature with shift factor α (and vertical shift b).

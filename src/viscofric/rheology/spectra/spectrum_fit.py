@@ -127,9 +127,9 @@ def fit_retardation_spectrum(
 
 def _with_doubts(spectrum: RetardationSpectrum, *tests: object) -> RetardationSpectrum:
     """Return the spectrum with notes on superpositions behind it that do not hold, which results repeat."""
-    doubts = [note for one in tests if isinstance(one, Superposed) and one.isotherms for note in one.check.doubts]
-    assert spectrum.fit is not None
-    return replace(spectrum, fit=replace(spectrum.fit, notes=(*doubts, *spectrum.fit.notes)))
+    return spectrum.noted(
+        *(note for one in tests if isinstance(one, Superposed) and one.isotherms for note in one.check.doubts)
+    )
 
 
 @dataclass(frozen=True)
