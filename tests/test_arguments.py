@@ -573,6 +573,7 @@ CALLS: dict[str, Any] = {
     "read_shift_factors": lambda: {"path": at("alpha.csv"), "reference": 300.0, "inverse": False, "columns": None,
         "sheet": None},
     "DensityShift": lambda: {"reference": 300.0, "expansion": 6e-4},
+    "OneTemperature": lambda: {"reference": 300.0},
     "VerticalShift.log10": lambda: (vf.rheology.DensityShift(300.0), {"temperature": np.array([300.0, 310.0])}),
     "VerticalShift.to_dataset": lambda: (vf.rheology.DensityShift(300.0), {"temperatures": [310.0]}),
     "VerticalShiftFactors": lambda: table(),

@@ -347,11 +347,20 @@ def test_what_cannot_be_checked_is_refused() -> None:
     with refused("no-points"):
         vf.check_assumptions(RUBBER, BALL, curves().select(np.zeros(4, dtype=bool)))
     with refused("no-shift"):
-        vf.check_assumptions(replace(RUBBER, shift=None), BALL, curves())
+        vf.check_assumptions(replace(RUBBER, shift=None), BALL, curves())  # at two temperatures
     with refused("contact-radius"):
         vf.check_assumptions(RUBBER, BALL, curves(), contact_radius=[1e-3, 2e-3])
     with refused("not-positive", naming="thickness"):
         vf.check_assumptions(RUBBER, BALL, curves(), thickness="-1 mm")
+
+
+@pytest.mark.parametrize("shift", [None, vf.rheology.OneTemperature("60 degC")])
+def test_warming_is_unknown_of_a_material_without_shift_factors(shift: vf.rheology.ShiftLaw | None) -> None:
+    at_one = curves().select(KELVIN == 333.15)
+    found = checks(replace(RUBBER.at_reference("60 degC"), shift=shift), BALL, at_one, thickness="10 mm")
+    known = checks(RUBBER, BALL, at_one, thickness="10 mm")
+    assert found["one temperature"].holds is None
+    assert found["quasi-static"].value == pytest.approx(known["quasi-static"].value)
 
 
 def test_the_narrowest_contact_is_hertz_at_the_modulus_of_its_own_frequency() -> None:

@@ -270,7 +270,11 @@ def test_several_loads_are_those_of_single_predictions() -> None:
     alone = [vf.predict_friction(FLUOROELASTOMER, CYLINDER, **CASE, **two, load=load) for load in (500.0, 1000.0)]
     for name in ("viscoelastic", "coulomb", "load", "temperature", "speed", "mean_pressure"):
         assert np.array_equal(getattr(found, name), np.concatenate([getattr(one, name) for one in alone])), name
-    assert set(found.notes) == {note for one in alone for note in one.notes}
+    assert codes(found.notes) == {code for one in alone for code in codes(one.notes)}
+    assert len(found.notes) == len(codes(found.notes))  # each once, of all loads
+    (share,) = (note.values for note in found.notes if note.code == "interface-share")
+    parts = found.coulomb / found.total
+    assert share == {"lowest": pytest.approx(parts.min()), "highest": pytest.approx(parts.max())}
     assert found.to_dataset()["viscoelastic"].dims == ("load", "temperature", "speed")
     assert steps[0] == (0, 8)
     assert steps[-1] == (8, 8)
@@ -308,10 +312,19 @@ def test_material_without_shift_factors_has_one_temperature_which_is_noted(given
     (note,) = (one for one in found.notes if one.code == "temperature-assumed")
     assert note.values == {"temperature": pytest.approx(kelvin)}
     assert not codes(known.notes) & {"temperature-assumed"}
+    stated = replace(alone, shift=vf.rheology.OneTemperature("40 degC"))
+    there = vf.predict_friction(stated, CYLINDER, **CASE, loads=[500.0, 600.0])
+    np.testing.assert_array_equal(there.viscoelastic, found.viscoelastic)
+    assert there.temperature == pytest.approx(313.15)
+    assert not codes(there.notes) & {"temperature-assumed"}
+    with refused("outside-measured"):
+        vf.predict_friction(stated, CYLINDER, **CASE, temperatures="60 degC", load=500.0)
     with refused("no-shift"):
         vf.predict_friction(alone, CYLINDER, **CASE, temperatures=["30 degC", "60 degC"], load=500.0)
     with refused("no-shift"):
         vf.predict_friction(alone, CYLINDER, **CASE, load=500.0, heating=vf.Heating(rubber=body, counterface=body))
+    with refused("no-shift"):
+        vf.predict_friction(stated, CYLINDER, **CASE, load=500.0, heating=vf.Heating(rubber=body, counterface=body))
 
 
 def test_predictions_repeat_what_sweeps_contradict(tmp_path: Path) -> None:

@@ -11,8 +11,10 @@ import viscofric as vf
 from cli.calls import call, succeed
 from refusals import refused
 from rheology.planted import write_moduli
+from viscofric.notes import codes
 from viscofric.rheology.catalogue import is_synthetic
 from viscofric.study.make_rubber import make_rubber
+from viscofric.study.rubber import rubber_at
 from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.study import validated
@@ -101,7 +103,8 @@ def test_a_test_at_one_temperature_is_its_own_master_curve(tmp_path, kind):
     groups = rubber_groups(made)
     assert {"/step_tests", "/step_master_curve"} <= set(groups)
     assert "/superposition" not in groups
-    assert made.material.shift is None
+    assert not made.material.has_shift_factors
+    assert made.material.reference == pytest.approx(283.15)
     inside = np.geomspace(5e-3, 0.3, 5)
     planted = vf.synthetic_fluoroelastomer().complex_modulus(inside, "10 degC")
     # data of eight digits, and what a lattice of modes leaves
@@ -110,6 +113,29 @@ def test_a_test_at_one_temperature_is_its_own_master_curve(tmp_path, kind):
     factors.save(tmp_path / "factors.csv")
     shifted = make_rubber(validated(MaterialTable, chosen | {"shift_factors": str(tmp_path / "factors.csv")}))
     assert shifted.material.shift.log10("20 degC") == pytest.approx(-0.9)
+
+
+def test_a_material_of_one_temperature_is_taken_there_alone(tmp_path):
+    """Made from a file, and read back from the material file: by Python, commands and run files in the same way."""
+    table = {"creep": str(written(tmp_path, "creep", (10.0,))), "deformation": "tension"}
+    made = make_rubber(validated(MaterialTable, table | {"reference_temperature": "10 degC"}))
+    file = vf.write_card(made.material, tmp_path / "rubber.json", "json")
+    for material in (made, make_rubber(validated(MaterialTable, {"file": str(file)}))):
+        known = rubber_at(material, [283.15])
+        assert known.material.reference == pytest.approx(283.15)
+        assert not codes(known.notes) & {"temperature-assumed"}
+        with refused("outside-measured"):
+            rubber_at(material, [283.15, 303.15])
+
+
+def test_a_material_of_an_unknown_temperature_is_taken_at_the_one_of_the_study():
+    unknown = make_rubber(validated(MaterialTable, {"catalogue": "VHB 4910"}))
+    known = rubber_at(unknown, [303.15])
+    assert known.material.reference == pytest.approx(303.15)
+    (note,) = (note for note in known.notes if note.code == "temperature-assumed")
+    assert note.values == {"temperature": pytest.approx(303.15)}
+    with refused("no-shift"):
+        rubber_at(unknown, [303.15, 313.15])
 
 
 @pytest.mark.parametrize(

@@ -185,6 +185,6 @@ def shifts(
     if name is None:
         return None, None
     rubber = find_rubber(name, parameter)
-    if rubber.shift is None:
+    if rubber.shift is None or not rubber.has_shift_factors:
         raise InputError(f"{name}: this rubber has no shift factors to compare with.", code="no-shift")
     return rubber.shift, rubber.vertical_shift

@@ -43,8 +43,8 @@ def insist_on_heatable(
     """Return the heating of a contact; InputError unless its friction can heat it: see `ThermalContact`."""
     insist_on(heating, "heating", Heating)
     assert isinstance(heating, Heating)
-    if material.shift is None or temperature is None:
-        raise InputError("heating: needs a material with a shift, and a temperature.", code="no-shift")
+    if not material.has_shift_factors or temperature is None:
+        raise InputError("heating: needs a material with shift factors, and a temperature.", code="no-shift")
     if speed == 0.0 or math.isinf(speed):
         raise InputError(f"heating: an elastic limit, speed = {speed:g}, has no heat.", code="elastic-limit")
     if layer is not None or coulomb != 0.0:

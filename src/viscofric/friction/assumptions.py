@@ -16,7 +16,7 @@ from viscofric.friction.finite_thickness import check_half_space
 from viscofric.friction.warming import Warming
 from viscofric.heat.result import HeatColumns
 from viscofric.notes import Note, Remedy
-from viscofric.rheology.material import Material, insist_on_material
+from viscofric.rheology.material import Material, insist_on_material, known_at
 from viscofric.thermal import BODIES, FILLED_RUBBER, PTFE, ThermalProperties
 from viscofric.units import Quantities, Quantity, plain, positive, to_si, to_si_array
 
@@ -51,7 +51,7 @@ def check_assumptions(
     Parameters
     ----------
     material : Material
-        With a shift.
+        With a shift where the curves have several temperatures.
     indenter : Indenter
     curves : FrictionCurves
         Measured or predicted: speeds, temperatures, loads and friction.  Coulomb friction and sliding velocity, where
@@ -85,7 +85,7 @@ def check_assumptions(
     Raises
     ------
     InputError
-        If there are no points, the material has no shift, or a value cannot be used.
+        If there are no points, they have several temperatures and the material no shift, or a value cannot be used.
 
     Notes
     -----
@@ -122,8 +122,7 @@ def check_assumptions(
     if not len(curves):
         raise InputError("friction curves contain no points; there are no contacts to check.", code="no-points")
     insist_on_indenter(indenter)
-    if material.shift is None:
-        raise InputError("material has no shift; the effect of warming on friction needs α(T).", code="no-shift")
+    material, _, _ = known_at(material, curves.temperature)
     for name, body in (("rubber", rubber), ("counterbody", counterbody)):
         insist_on(body, name, ThermalProperties, right="ThermalProperties (conductivity, density …)")
     insist_on(layer, "layer", Layer, type(None), right="a Layer, such as Layer(thickness='2 mm')")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.planning.shared import SharedContacts
 from viscofric.heat.heating import Heating
 from viscofric.heat.result import SolvedHeatColumns
-from viscofric.processes import Workers, at_work
+from viscofric.processes import Workers
 from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.showing import Rows
@@ -67,35 +68,40 @@ class HeatedFrictionCurves(SolvedHeatColumns, FrictionCurves):
 
 
 def predict_heated(
-    contacts: list[dict[str, Any]],
+    parts: list[list[dict[str, Any]]],
     heating: Heating,
-    workers: int | Workers,
+    workers: Workers,
     report: Callable[[int], None],
     interface: InterfaceLaw | None = None,
     *,
     exact: bool = False,
 ) -> HeatedFrictionCurves:
-    """Return the friction of contacts, arguments of `solve_steady` each, of one material, indenter and load."""
+    """Return the friction of contacts, arguments of `solve_steady` each, those of each load in a part of their own."""
     # The heat of an `interface` takes the place of a constant Coulomb friction. Contacts are interpolated between
     # others where that is enough, unless `exact`.
-    every = [_thermal(heating=heating, interface=interface, **one) for one in contacts]
-    kelvins = sorted({one.kelvin for one in every})
-    curves = [[one for one in every if one.kelvin == kelvin] for kelvin in kelvins]
-    accuracy, material = contacts[0]["accuracy"], contacts[0]["material"]
-    with at_work(workers) as processes:  # progress is that of the states
-        shared = None if exact else SharedContacts.of(material, contacts, processes, lambda done: None)
-        found = solve_states(curves, accuracy, processes, report, shared)
-    of_contact = dict(zip([id(one) for curve in curves for one in curve], found, strict=True))
-    states = [of_contact[id(one)] for one in every]
+    first, states = parts[0][0], list[States]()
+    for contacts in parts:
+        every = [_thermal(heating=heating, interface=interface, **one) for one in contacts]
+        kelvins = sorted({one.kelvin for one in every})
+        curves = [[one for one in every if one.kelvin == kelvin] for kelvin in kelvins]
+        # Progress is that of the states.
+        shared = None if exact else SharedContacts.of(first["material"], contacts, workers, lambda done: None)
+        found = solve_states(curves, first["accuracy"], workers, partial(_add, report, 2 * len(states)), shared)
+        of_contact = dict(zip([id(one) for curve in curves for one in curve], found, strict=True))
+        states += [of_contact[id(one)] for one in every]
     columns: dict[str, Any] = heat_columns(states)
     if interface is None and heating.coulomb > 0.0:
-        slip = [heating.sliding(one.speed) for one in every]
-        columns |= {"coulomb": np.full(len(every), heating.coulomb), "slip": np.array(slip)}
-    unit = contacts[0]["indenter"].geometry.load_unit
+        slip = [heating.sliding(one.contact.speed) for one in states]
+        columns |= {"coulomb": np.full(len(states), heating.coulomb), "slip": np.array(slip)}
+    unit, material = first["indenter"].geometry.load_unit, first["material"]
     records = [_record(one) for one in states]
     friction = columns_of_contacts(material, records, unit, columns["temperature_rise"])
     source = marked("predicted", synthetic=is_synthetic(material))
     return HeatedFrictionCurves(**friction, source=source, **columns)
+
+
+def _add(report: Callable[[int], None], before: int, done: int) -> None:
+    report(before + done)
 
 
 def _record(one: States) -> Record:

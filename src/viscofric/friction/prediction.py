@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import fields, replace
+from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any, Unpack
 
@@ -18,22 +18,20 @@ from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
 from viscofric.files import marked
 from viscofric.friction.bands import DrawnMaterials, with_material_band
-from viscofric.friction.cases.record import columns_of_contacts, indenter_record
+from viscofric.friction.cases.record import Record, columns_of_contacts, indenter_record
 from viscofric.friction.coulomb import check_interface, shear_notes, with_interface
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
 from viscofric.friction.planning.shared import SharedContacts, places_of
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.heat.heating import Heating
-from viscofric.notes import Note, Remedy, without
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.interface.law import InterfaceLaw
-from viscofric.rheology.material import Material, insist_on_material
-from viscofric.rheology.shifts.laws import Arrhenius
+from viscofric.rheology.material import Material, insist_on_material, known_at
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.units import Quantities, Quantity, number, positive, shown_celsius, shown_number, to_si_array
+from viscofric.units import Quantities, Quantity, number, positive, shown_number, to_si_array
 
 
 def predict_friction(
@@ -139,27 +137,19 @@ def predict_friction(
     insist_on_round_edges(indenter)
     insist_on_function(progress, "progress")
     flag(exact, "exact")
-    kelvins = to_si_array(_reference(material) if temperatures is None else temperatures, "K", "temperatures")
+    material, kelvins, assumed = known_at(material, temperatures)
     layer = Layer.of(settings.get("layer"))
     if layer is not None:
         settings["layer"] = layer
     unit = indenter.geometry.load_unit
     exactly_one(load=load, loads=loads)
     accuracy = number(accuracy, "accuracy")
-    if load is None:
+    if load is not None:
+        forces = np.array([positive(load, unit, "load")])
+    else:
         assert loads is not None
         forces = to_si_array(loads, unit, "loads")
         _insist_on_values(forces, "loads", unit)
-        with at_work(workers) as processes:
-            return _joined(
-                predict_friction(
-                    material, indenter, speeds=velocities, temperatures=kelvins, load=float(one), samples=samples,
-                    interface=interface, slip=slip, accuracy=accuracy, workers=processes, heating=heating, exact=exact,
-                    progress=None if progress is None else partial(_part_of, progress, place, len(forces)), **settings,
-                )
-                for place, one in enumerate(forces)
-            )  # fmt: skip
-    force = positive(load, unit, "load")
     _insist_on_values(velocities, "speeds", "m/s")
     _insist_on_values(kelvins, "temperatures", "K")
     check_interface(interface, slip)
@@ -169,37 +159,28 @@ def predict_friction(
             raise InputError("heating: not with samples; leave out one.", code="not-with-heating")
         check_interface_heat(heating, interface, slip)
     drawn = None if samples is None else DrawnMaterials(samples, material)
-    assumed: tuple[Note, ...] = ()
-    if material.shift is None:
-        assumed = _assumed(kelvins, heated=heating is not None)
-        material = replace(material, shift=Arrhenius(1.0, kelvins[0]))  # any law, of which no other value is used
-    contacts = [
-        {
-            "material": material,
-            "indenter": indenter,
-            "speed": float(velocity),
-            "load": force,
-            "temperature": float(kelvin),
-            "accuracy": accuracy,
-            **settings,
-        }
-        for kelvin in kelvins
-        for velocity in velocities
-    ]
+    given: dict[str, Any] = {"material": material, "indenter": indenter, "accuracy": accuracy, **settings}
+    places = [{"temperature": T, "speed": v} for T in kelvins.tolist() for v in velocities.tolist()]
+    parts = [[given | {"load": force} | place for place in places] for force in forces.tolist()]
 
     def report(done: int) -> None:
         if progress is not None:
-            progress(done, len(contacts) if heating is None else 2 * len(contacts))
+            progress(done, sum(map(len, parts)) * (1 if heating is None else 2))
 
     report(0)
     rise = None
-    if heating is not None:
-        curves: FrictionCurves = (heated := predict_heated(contacts, heating, workers, report, interface, exact=exact))
-        slip, rise = None if heating.slip is None else heating.sliding(0.0), heated.face_rise
-    else:
-        curves = _isothermal(material, contacts, drawn, workers, report, exact)
+    with at_work(workers) as processes:
+        if heating is not None:
+            curves: FrictionCurves
+            curves = heated = predict_heated(parts, heating, processes, report, interface, exact=exact)
+            slip, rise = None if heating.slip is None else heating.sliding(0.0), heated.face_rise
+        else:
+            curves = _isothermal(parts, drawn, processes, report, exact)
     if interface is not None:
-        curves = with_interface(curves, interface, slip, rise=rise)
+        slips = None if slip is None else to_si_array(slip, "m/s", "slip")
+        if slips is not None and slips.size == len(parts[0]):
+            slips = np.tile(slips, len(parts))  # the same under each load
+        curves = with_interface(curves, interface, slips, rise=rise)
     warmer = getattr(curves, "temperature_rise", None)
     notes = (*assumed, *curves.notes)
     if curves.coulomb is not None:
@@ -208,72 +189,44 @@ def predict_friction(
     return replace(curves, notes=notes)
 
 
-#: Of a material without shift factors, where no temperature is given.
-_ROOM = 293.15  # K
-
-
-def _reference(material: Material) -> float:
-    """Return the temperature at which a material is known, or is taken to be; K."""
-    return _ROOM if material.reference is None else material.reference
-
-
-def _assumed(kelvins: Array, *, heated: bool) -> tuple[Note, ...]:
-    """Return the note on the one temperature of a material without shift factors; raise where it needs others."""
-    if heated or len(kelvins) > 1:
-        raise InputError(
-            "the material has no shift factors, so that its modulus is known at one temperature only; ",
-            code="no-shift",
-            remedy=without("heating") if heated else Remedy("give one of the temperatures.", "give one --temperature."),
-        )
-    said = f"The material has no shift factors: its modulus is taken to be that at {shown_celsius(kelvins[0])} °C."
-    return (Note("temperature-assumed", said, values={"temperature": float(kelvins[0])}),)
-
-
-def _part_of(progress: Callable[[int, int], object], place: int, count: int, done: int, total: int) -> None:
-    """Report the progress of one of several predictions of equal length."""
-    progress(place * total + done, count * total)
-
-
-def _joined(each: Iterable[FrictionCurves]) -> FrictionCurves:
-    """Return curves of several loads as one."""
-    first, *others = each
-    every = (first, *others)
-    columns: dict[str, Any] = {
-        field.name: np.concatenate([getattr(one, field.name) for one in every])
-        for field in fields(first)
-        if isinstance(getattr(first, field.name), np.ndarray)
-    }
-    return replace(first, **columns, notes=tuple(dict.fromkeys(note for one in every for note in one.notes)))
-
-
 def _isothermal(
-    material: Material,
-    contacts: list[dict[str, Any]],
+    parts: list[list[dict[str, Any]]],
     drawn: DrawnMaterials | None,
-    workers: int | Workers,
+    workers: Workers,
     report: Callable[[int], None],
     exact: bool,
 ) -> FrictionCurves:
-    """Return the friction of contacts, interpolated between fewer where that is enough, with the material's band."""
-    shared, records = None, None
-    if not exact:
-        shared = SharedContacts.of(material, contacts, workers, report, sensitive=drawn is not None)
-    if shared is not None:
-        records = shared(places_of(contacts))
-        if drawn is not None and any(record.sensitivity is None for record in records):
-            records = None
-    kelvins = np.array([one["temperature"] for one in contacts])
-    if records is None and drawn is None:
-        solved = call_all(solve_steady, contacts, workers=workers, progress=report)
-        records = [indenter_record(*one) for one in zip(solved, kelvins.tolist(), strict=True)]
-    elif records is None:
-        pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
-        records = [indenter_record(one, kelvin, known) for (one, known), kelvin in zip(pairs, kelvins, strict=True)]
-    columns = columns_of_contacts(material, records, contacts[0]["indenter"].geometry.load_unit)
+    """Return the friction of contacts, those of each load in a part of their own, with the material's band."""
+    first = parts[0][0]
+    material, records = first["material"], list[Record]()
+    for part in parts:
+        records += _records(part, drawn is not None, workers, partial(_add, report, len(records)), exact)
+    columns = columns_of_contacts(material, records, first["indenter"].geometry.load_unit)
     curves = FrictionCurves(**columns, source=marked("predicted", synthetic=is_synthetic(material)))
     if drawn is None:
         return curves
     return with_material_band(curves, [record.sensitivity for record in records], drawn)  # type: ignore[misc]
+
+
+def _add(report: Callable[[int], None], before: int, done: int) -> None:
+    report(before + done)
+
+
+def _records(
+    contacts: list[dict[str, Any]], sensitive: bool, workers: Workers, report: Callable[[int], None], exact: bool
+) -> list[Record]:
+    """Return the records of contacts under one load, interpolated between fewer where that is enough."""
+    if not exact:
+        shared = SharedContacts.of(contacts[0]["material"], contacts, workers, report, sensitive=sensitive)
+        records = [] if shared is None else shared(places_of(contacts))
+        if records and not (sensitive and any(record.sensitivity is None for record in records)):
+            return records
+    kelvins = [contact["temperature"] for contact in contacts]
+    if not sensitive:
+        solved = call_all(solve_steady, contacts, workers=workers, progress=report)
+        return [indenter_record(*one) for one in zip(solved, kelvins, strict=True)]
+    pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
+    return [indenter_record(one, kelvin, known) for (one, known), kelvin in zip(pairs, kelvins, strict=True)]
 
 
 def _insist_on_values(values: Array, name: str, unit: str) -> None:

@@ -24,7 +24,7 @@ from viscofric.friction.identification.forward import FirstOrder
 from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import ShiftLaw
-from viscofric.rheology.shifts.shift_law import LN10
+from viscofric.rheology.shifts.shift_law import LN10, NOMINAL
 from viscofric.thermal import ThermalProperties
 from viscofric.units import shown_celsius
 
@@ -144,7 +144,8 @@ class _Contact(NamedTuple):
 def _decades_per_kelvin(shift: ShiftLaw, kelvin: float) -> float:
     """Return |d log10 α/dT|, from within the temperatures at which α is known."""
     known = {}
-    for one in (kelvin - 0.5, kelvin, kelvin + 0.5):
+    step = 2.0 * NOMINAL  # beyond what is taken for one temperature
+    for one in (kelvin - step, kelvin, kelvin + step):
         try:
             known[one] = float(shift.log10(one))
         except InputError:

@@ -97,7 +97,7 @@ def basis(result: object) -> Basis:
 
 def _of_material(rubber: Material) -> Iterator[Any]:
     yield from basis(rubber.spectrum)
-    if rubber.shift is not None:
+    if rubber.has_shift_factors:
         yield from basis(rubber.shift)
     if rubber.citation:
         key = re.sub(r"\W+", "_", rubber.name.lower()).strip("_") or "rubber"

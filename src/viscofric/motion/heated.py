@@ -147,7 +147,7 @@ def _insist_on_heatable(problem: Problem, history: History, heating: Heating) ->
         "before = 'sliding', whose heat has no beginning": history.before == "sliding",
         "slip or passes, which follow from the history": heating.slip is not None or heating.passes > 0,
         "the hot branch, which a history reaches by itself": heating.branch != "cold",
-        "a material without shift factors, or a history without temperature": problem.material.shift is None
+        "a material without shift factors, or a history without temperature": not problem.material.has_shift_factors
         or history.temperature is None,
     }
     for reason, holds in reasons.items():

@@ -12,6 +12,7 @@ from viscofric.rheology.ramps.result import RampCheck as RampCheck
 from viscofric.rheology.ramps.result import RampSuperposition as RampSuperposition
 from viscofric.rheology.ramps.result import glass_transition as glass_transition
 from viscofric.rheology.shifts.law_comparison import LawComparison as LawComparison
+from viscofric.rheology.shifts.laws import OneTemperature as OneTemperature
 from viscofric.rheology.shifts.laws import ShiftLaw as ShiftLaw
 from viscofric.rheology.shifts.shift_files import read_vendor_law as read_vendor_law
 from viscofric.rheology.shifts.vertical_shift import DensityShift as DensityShift

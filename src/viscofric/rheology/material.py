@@ -10,17 +10,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arguments import flag, insist_on, text
-from viscofric.arrays import ComplexArray
+from viscofric.arrays import Array, ComplexArray
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note, Remedy, without
-from viscofric.rheology.shifts.laws import ShiftLaw
-from viscofric.rheology.shifts.shift_law import in_kelvin
+from viscofric.rheology.shifts.laws import OneTemperature, ShiftLaw
+from viscofric.rheology.shifts.shift_law import NOMINAL, in_kelvin
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.showing import Plotted, Rows
-from viscofric.units import Quantity, checked_poisson_ratio, positive, shown_celsius
+from viscofric.units import Quantities, Quantity, checked_poisson_ratio, positive, shown_celsius, to_si_array
 
 #: Code of the note on shift factors that are extrapolated.
 EXTRAPOLATED = "extrapolated"
@@ -40,7 +40,7 @@ class Material(Plotted):
         At the shift's reference temperature.  A table has no modes: it has a modulus, a compliance and shifts, but no
         creep.  A free contact, which needs modes, fits them to it (`modes_at`).
     shift : ShiftLaw or ShiftFactors, optional
-        α(T).  Without it the material is valid at one temperature only.
+        α(T).  Without it the material is valid at one temperature only, which is not known unless by `OneTemperature`.
     poisson_ratio : float
         0 to 0.5.
     name : str
@@ -156,6 +156,11 @@ class Material(Plotted):
     def reference(self) -> float | None:
         """Temperature of `spectrum`, K; None without a shift."""
         return None if self.shift is None else float(self.shift.reference)
+
+    @property
+    def has_shift_factors(self) -> bool:
+        """Whether the material is known at several temperatures."""
+        return self.shift is not None and not isinstance(self.shift, OneTemperature)
 
     def at(self, temperature: Quantity | None = None) -> RetardationSpectrum | ModulusTable:
         """Return the spectrum, or the table, at a temperature.
@@ -293,6 +298,38 @@ class Material(Plotted):
         at += f" and {beyond.size - _MOST_SHOWN} more temperatures" if beyond.size > _MOST_SHOWN else ""
         said = f"At {at} the law extrapolates the shift factor beyond the temperatures that it was fitted to."
         return (Note(EXTRAPOLATED, said, values={"lowest": float(beyond[0]), "highest": float(beyond[-1])}),)
+
+
+#: Temperature of a material without shift factors where none is given.
+_ROOM = 293.15  # K
+
+
+def known_at(material: Material, temperatures: Quantities | None) -> tuple[Material, Array, tuple[Note, ...]]:
+    """Return a material for contacts at temperatures, these in K, (n,), and what is assumed of it.
+
+    Left out, there is one temperature, that of the material.  Where that is not known, it is taken to be the one that
+    is given, or 20 °C; several are refused.
+    """
+    given = material.reference if temperatures is None else temperatures
+    kelvins = to_si_array(_ROOM if given is None else given, "K", "temperatures")
+    if material.shift is not None or not kelvins.size:
+        return material, kelvins, ()
+    if np.ptp(kelvins) > NOMINAL:
+        raise InputError(
+            "the material has no shift factors, so that its modulus is known at one temperature only; ",
+            code="no-shift",
+            remedy=Remedy(
+                "give one of the temperatures.",
+                "give one --temperature.",
+                "give one temperature under [conditions].",
+                "give one temperature.",
+                field="conditions.temperature",
+            ),
+        )
+    known = float(kelvins[0])
+    said = f"The material has no shift factors: its modulus is taken to be that at {shown_celsius(known)} °C."
+    assumed = Note("temperature-assumed", said, values={"temperature": known})
+    return replace(material, shift=OneTemperature(known)), kelvins, (assumed,)
 
 
 def alpha_and_b(material: Material, kelvin: float) -> tuple[float, float]:

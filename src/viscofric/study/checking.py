@@ -9,8 +9,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.cases.case import moved
 from viscofric.friction.cases.surfaces import notes_on, surface_of
@@ -31,7 +29,7 @@ from viscofric.study.cases.sweep import Sweep
 from viscofric.study.histories import case_histories, checked_table, impacts_of, is_heated, material_notes
 from viscofric.study.make_rubber import make_rubber
 from viscofric.study.measurement import read_measurement
-from viscofric.study.rubber import Rubber, shift_of
+from viscofric.study.rubber import Rubber, rubber_at
 from viscofric.study.run_file.study import Study
 
 
@@ -154,9 +152,7 @@ def check_study(study: Study, path: Path) -> CheckedStudy:
     wrong: list[tuple[Note, str]] = []  # with the field that each is about
     for number, material in enumerate(study.materials):
         with _noted(wrong, "material", f"material[{number}]" if len(study.materials) > 1 else ""):
-            rubber = make_rubber(material)
-            shift_of(rubber)(np.array(study.conditions.temperature))  # raises where one has no shift factor
-            rubbers.append(rubber)
+            rubbers.append(rubber_at(make_rubber(material), study.conditions.temperature))
     if study.measurement is not None:
         with _noted(wrong, "measurement"):
             measured = read_measurement(study.measurement)

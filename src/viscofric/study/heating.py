@@ -154,7 +154,7 @@ class Heatings(Singles):
     def _arguments(self, case: Any, first: int, second: int) -> dict[str, Any]:
         body: dict[str, Any]
         material = self._rubbers.without_notes(case)
-        if material.shift is None:
+        if not material.has_shift_factors:
             raise InputError("heating: needs a material with shift factors.", code="no-shift")
         if isinstance(case, SurfaceCase):
             body = {"surface": case.surface, "pressure": case.pressure, "direction": case.direction}

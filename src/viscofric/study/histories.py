@@ -72,7 +72,7 @@ class Histories(Singles):
 
 def is_heated(study: Study, materials: Iterable[Material]) -> bool:
     """Return whether the cases over time are heated: stress is not known to follow a vertical shift that changes."""
-    return study.heats_histories and all(one.shift is not None and one.vertical_shift is None for one in materials)
+    return study.heats_histories and all(one.has_shift_factors and one.vertical_shift is None for one in materials)
 
 
 def material_notes(study: Study, materials: Iterable[Material]) -> tuple[Note, ...]:

@@ -24,7 +24,7 @@ from viscofric.rheology.catalogue import catalogue_material, is_synthetic
 from viscofric.rheology.material import Material
 from viscofric.rheology.ramps.superpose import RampLaw, assumed_of, superpose_ramps
 from viscofric.rheology.shifts.law_comparison import LawComparison
-from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+from viscofric.rheology.shifts.laws import OneTemperature, ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.parametric_law import law_misfit
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_files import read_shift_factors
@@ -255,7 +255,7 @@ def _from_master_curve(table: MaterialTable, path: Path, liquids: bool) -> Rubbe
 
 
 def _from_curve(table: MaterialTable, curve: MasterCurve | StepMasterCurve, liquids: bool) -> Rubber:
-    shift: ShiftLaw | None = None
+    shift: ShiftLaw = OneTemperature(curve.reference)
     off: tuple[Note, ...] = ()
     laws, used = None, ""
     if table.shift_factors is not None:
@@ -290,9 +290,7 @@ def _spectrum(
         moduli = first.master_curve if isinstance(first, (Superposition, StepSuperposition)) else first
         assert not isinstance(moduli, StepMasterCurve)  # sweeps come first
         return ModulusTable.from_master_curve(moduli), (Note("liquid", f"No spectrum: {error}"),)
-    if spectrum.fit is None or not verdict:
-        return spectrum, ()
-    return replace(spectrum, fit=replace(spectrum.fit, notes=(*verdict, *spectrum.fit.notes))), ()
+    return spectrum.noted(*verdict), ()
 
 
 def _off(law: ShiftLaw | None, factors: ShiftFactors) -> tuple[Note, ...]:

@@ -119,7 +119,7 @@ class Measurement:
         }
 
     def _shift_factors(self) -> Groups:
-        if self._found is None or self.material.shift is None:
+        if self._found is None or self.material.shift is None or not self.material.has_shift_factors:
             return {}
         try:
             agreement = compare_shift_factors(self._found, self.material.shift)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import StudyError
 from viscofric.notes import Note
-from viscofric.rheology.material import Material
+from viscofric.rheology.material import Material, known_at
 from viscofric.rheology.payne.kraus_fit import PayneFit
 from viscofric.rheology.ramps.result import RampSuperposition
 from viscofric.rheology.shifts.law_comparison import LawComparison
-from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.superposition.joint import JointSuperposition
 from viscofric.rheology.superposition.result import StepSuperposition, Superposition
@@ -87,8 +90,11 @@ class Rubber:
         return said
 
 
-def shift_of(rubber: Rubber) -> ShiftLaw:
-    """Return α(T) of a material for contacts; raise `StudyError` if it has no spectrum or no shift factors."""
+def rubber_at(rubber: Rubber, temperatures: Sequence[float]) -> Rubber:
+    """Return a material for contacts at temperatures, K, with notes on what is assumed of it.
+
+    Raises `StudyError` if it has no spectrum, and `InputError` if it is not known at one of the temperatures.
+    """
     material = rubber.material
     if not isinstance(material.spectrum, RetardationSpectrum):
         raise StudyError(
@@ -99,13 +105,7 @@ def shift_of(rubber: Rubber) -> ShiftLaw:
                 "material",
             )
         )
-    if material.shift is None:
-        raise StudyError(
-            Note(
-                "no-shift",
-                f"{material.name or 'the rubber'} has no shift factors, and cannot be used at other temperatures; give "
-                "a material that has them, or sweeps at several temperatures.",
-                "material",
-            )
-        )
-    return material.shift
+    known, kelvins, assumed = known_at(material, np.array(temperatures, dtype=float))
+    if known.shift is not None:
+        known.shift(kelvins)
+    return replace(rubber, material=known, notes=(*rubber.notes, *assumed)) if assumed else rubber

@@ -21,34 +21,37 @@ from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES, sample_materials
 from viscofric.study.make_rubber import make_rubber
-from viscofric.study.rubber import Rubber, shift_of
+from viscofric.study.rubber import Rubber, rubber_at
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.settings import UncertaintyTable
 
 
 @dataclass(frozen=True, eq=False)
 class StudyRubber:
-    """A material of a study with its bands, its bootstrap samples (`members`) and its shift."""
+    """A material of a study with its bands and its bootstrap samples (`members`)."""
 
     rubber: Rubber
     bands: FrictionBands
     members: tuple[Material, ...]
-    shift: ShiftLaw
 
     @classmethod
     def of(cls, table: MaterialTable, uncertainty: UncertaintyTable, temperatures: Sequence[float]) -> StudyRubber:
         """Make a material for contacts at some temperatures; raise if it, or one of these, cannot be used for them."""
-        rubber = make_rubber(table)
-        shift = shift_of(rubber)
         # Raises for temperatures without a shift factor, before any case is solved.
-        shift(np.array(temperatures))
+        rubber = rubber_at(make_rubber(table), temperatures)
         bands = FrictionBands(rubber, uncertainty.draws, uncertainty.seed)
-        return cls(rubber, bands, _members(rubber, bands, uncertainty), shift)
+        return cls(rubber, bands, _members(rubber, bands, uncertainty))
 
     @property
     def material(self) -> Material:
         """The best estimate."""
         return self.rubber.material
+
+    @property
+    def shift(self) -> ShiftLaw:
+        """α(T)."""
+        assert self.material.shift is not None
+        return self.material.shift
 
     @property
     def spectrum_fit(self) -> SpectrumFit | None:
@@ -58,7 +61,7 @@ class StudyRubber:
     @property
     def known_frequencies(self) -> KnownFrequencies | None:
         """Frequencies at which the spectrum is known, be it of its modes alone; None of a table or a single mode."""
-        return getattr(self.material.spectrum, "known_frequencies", None)
+        return self.material.spectrum.known_frequencies
 
     def is_within(self, case: Case, record: Record) -> bool | None:
         """Whether a contact's frequencies (v/a, or 2πv/λ), reduced by α(T), were measured; None if not known."""

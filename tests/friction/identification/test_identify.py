@@ -177,7 +177,9 @@ def test_the_size_of_a_contact_fixes_the_level(size: str) -> None:
     anchor = vf.friction.ContactAnchor(speed, REFERENCE, LOAD, error=2e-3, **{size: getattr(contact, size)})
     found = vf.identify_material(planted_curves(REFERENCE), anchor=anchor, **(SETTINGS | {"samples": 20}))
     assert found.anchored
-    assert found.material.shift is None
+    assert found.shift_factors is None
+    assert not found.material.has_shift_factors
+    assert found.material.reference == pytest.approx(REFERENCE)
     # δ and area go as E^(−2/3), the half width as E^(−1/3); sizes are solved to 0.5 %, and meant to 0.2 %.
     assert error_of(found, np.array([found.middle])) == pytest.approx(0.0, abs=0.015)
 

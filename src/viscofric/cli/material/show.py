@@ -66,7 +66,9 @@ def _about(material: Material) -> list[str]:
         lines.append(f"E0 = {spectrum.E0 / 1e6:.4g} MPa, E_inf = {spectrum.E_inf / 1e6:.4g} MPa, {len(spectrum)} modes")
     lines.append(f"Poisson's ratio {material.poisson_ratio:g}")
     if material.reference is not None:
-        lines.append(f"reference {shown_celsius(material.reference)} °C; shift: {type(material.shift).__name__}")
+        at = shown_celsius(material.reference)
+        shift = f"reference {at} °C; shift: {type(material.shift).__name__}"
+        lines.append(shift if material.has_shift_factors else f"known at {at} °C only, without shift factors")
     return lines
 
 

@@ -17,7 +17,7 @@ from viscofric.friction.identification.problem import Problem
 from viscofric.friction.identification.result import IdentifiedBand, LevelFit, log_magnitudes
 from viscofric.friction.identification.solving import Contacts, spectrum_of
 from viscofric.rheology.material import Material
-from viscofric.rheology.shifts.shift_law import ShiftLaw
+from viscofric.rheology.shifts.laws import OneTemperature, ShiftLaw
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 #: Smallest part of the evidence for a roughness to be included.
@@ -97,6 +97,8 @@ class Findings(Generic[AnyProblem]):
             rows = slice(problem.modes, problem.modes + len(log_alpha))
             spread = np.zeros((len(log_alpha),) * 2) if covariance is None else covariance[rows, rows]
             shift = problem.shifts.table(log_alpha, spread)
+        elif shift is None:
+            shift = OneTemperature(problem.shifts.reference)
         return Material(spectrum_of(compliances, problem.smoothness.tau), shift, self.poisson_ratio, self.name)
 
     def _prior_materials(self, samples: int, random: np.random.Generator) -> list[Material]:
@@ -142,8 +144,8 @@ class Findings(Generic[AnyProblem]):
             "error_scale": error_scale,
             "material": material,
             "samples": self.drawn,
-            "shift_factors": material.shift,
-            "shift_found": problem.shifts.found and material.shift is not None,
+            "shift_factors": material.shift if material.has_shift_factors else None,
+            "shift_found": problem.shifts.found and material.has_shift_factors,
             "middle": self.middle,
             "frequency_range": self.frequency_range,
             "roughness": problem.smoothness.roughness,

@@ -225,7 +225,7 @@ def _left_out(material: Material, form: str, domain: str, text: str) -> list[Not
     """Return a sentence on the part of the temperature dependence that the card cannot contain."""
     notes, shift = [], material.shift
     written = (stored_content(text) or {"card": {}})["card"].get("shift")
-    if shift is not None and not written:
+    if shift is not None and material.has_shift_factors and not written:
         about = f"The card for {form} holds at {shown_celsius(float(shift.reference))} °C only: "
         notes.append(_no_shift(about, shift, form, domain))
     if material.vertical_shift is not None:

@@ -130,7 +130,7 @@ def write_branches(material: Material, writing: Writing) -> str:
     relaxation, ratio = contents[:2]
     shear = 1.0 / (2.0 * (1.0 + ratio))
     lines.append(f"% Long-term shear modulus {relaxation.E0 * shear!r} Pa, Poisson ratio {ratio!r}.")
-    if material.shift is not None:
+    if material.shift is not None and material.has_shift_factors:
         lines.append(f"% Shift: {_exact(material.shift)[:200]}".encode("ascii", "replace").decode())
     lines.append("% branch, shear modulus (Pa), relaxation time (s)")
     for number, (modulus, time) in enumerate(contents.modes, start=1):

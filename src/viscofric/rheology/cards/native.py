@@ -17,7 +17,7 @@ from viscofric.files import parse_json
 from viscofric.notes import Note, Remedy, dumped, note_of, records
 from viscofric.rheology.cards.card import Solid, Writing, card_law
 from viscofric.rheology.material import Material
-from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, WLFArrhenius
+from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, OneTemperature, WLFArrhenius
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import as_record
 from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShiftFactors
@@ -29,7 +29,7 @@ from viscofric.units import CELSIUS_ZERO, celsius
 #: Version of the format, increased when older programs can no longer read its files.
 VERSION = 1
 
-_SHIFTS: tuple[type, ...] = (WLF, VFT, Arrhenius, WLFArrhenius, InversePolynomial, ShiftFactors)
+_SHIFTS: tuple[type, ...] = (WLF, VFT, Arrhenius, WLFArrhenius, InversePolynomial, OneTemperature, ShiftFactors)
 _VERTICAL: tuple[type, ...] = (DensityShift, VerticalShiftFactors)
 _SPECTRA: tuple[type, ...] = (RetardationSpectrum, ModulusTable)
 
@@ -301,9 +301,10 @@ def _remarks(material: Material, writing: Writing, poisson_ratio: float, shift_w
         own = f"The material's Poisson ratio is {material.poisson_ratio!r}"
         sentences.append(f"{own}; this card has {poisson_ratio!r}, as requested.")
     if material.shift is not None and not shift_written:
+        why = f": this keyword cannot express its shift, {type(material.shift).__name__}"
         sentences.append(
-            f"The card is valid at {celsius(float(material.shift.reference)):.6g} degrees Celsius only: this keyword "
-            f"cannot express its shift, {type(material.shift).__name__}."
+            f"The card is valid at {celsius(float(material.shift.reference)):.6g} degrees Celsius only"
+            f"{why if material.has_shift_factors else ''}."
         )
     if material.vertical_shift is not None:
         sentences.append("The vertical shift of the modulus with temperature, b(T), is not in the card.")

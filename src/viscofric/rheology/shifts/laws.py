@@ -12,10 +12,11 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import InputError
+from viscofric.notes import Remedy
 from viscofric.rheology.shifts.inverse_polynomial import InversePolynomial
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw
-from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10, ShiftLaw
-from viscofric.units import CELSIUS_ZERO, Quantity, shown_celsius
+from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10, NOMINAL, ShiftLaw
+from viscofric.units import CELSIUS_ZERO, Quantity, kelvin_hint, positive, shown_celsius
 
 __all__ = [
     "GAS_CONSTANT",
@@ -24,6 +25,7 @@ __all__ = [
     "WLF",
     "Arrhenius",
     "InversePolynomial",
+    "OneTemperature",
     "ParametricLaw",
     "ShiftLaw",
     "WLFArrhenius",
@@ -345,3 +347,51 @@ class WLFArrhenius(ParametricLaw):
         rise = Tg * (ratio - 1.0) / self.C2
         below = [rise, -self.C1 * rise / self.C2, self.C1 / self.C2 * (2.0 * ratio - 1.0)]
         return np.where(np.asarray(kelvin >= Tg)[..., None], np.stack(above, axis=-1), np.stack(below, axis=-1))
+
+
+@dataclass(frozen=True)
+class OneTemperature(ShiftLaw):
+    """The shift of a material that is known at one temperature: α = 1 there, and no value more than half a kelvin away.
+
+    Parameters
+    ----------
+    reference : float or quantity
+        The temperature; K, or text such as ``"30 degC"``.
+
+    Examples
+    --------
+    >>> import viscofric as vf
+    >>> spectrum = vf.RetardationSpectrum(E0="1 MPa", E_inf="10 MPa", C=[9e-7], tau=[1e-3])
+    >>> rubber = vf.Material(spectrum, shift=vf.rheology.OneTemperature("23 degC"))
+    >>> rubber.shift.valid_at(["23 degC", "40 degC"])
+    array([ True, False])
+    """
+
+    reference: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
+
+    def _refuse(self, kelvin: Array) -> None:
+        away = np.abs(kelvin - self.reference) > NOMINAL
+        if np.any(away):
+            wanted = float(kelvin[away][0])
+            raise InputError(
+                f"temperature = {shown_celsius(wanted)} °C: the material has no shift factors, and is known at "
+                f"{shown_celsius(self.reference)} °C only",
+                code="outside-measured",
+                remedy=Remedy(
+                    "; use this temperature, or give Material a shift, such as WLF(…)",
+                    "; use this temperature, or give shift factors (material fit --shift-factors)",
+                    "; use this temperature, or give shift_factors under [material]",
+                    "; use this temperature, or give “Shift factors”",
+                    field="conditions.temperature",
+                )
+                + kelvin_hint(wanted),
+            )
+
+    def _log10(self, kelvin: Array) -> Array:
+        return np.zeros(np.shape(kelvin))
+
+    def _standard_error(self, kelvin: Array) -> Array:
+        return np.zeros(np.shape(kelvin))

@@ -57,7 +57,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     accuracy = checked_part(solver=(SolverTable, study.get("solver", {}))).solver.accuracy
     chosen: dict[str, Any] = {"accuracy": options.accuracy or accuracy, "samples": options.samples}
     if options.shift == "rubber":
-        if rubber is None or rubber.shift is None:
+        if rubber is None or not rubber.has_shift_factors:
             raise JobError(
                 "The page's material has no shift factors; choose “found from friction”.",
                 "@identify.shift",

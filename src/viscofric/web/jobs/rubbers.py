@@ -69,14 +69,10 @@ def friction_bands(study: Mapping[str, Any], context: Context) -> FrictionBands:
 
 def study_rubber(study: Mapping[str, Any], context: Context, temperatures: Sequence[float] = ()) -> StudyRubber:
     """Return the rubber as a study has it, without members; raise where a temperature (K) has no shift factor."""
-    import numpy as np
+    from viscofric.study.rubber import rubber_at
 
-    from viscofric.study.rubber import shift_of
-
-    rubber = made_rubber(study, context)
-    shift = shift_of(rubber)
-    shift(np.array(temperatures, dtype=float))
-    return StudyRubber(rubber, friction_bands(study, context), (), shift)
+    rubber = rubber_at(made_rubber(study, context), temperatures)
+    return StudyRubber(rubber, friction_bands(study, context), ())
 
 
 def kept(

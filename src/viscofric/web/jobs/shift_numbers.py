@@ -40,7 +40,7 @@ def _not_correctable(rubber: Rubber) -> str:
 def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any] | None:
     """Return α(T) of a rubber, its laws and shifted isotherms, None without; `held`: K whose log10 α was held."""
     law = rubber.material.shift
-    if law is None:
+    if law is None or not rubber.material.has_shift_factors:
         return None
     fit, factors = rubber.fit, _factors(rubber)
     quality = getattr(rubber.fit or rubber.step_fit, "quality", None)
