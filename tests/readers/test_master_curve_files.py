@@ -130,6 +130,26 @@ def test_a_temperature_is_not_missed_in_a_master_curve(tmp_path):
     assert caught.value.note.values["missing"] == ["frequency"]
 
 
+def test_sweeps_from_glass_to_plateau_are_no_master_curve(tmp_path):
+    # Most neighbouring isotherms differ by less than a twentieth; those of glass and rubber by a factor of a thousand.
+    head = "T (°C),f (Hz),E' (MPa),E'' (MPa)"
+    levels = {-60: 2100, -50: 2050, -40: 2000, -30: 400, -20: 20, -10: 2.2, 0: 2.1, 10: 2.05, 20: 2}
+    sweeps = [f"{T},{f},{level * f**0.01:.6g},1" for T, level in levels.items() for f in (1, 10, 100)]
+    with refused("dma-sweeps"):
+        read_master_curve(write(tmp_path, head, *sweeps), "30 degC")
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["# Tref = 60 °C", "Reference temperature: 60 °C", "Tref (°C),60", "Master curve, Tref = 60,0 C", "T0: 333.15 K"],
+)
+def test_a_reference_in_other_words_may_not_contradict_the_one_given(tmp_path, line):
+    path = write(tmp_path, line, "f (Hz),E' (MPa),E'' (MPa)", *ROWS)
+    assert read_master_curve(path, "60 degC").reference == pytest.approx(333.15)
+    with refused("other-reference"):
+        read_master_curve(path, "25 degC")
+
+
 def test_logarithms_of_a_base_that_is_not_stated_are_refused(tmp_path):
     rows = ["-3,0.7,-0.3", "3,0.95,-0.15", "0,0.78,-0.05"]
     with refused("logarithm-unknown"):

@@ -19,17 +19,20 @@ from viscofric.readers.dma.tables import dma_table, reptate, workbook
 from viscofric.readers.one_table import only_table
 from viscofric.readers.source import Source, checked_sheet, unit_conversion
 from viscofric.readers.table import MILLIPASCAL, Table
-from viscofric.units import Quantity, checked_poisson_ratio, conversion, positive, shown_celsius
+from viscofric.units import Quantity, checked_poisson_ratio, positive, shown_celsius
 
 #: Reference temperatures are printed with few digits.
 _SAME_REFERENCE = 0.01  # K
-#: Relative difference of frequencies that are printed alike, K between isotherms, and relative difference of moduli
-#: that exceeds the scatter of isotherms on one curve.
+#: Relative difference of frequencies that are printed alike, K that span several isotherms, and relative difference of
+#: moduli that exceeds the scatter of isotherms on one curve.
 _SAME_FREQUENCY, _OTHER_TEMPERATURE, _OTHER_MODULUS = 1e-4, 1.0, 0.2
 _REMARKS = 20  # lines
-#: As `viscofric material fit` writes it above a master curve.
+#: As `viscofric material fit` writes it above a master curve, and as others do.
 _REFERENCE = re.compile(
-    r"\s*#\s*reference temperature:?\s*(?P<number>[+-]?\d+(\.\d*)?)\s*(?P<unit>degC|°C|K|degF)\s*$", re.IGNORECASE
+    r"[\W_]*(master ?curve\W+)?((reference|ref\.?) ?temp(erature|\.)?|t[_ ]?ref|t_?0|referenztemperatur"
+    r"|température de référence)(\W*\b(?P<before>degC|C|K|degF|F)\b)?"
+    r"\W*?(?P<number>[+−-]?\d+([.,]\d*)?)(\W*(?P<unit>degC|C|K|degF|F))?\W*",
+    re.IGNORECASE,
 )
 
 
@@ -155,19 +158,23 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
 
 def _are_sweeps(frequency: Array, storage: Array, temperature: Array) -> bool:
     """Return whether moduli at equal frequencies and different temperatures differ, as those of no master curve."""
-    order = np.lexsort((temperature, frequency))
-    steps = [np.abs(np.diff(one[order])) for one in (np.log(frequency), temperature, np.log(storage))]
-    equal = (steps[0] < _SAME_FREQUENCY) & (steps[1] > _OTHER_TEMPERATURE)
-    return bool(3 * equal.sum() >= len(frequency)) and float(np.median(steps[2][equal])) > _OTHER_MODULUS
+    # Neighbouring isotherms of a glass, or of the rubber plateau, hardly differ; the coldest and the warmest one do.
+    order = np.argsort(frequency, kind="stable")
+    groups = np.split(order, np.flatnonzero(np.diff(np.log(frequency[order])) > _SAME_FREQUENCY) + 1)
+    several = [rows for rows in groups if np.ptp(temperature[rows]) > _OTHER_TEMPERATURE]
+    if 3 * sum(map(len, several)) < 2 * len(frequency):
+        return False
+    return float(np.median([np.ptp(np.log(storage[rows])) for rows in several])) > _OTHER_MODULUS
 
 
 def _stated_reference(source: Source) -> float:
     """Return the reference temperature that a remark of a text table states, K, NaN without one."""
     for line in (source.text or "").splitlines()[:_REMARKS]:
-        found = _REFERENCE.match(line)
-        if found:
-            factor, offset = conversion(found["unit"], "K", "reference temperature")
-            return factor * float(found["number"]) + offset
+        found = _REFERENCE.fullmatch(line)
+        unit = found and (found["unit"] or found["before"])
+        if found and unit:
+            factor, offset = unit_conversion(unit, "K", "reference temperature")
+            return factor * float(found["number"].replace(",", ".").replace("−", "-")) + offset
     return float("nan")
 
 
