@@ -746,10 +746,11 @@ def test_words_that_may_tell_specimens_apart_are_named(tmp_path):
         assert "unused-columns" not in codes(read_dma(write(tmp_path, f"{HEADER},sample", *rows)).notes)
 
 
-def test_specimens_at_the_same_temperature_and_frequency_are_not_averaged(tmp_path):
+@pytest.mark.parametrize("heading", ["Specimen No.", "样品名称", "试样编号", "試料名", "試験片番号", "시편"])
+def test_specimens_at_the_same_temperature_and_frequency_are_not_averaged(tmp_path, heading):
     both = [f"{row},{word}" for word in ("A", "B") for row in ROWS]
     with pytest.raises(vf.DataFileError) as caught:
-        read_dma(write(tmp_path, f"{HEADER},Specimen No.", *both))
+        read_dma(write(tmp_path, f"{HEADER},{heading}", *both))
     assert caught.value.code == "several-specimens"
     repeated = read_dma(write(tmp_path, f"{HEADER},Specimen No.", *(f"{row},A" for row in ROWS * 2)))
     assert "averaged" in codes(repeated.notes)
@@ -831,6 +832,32 @@ def test_specimens_below_each_other_are_not_averaged(tmp_path, titles, header):
     with refused("several-specimens"):  # the temperature stands nearer
         own = ["f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "10;6;0.7"]
         read_dma(write(tmp_path, "Sample A", "T = 20 °C", *own, "Sample B", "T = 20 °C", *own))
+
+
+@pytest.mark.parametrize(
+    "titles",
+    [
+        ("up", "down"),
+        ("Sweep up", "Sweep down"),
+        ("NR, forward", "NR, reverse"),
+        ("Run 1 (up)", "Run 2 (down)"),
+        ("aufwärts", "abwärts"),
+    ],
+)
+def test_sweeps_up_and_down_are_of_one_specimen(tmp_path, titles):
+    rows = ["20;1;5;0.5", "20;10;6;0.7"]
+    sweeps = read_dma(write(tmp_path, titles[0], HEADING, *rows, titles[1], HEADING, *reversed(rows)))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6])
+    assert {"measured-again", "averaged"} <= set(codes(sweeps.notes))
+    with refused("several-specimens", None, "'NR'", "'SBR'"):
+        read_dma(write(tmp_path, "NR up", HEADING, *rows, "SBR down", HEADING, *rows))
+
+
+def test_a_title_keeps_the_brackets_of_its_specimen(tmp_path):
+    own = ["f (Hz);E' (MPa);E'' (MPa)", "1;5;0.5", "10;6;0.7"]
+    titles = ("Sample A (fresh) 20 °C", "Sample B [aged] (20 °C)")
+    with refused("several-specimens", None, "'Sample A (fresh)'", "'Sample B [aged]'"):
+        read_dma(write(tmp_path, titles[0], *own, titles[1], *own))
 
 
 @pytest.mark.parametrize("words", [("Frequency sweep 1",), ("Run 1", "Strain 0.1 %")])

@@ -312,11 +312,13 @@ def joined_tables(table: Table) -> list[Note]:
     return [Note("tables-joined", said, values={"titles": titles})]
 
 
-#: What tells nothing of the specimen: numbers of steps and pages, dates and times, and what is left around them.
+#: What tells nothing of the specimen: numbers of steps and pages, directions of sweeps, dates and times, and what is
+#: left around them.
 _COUNTED = re.compile(
     r"\b(sweep|step|interval|segment|page|run|action|part|set|schritt|abschnitt|intervall|seite|étape|intervalle|paso)"
     r"[\s:.#-]*\d+(\s*(of|von|de|/)\s*\d+)?|\d{1,4}[-./]\d{1,2}[-./]\d{1,4}|\d{1,2}:\d{2}(:\d{2})?"
-    r"|\b(T|temp\w*)\.?\s*[=:]?\s*$",
+    r"|\b(up|down|upwards?|downwards?|ascending|descending|increasing|decreasing|forwards?|reverse|backwards?|heating|cooling"
+    r"|aufwärts|abwärts|montée|descente)\b|\b(T|temp\w*)\.?\s*[=:]?\s*$",
     re.IGNORECASE,
 )
 
@@ -326,8 +328,9 @@ def _without_temperature(cells: Sequence[str]) -> str:
     filled = _as_one_cell([cell.strip() for cell in cells if cell.strip()])
     if filled and DMA.quantity(heading(filled[0].rstrip(":= ")).name) in ("temperature", "set temperature"):
         return ""
-    left = _COUNTED.sub(" ", TEMPERATURE_IN_NAME.sub(" ", " ".join(filled)))
-    return " ".join(left.split()).strip(" :;,=@()[]-–") if re.search(r"[^\W\d_]", left) else ""
+    left = _COUNTED.sub(" ", TEMPERATURE_IN_NAME.sub(r"\g<mark> ", " ".join(filled)))
+    left = re.sub(r"[(\[]\W*[)\]]", " ", left)  # "(20 °C, up)"
+    return " ".join(left.split()).strip(" :;,=@-–") if re.search(r"[^\W\d_]", left) else ""
 
 
 def temperature_of_title(cells: Sequence[str]) -> float | None:
@@ -354,7 +357,8 @@ NOT_SAID = Note(
 
 _SPECIMEN = re.compile(
     r"(sample|specimen|material|compound|probe|probekörper|prüfkörper|mischung|échantillon|éprouvette|mélange|muestra|probeta"
-    r"|campione|provino|amostra|样品|试样|試料)([\s_-]*(names?|id|no\.?|nr\.?|n°|number|name|nummer|code|#))?",
+    r"|campione|provino|amostra|样品|试样|试件|試料|試験片|시편|시료|образец|próbka|vzorek)"
+    r"([\s_-]*(names?|id|no\.?|nr\.?|n°|number|name|nummer|code|#|名称?|编号|番号|번호|명))?",
     re.IGNORECASE,
 )
 
