@@ -20,7 +20,7 @@ from viscofric import read_dma, read_mtm
 from viscofric.errors import DataFileError
 from viscofric.notes import note_of
 from viscofric.readers.headings import heading
-from viscofric.readers.source import to_rad_per_second, unit_conversion
+from viscofric.readers.source import fraction_of, to_rad_per_second, unit_conversion
 
 NAMES = {"temperature": "Chamber", "frequency": "v1", "storage_modulus": "Alpha", "loss_modulus": "Beta"}
 HALF = {"temperature": "Chamber (degC)", "frequency": "v1 (Hz)"}
@@ -237,6 +237,11 @@ def test_names_and_units_of_headings(text, name, unit):
         ("Temp,Freq,E',E''\nC,hz,PSI,psi", 6894.757293168361e-6),
         ("T [°C],f [Hz],E' [dyn/cm²],E'' [dynes/cm^2]", 1e-7),
         ("T [°C],f [Hz],E' [kgf/mm²],E'' [kgf/mm2]", 9.80665),
+        ("T [°C],f [Hz],E' [10^6 Pa],E'' (×10⁶ Pa)", 1.0),
+        ("T [°C],f [Hz],E' (E+03 kPa),E'' [10**3 kPa]", 1.0),
+        ("T,f,E',E''\n<°C>,<Hz>,<1E5 Pa>,{10⁵ Pa}", 0.1),
+        ("Temperature: Deg C,Frequency: Hz,E' {MPa},E'' <MPa>", 1.0),
+        ("Температура (°С),Частота (Гц),Модуль накопления (МПа),Модуль потерь (МПа)", 1.0),
         ("T [°C],f [Hz],E' [kgf/cm²],E'' [kp/cm²]", 0.0980665),
         ("T [°C],f [Hz],E' [ksi],E'' [KSI]", 6.894757293168361),
         ("StorageTemp,Temperature (C),Frequency (Hz),StorageModulus (MPa),LossModulus (MPa)", 1.0),
@@ -246,6 +251,37 @@ def test_units_without_regard_to_case_and_older_ones(tmp_path, header, factor):
     rows = [f"0,{row}" if header.startswith("StorageTemp") else row for row in ROWS]
     sweeps = read(write(tmp_path, header, *rows))
     assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6 * factor, 6e6 * factor], rel=1e-9)
+
+
+@pytest.mark.parametrize("unit", ["10^-6 Pa", "×10⁻⁶ Pa", "106 Pa", "10^6"])
+def test_powers_of_ten_that_may_be_factors_are_refused(tmp_path, unit):
+    with refused("wrong-unit", None, unit):
+        read(write(tmp_path, f"T [°C],f [Hz],E' [{unit}],E'' [{unit}]", *ROWS))
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"),
+    [
+        ("%", 1e-2),
+        ("10⁻³", 1e-3),
+        ("x10^-3", 1e-3),
+        ("E-3", 1e-3),
+        ("‰", 1e-3),
+        ("no units", 1.0),
+        ("dimensionless", 1.0),
+    ],
+)
+def test_units_of_ratios(tmp_path, unit, factor):
+    rows = ["20,1,5,0.1,0.2", "20,10,6,0.1,0.4"]
+    sweeps = read(write(tmp_path, f"T_C,f_Hz,E' (MPa),tan δ ({unit}),strain ({unit})", *rows))
+    assert sweeps.isotherms[0].loss_modulus == pytest.approx([5e5 * factor, 6e5 * factor], rel=1e-12)
+    assert sweeps.isotherms[0].strain_amplitude == pytest.approx([0.2 * factor, 0.4 * factor], rel=1e-12)
+    # "(×10³)" may mean that the numbers were multiplied
+    assert fraction_of("×10³") is fraction_of("kPa") is None
+
+
+def test_a_column_of_least_values_is_none_in_minutes():
+    assert (heading("COF min").unit, heading("t min").unit, heading("Zeit min").unit) == ("", "min", "min")
 
 
 @pytest.mark.parametrize("tangent", ["tan(δ)", "tan (delta) (-)", "tan_delta", "Loss-Factor [1]"])

@@ -13,17 +13,20 @@ from typing import Any, Literal
 from viscofric.errors import InputError, brief, wrong_argument
 
 # "E' (MPa)", "T [degC]", "v / (mm/s)", then "E' / MPa", then "T_C", "f in Hz", "Temperature, °C": tried in this order.
-_BRACKETED = re.compile(r"^(?P<name>.*?)\s*(?:(?<!\d)/\s*)?[(\[]\s*(?P<unit>[^()\[\]]*?)\s*[)\]]$")
+_BRACKETED = re.compile(r"^(?P<name>.*?)\s*(?:(?<!\d)/\s*)?[(\[{<]\s*(?P<unit>[^()\[\]{}<>]*?)\s*[)\]}>]$")
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNIT = (
-    r"(?i:°[CKF]|℃|deg[CFK]|[mkM]?Hz|rad[/_]?s(?:ec)?|[kMG]?Pa|[kM]?psi|bar|[mkM]?N/[mc]?m(?:\^?2|²)|dynes?/cm(?:\^?2|²)"
-    r"|dyn/cm(?:\^?2|²)|kgf?/[mc]m(?:\^?2|²)|[mcµμu]?m/s|1/s|rpm|1/[kMG]?Pa|mm|[µun]m|ms|min|cpm|Cel|%)|mN"
+    r"(?i:°[CKFС]|℃|deg\.? ?[CFK]|[mkM]?Hz|Гц|rad[/_]?s(?:ec)?|[kMG]?Pa|[кМГ]?Па|[kM]?psi|bar|[mkM]?N/[mc]?m(?:\^?2|²)"
+    r"|dynes?/cm(?:\^?2|²)|dyn/cm(?:\^?2|²)|kgf?/[mc]m(?:\^?2|²)|[mcµμu]?m/s|1/s|rpm|1/[kMG]?Pa|mm|[µun]m|ms|min|cpm"
+    r"|Cel|%)|mN"
 )
 _SEPARATED = re.compile(
-    rf"^(?P<name>.*?[^\s/_,])(?:(?:\s+in\s+|_in_|\s*,\s*|_|\s+)(?P<unit>{_UNIT})"
+    rf"^(?P<name>.*?[^\s/_,])(?:(?:\s+in\s+|_in_|\s*[,:]\s*|_|\s+)(?P<unit>{_UNIT})"
     r"|(?:\s+in\s+|_in_|\s*,\s*|_)(?P<letter>[CKFNsm])"
     r"|(?:\s+in\s+|\s*,\s*)(?P<rarer>[ckd]N|daN|kgf|kp|gf|lbf|kg|g|mm?/min|km/h|°|deg|rad|-))$"
 )
+#: "COF min" is a minimum, "t min" a time.
+_LEAST = re.compile(r"(?!t |.*(time|zeit|temps|durée|tiempo|tempo|tijd)).* min", re.IGNORECASE)
 _LETTER = re.compile(r"^(?P<name>.*temp[^\s_]*|T)[\s_]+(?P<unit>[ckf])$", re.IGNORECASE)
 #: "log10(aT)", "tan(δ)", "a(T)", "compliance J(t)": brackets that hold an argument, not a unit.
 _FUNCTION = re.compile(
@@ -405,7 +408,9 @@ def heading(text: str) -> Column:
         return Column(text, text, "")
     plain = re.sub("[º˚]", "°", with_primes(text.translate(_FULL_WIDTH)))
     name, unit = plain, ""
-    for pattern in () if _FUNCTION.fullmatch(plain) else (_BRACKETED, _SEPARATED, _SLASHED, _LETTER):
+    for pattern in (
+        () if _FUNCTION.fullmatch(plain) or _LEAST.fullmatch(plain) else (_BRACKETED, _SEPARATED, _SLASHED, _LETTER)
+    ):
         match = pattern.match(plain)
         if match:
             groups = match.groupdict()

@@ -82,9 +82,9 @@ PRINTED_FREQUENCY = 0.05
 
 #: Units of temperature as instruments print them, which pint would read as coulomb, farad or nothing.
 _TEMPERATURE_UNITS = dict.fromkeys(
-    ("c", "cel", "degc", "celsius", "øc", ">c", "\ufffdc"), "degC"
-)  # the last ones damaged
-_TEMPERATURE_UNITS |= {"f": "degF", "degf": "degF", "k": "K"}
+    ("c", "с", "cel", "degc", "gradc", "celsius", "degreescelsius", "oc", "øc", ">c", "âc", "\ufffdc"), "degC"
+)  # the second one Russian, the last ones damaged
+_TEMPERATURE_UNITS |= {"f": "degF", "degf": "degF", "fahrenheit": "degF", "degreesfahrenheit": "degF", "k": "K"}
 #: Units of angles as instruments print them; pint would read "grad" as gradians and "%" as a part of a radian.
 _ANGLES = dict.fromkeys(
     ("°", "º", "˚", "deg", "deg.", "degree", "degrees", "grad", "degré", "degrés", "grados", "gradi"), "deg"
@@ -100,7 +100,19 @@ _SPELLINGS = {
 } | {
     "kpsi": "ksi",
     "pascal": "Pa",
+    "megapascals": "MPa",
+    "newton": "N",
+    "newtons": "N",
     "sec": "s",
+    "std": "h",
+    "秒": "s",
+    "па": "Pa",
+    "кпа": "kPa",
+    "мпа": "MPa",
+    "н": "N",
+    "с": "s",
+    "мм/с": "mm/s",
+    "м/с": "m/s",
     "rpm": "revolutions_per_minute",
     "n/mm²": "MPa",
     "mn/m²": "MPa",
@@ -113,12 +125,38 @@ _SPELLINGS = {
     "kp": "kgf",
 }
 #: Units of mass in which loads are given -> their weight, N.
-MASSES = {"kg": 9.80665, "g": 9.80665e-3}
+MASSES = {"kg": 9.80665, "g": 9.80665e-3, "lb": 4.4482216152605}
 _PREFIXES = {"m": 1e-3, "k": 1e3, "K": 1e3, "M": 1e6}
 
 
-#: Unit of a strain amplitude -> factor to a fraction.
-STRAIN_FACTORS = {"%": 0.01, "1": 1.0, "-": 1.0, "m/m": 1.0, "mm/mm": 1.0, "µm/µm": 1.0}
+#: Units of ratios and strains -> factor to the number itself.
+_FRACTIONS = dict.fromkeys(
+    ("", "1", "-", "–", "N/N", "m/m", "mm/mm", "µm/µm", "dimensionless", "unitless", "no unit"), 1.0
+)
+_FRACTIONS |= {"no units": 1.0, "%": 0.01, "‰": 1e-3, "mm/m": 1e-3, "µm/m": 1e-6, "µε": 1e-6, "microstrain": 1e-6}
+#: "10^6 Pa", "×10⁶ Pa", "E+06 Pa", "10⁻³": a power of ten before a unit, or in place of one.
+_POWER = re.compile(
+    r"[x×]?\s*(?:10(?:\s*(?:\^|\*\*)\s*|(?=[+−-]))(?P<plain>[+−-]?\d{1,2})|10(?P<raised>[⁺⁻]?[⁰¹²³⁴-⁹]{1,2})"
+    r"|1?[eE](?P<printed>[+-]?\d{1,2}))\s*[·*.×]?\s*(?P<of>(?!\d\d|[.,]).*)"
+)
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻−", "0123456789+--")
+
+
+def _power_of_ten(text: str) -> tuple[int, str]:
+    """Return the exponent of a power of ten before a unit, 0 without one, and the unit."""
+    found = _POWER.fullmatch(text.strip())
+    if found is None:
+        return 0, text
+    exponent = found["plain"] or found["raised"] or found["printed"]
+    return int(exponent.translate(_RAISED)), f"1{found['of']}" if found["of"].startswith("/") else found["of"]
+
+
+def fraction_of(unit: str) -> float | None:
+    """Return the factor from a ratio or strain as printed to the number itself, None for the unit of anything else."""
+    exponent, rest = _power_of_ten(unit)
+    factor = _FRACTIONS.get(rest.strip().replace("μ", "µ"))
+    # "(×10³)" may mean that the numbers were multiplied.
+    return None if factor is None or exponent > 0 else factor * 10.0**exponent
 
 
 def plain_number(cell: str) -> str:
@@ -149,8 +187,15 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, also for plain powers (``N/mm2``)."""
     # A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, ``mPa`` is not.
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
+    exponent, rest = _power_of_ten(text)
+    # "10^-6 Pa" may mean that the numbers were multiplied by it: no solid is so soft.
+    if exponent and unit != "K" and not (exponent < 0 and unit == "Pa") and not (exponent > 0 and unit == "1/Pa"):
+        factor, offset = unit_conversion(rest, unit, name)
+        return factor * 10.0**exponent, offset
     if unit == "K":
-        text = _TEMPERATURE_UNITS.get(re.sub(r"[°º˚.\s]", "", text.replace("℃", "C")).lower(), text)
+        text = _TEMPERATURE_UNITS.get(
+            re.sub(r"[°º˚.^*\s]", "", text.replace("â„ƒ", "C").replace("℃", "C")).lower(), text
+        )
     if unit == "rad":
         text = _ANGLES.get(text.strip().lower(), "an unknown unit")
     if unit == "N" and text.strip() in MASSES:
@@ -158,7 +203,7 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
     plain = re.sub(
         r"(?<=\w)[ .·*]+(?P<per>m|mm|cm|s|min)\^?[-−](1|(?P<two>2))$", r"/\g<per>\g<two>", text.strip()
     )  # mm s-1
-    plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2$", "²", plain)
+    plain = re.sub(r"(?<=m)\s?(\^|\*\*)?2(?=$|/)", "²", plain)
     folded = plain.replace(" ", "").casefold()
     try:
         return conversion(plain, unit, name)
@@ -182,7 +227,7 @@ def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
         return 1.0
     if re.fullmatch(r"1/s|s\^?-1|s⁻¹", plain):
         return 1.0 if angular else None
-    if re.fullmatch(r"[mkM]?Hz|hertz|cps|cycles?/s(ec)?", plain, re.IGNORECASE) and not angular:
+    if re.fullmatch(r"[mkM]?Hz|hertz|Гц|cps|cycles?/s(ec)?", plain, re.IGNORECASE) and not angular:
         return 2.0 * math.pi * (_PREFIXES[plain[0]] if plain[1:].lower() == "hz" else 1.0)
     if re.fullmatch(r"cpm|cyc(les?)?/min", plain, re.IGNORECASE) and not angular:  # of rubber process analysers
         return 2.0 * math.pi / 60.0

@@ -13,7 +13,7 @@ from viscofric.arrays import Array, Integers, Mask
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.headings import CONSTANT, NO_WORDS, OF_HEADINGS, Column, Vocabulary, option_of
-from viscofric.readers.source import MASSES, decimal_comma, is_revolutions, plain_number, unit_conversion
+from viscofric.readers.source import MASSES, decimal_comma, fraction_of, is_revolutions, plain_number, unit_conversion
 
 #: Cells of one row, with its number in the file.
 NumberedRow = tuple[int, Sequence[str]]
@@ -50,8 +50,6 @@ NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,]\d{3})+(?:[.,]\d+)?")
 #: Written for MPa; moduli and stresses of solids are not measured in millipascals.
 MILLIPASCAL = "mPa"
-#: Units of a ratio -> factor.
-_FRACTIONS = {"": 1.0, "1": 1.0, "-": 1.0, "–": 1.0, "N/N": 1.0, "%": 0.01}
 #: Labels of rows that summarise others: a mean, or how far the others scatter.
 _OF_SUMMARIES = re.compile(
     r"(?P<mean>mean( value)?|average|avg|median|mittelwert|mittel|moyenne|media|promedio)"
@@ -143,8 +141,8 @@ class Table:
             )
         plain = text.replace(",", ".") if self.decimal_comma else text
         factor = 1.0
-        if plain.endswith("%") and not column.base and column.unit.strip() in _FRACTIONS:
-            plain, factor = plain.removesuffix("%"), 0.01 / _FRACTIONS[column.unit.strip()]
+        if plain.endswith("%") and not column.base and (own := fraction_of(column.unit)):
+            plain, factor = plain.removesuffix("%"), 0.01 / own
         try:
             value = column.base ** float(plain) if column.base else factor * float(plain)
         except (ValueError, OverflowError):
@@ -196,7 +194,7 @@ class Table:
 
     def fraction(self, column: Column) -> float:
         """Return the factor from a column of numbers without a unit, or in per cent, to the numbers themselves."""
-        factor = _FRACTIONS.get(column.unit.strip())
+        factor = fraction_of(column.unit)
         if factor is None:
             problem = f"column {column.heading!r} has the unit {column.unit!r}; "
             raise DataFileError(self.path, f"{problem}it is a number without a unit, or in '%'.", code="wrong-unit")

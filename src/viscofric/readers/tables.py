@@ -653,8 +653,8 @@ def _with_units(path: str, columns: Sequence[Column], row: int, cells: Sequence[
 
 def _unit(cell: str) -> str:
     plain = cell.strip()
-    if re.fullmatch(r"[(\[][^()\[\]]*[)\]]?|[^()\[\]]*[)\]]", plain):
-        plain = plain.strip("[]()").strip()
+    if re.fullmatch(r"[(\[{<][^()\[\]{}<>]*[)\]}>]?|[^()\[\]]*[)\]]", plain):
+        plain = plain.strip("[](){}<>").strip()
     return "" if plain in ("-", "–", "1") else plain
 
 

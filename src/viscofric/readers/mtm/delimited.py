@@ -16,7 +16,7 @@ from viscofric.readers.dma.names import DMA, TEMPERATURE, insist_on_one_specimen
 from viscofric.readers.headings import Column, Vocabulary
 from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.one_table import only_table
-from viscofric.readers.source import Source
+from viscofric.readers.source import Source, fraction_of
 from viscofric.readers.table import Table
 from viscofric.readers.tables import holds_table
 
@@ -202,8 +202,6 @@ def _whole_numbers(table: Table, what: str) -> Integers | None:
 SLIP_AGREES = 0.2
 #: Slide-to-roll ratio above which the two surfaces move in opposite directions.
 _OPPOSITE = 2.0
-#: Unit of a slide-to-roll ratio -> factor to a fraction.
-_RATIO = {"%": 0.01, "-": 1.0, "1": 1.0, "–": 1.0}
 
 
 def missing(table: Table) -> list[str]:
@@ -265,7 +263,7 @@ def _slip(table: Table, what: str) -> Array:
     if what == "sliding speed":
         return table.values(place, "m/s")
     column = table.columns[place]
-    factor = _RATIO.get(column.unit.strip())
+    factor = fraction_of(column.unit) if column.unit else None
     if factor is None:
         shown = f"the unit {column.unit!r}" if column.unit else "no unit"
         right = f"write it as '{column.name} (%)' or '{column.name} (-)'"

@@ -18,7 +18,7 @@ from viscofric.readers.dma.names import (
     temperature_in_name,
 )
 from viscofric.readers.headings import Vocabulary
-from viscofric.readers.source import STRAIN_FACTORS, Source, unit_conversion
+from viscofric.readers.source import Source, fraction_of, unit_conversion
 from viscofric.readers.table import Table, name_columns
 from viscofric.step_tests import StepKind
 
@@ -160,7 +160,7 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
         raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, missing[-1:]), missing)
     factor, _ = table.conversion(table.columns[stress], "Pa")
     column = table.columns[strain]
-    fraction = STRAIN_FACTORS.get(column.unit.strip())
+    fraction = fraction_of(column.unit) if column.unit else None
     if fraction is None:
         right = f"write it as '{column.name} (%)' or '{column.name} (-)'"
         raise table.refused("wrong-unit", f"column {column.heading!r} has no unit of a strain; {right}.")

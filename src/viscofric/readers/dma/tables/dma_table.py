@@ -27,7 +27,7 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
-from viscofric.readers.source import PRINTED_FREQUENCY, STRAIN_FACTORS, Source, to_rad_per_second, unit_conversion
+from viscofric.readers.source import PRINTED_FREQUENCY, Source, fraction_of, to_rad_per_second, unit_conversion
 from viscofric.readers.table import MISSING, Table, or_name_it
 from viscofric.readers.tables import converted, find_tables, holds_table
 
@@ -68,7 +68,7 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
         found["temperature"] = table.place("isotherm" if master_curve else "set temperature")
     places = {what: place for what, place in found.items() if place is not None}
     tangent = places.get("tan delta")
-    if tangent is not None and table.columns[tangent].unit.lower() not in MISSING | {"1", "%"}:  # a tangent has no unit
+    if tangent is not None and not _is_ratio(table.columns[tangent].unit):  # a tangent has no unit
         del places["tan delta"]
     if "tan delta" not in places and not {*stated[:2]} <= places.keys():
         angle = table.place("phase angle")
@@ -223,10 +223,13 @@ def _printed_tangent(table: Table, places: dict[str, int], storage: Array, loss:
     return 0.01 * tangent if abs(np.nanmedian(in_percent) - 1.0) < PRINTED else tangent
 
 
+def _is_ratio(unit: str) -> bool:
+    return unit.lower() in MISSING or fraction_of(unit) is not None
+
+
 def _fraction(table: Table, place: int) -> Array:
     """Return numbers without a unit, or in per cent."""
-    factor = 0.01 if table.columns[place].unit.strip() == "%" else 1.0
-    return factor * table.numbers_or_missing(place)
+    return (fraction_of(table.columns[place].unit) or 1.0) * table.numbers_or_missing(place)
 
 
 def lacks_unit(table: Table, places: dict[str, int], source: Source) -> bool:
@@ -437,7 +440,8 @@ def _strain_amplitude(table: Table, notes: list[str], without_unit: str) -> Arra
     if _DOUBLE.search(column.heading):
         problem = f"column {column.heading!r} holds double amplitudes (peak to peak); write half of them in a column."
         raise table.refused("double-amplitude", problem)
-    factor = STRAIN_FACTORS.get(column.unit.strip() or without_unit)
+    unit = column.unit.strip() or without_unit
+    factor = fraction_of(unit) if unit else None
     if factor is None:
         said = f"The strain amplitudes were not read: column {column.heading!r} has no unit such as '%'."
         notes.append(Note("strain-amplitude-not-read", said))
