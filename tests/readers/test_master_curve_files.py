@@ -126,7 +126,7 @@ def test_sweeps_in_one_table_are_no_master_curve(tmp_path):
 
 def test_a_temperature_is_not_missed_in_a_master_curve(tmp_path):
     with refused("missing-columns") as caught:
-        read_master_curve(write(tmp_path, "aT*f (Hz),E' (MPa),E'' (MPa)", *ROWS), "30 degC")
+        read_master_curve(write(tmp_path, "scaled f (Hz),E' (MPa),E'' (MPa)", *ROWS), "30 degC")
     assert caught.value.note.values["missing"] == ["frequency"]
 
 
@@ -166,6 +166,14 @@ def test_reduced_frequencies_count_before_measured_ones(tmp_path):
     assert read_dma(write(tmp_path, lines[0], "1,10,40,5,0.5", "2,20,40,6,0.6")).isotherms[0].angular_frequency == (
         pytest.approx(2 * math.pi * np.array([10.0, 20.0]))
     )
+
+
+@pytest.mark.parametrize("name", ["ω·aT", "aT·ω", "aT*ω", "ω_red", "ω_r", "Reduced angular frequency"])
+def test_reduced_frequencies_are_known_by_their_symbols(tmp_path, name):
+    path = write(tmp_path, f"{name} (rad/s),E' (MPa),E'' (MPa)", "1,5,0.5", "20,6,0.6")
+    assert read_master_curve(path, "30 degC").angular_frequency == pytest.approx([1.0, 20.0])
+    with refused("master-curve"):
+        read_dma(path, temperature="30 degC")
 
 
 @pytest.mark.parametrize(("row", "refusal"), [("1,0,1", ("not-positive", 5)), ("1,5,", ("not-positive", 5))])

@@ -33,6 +33,14 @@ def test_metres_per_second_and_other_order_of_columns(tmp_path):
     assert runs.traction_force == pytest.approx([0.004])
 
 
+@pytest.mark.parametrize("line", ["Load: 25 N", "Normalkraft : 25.00 [N]", "Ball load (N),25"])
+def test_a_load_above_the_table_holds_for_all_rows(tmp_path, line):
+    header = "T (°C),Scheibengeschwindigkeit (mm/s),ball velocity (mm/s),Reibkraft (N)"
+    runs = read_mtm(write(tmp_path, line, header, "30,100,90,0.4", "30,-100,-90,-0.4"))
+    assert runs.load == pytest.approx([25.0, 25.0])
+    assert "value-from-above" in codes(runs.notes)
+
+
 def test_several_files_follow_each_other(tmp_path):
     first = write(tmp_path, HEADER, ROW, name="one.csv")
     second = write(tmp_path, HEADER, ROW.replace("30,1", "60,2"), name="two.csv")

@@ -66,6 +66,15 @@ def test_one_file_for_each_temperature(tmp_path):
     assert codes(named) == ["temperature-from-name"]
 
 
+def test_logarithms_of_time_and_response(tmp_path):
+    columns = [np.log10(TIME), np.log10(0.1 * TIME**0.2)]
+    for headings, noted in ((("log t (s)", "log J (1/MPa)"), True), (("log10(t/s)", "lg(J(t)/MPa⁻¹)"), False)):
+        creep = vf.read_step_tests(written(tmp_path / "creep_25C.csv", headings, columns), deformation="shear")
+        np.testing.assert_allclose(creep.tests[0].time, TIME, rtol=1e-5)  # printed digits
+        np.testing.assert_allclose(creep.tests[0].response, 1e-7 * TIME**0.2, rtol=1e-5)
+        assert ("decadic-logarithms" in codes(creep)) == noted
+
+
 def test_stress_and_strain_give_the_response(tmp_path):
     strain = 0.5 * TIME**0.2
     path = written(

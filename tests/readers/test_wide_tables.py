@@ -200,6 +200,8 @@ def test_loads_as_numbers_under_their_name(tmp_path: Path, header: Rows, form: s
         [["Load (N)", 10.0], ["T [°C]", 20.0]],
         [["Load: 10 N", "Temperature = 20 °C"]],
         [["Load", 10.0, "N"], ["Temperature", 20.0, "°C"], ["Preload", "7 N"]],
+        [["Load : 10.00 [N]"], ["Temperature : 20.00 [°C]"], ["Radius : 10.00 [mm]"]],
+        [["Applied load = 10 N; Temperature: 20 (°C)"]],
     ],
 )
 def test_what_lines_above_a_table_state_alone_holds_for_all_rows(tmp_path: Path, above: Rows) -> None:
@@ -209,6 +211,11 @@ def test_what_lines_above_a_table_state_alone_holds_for_all_rows(tmp_path: Path,
     with pytest.raises(DataFileError) as caught:
         vf.read_friction_curves(saved(tmp_path, [["Load: 5 N"], *rows]))
     assert caught.value.code in {"missing-columns", "values-contradict"}
+
+
+def test_a_line_above_a_table_states_its_speed(tmp_path: Path) -> None:
+    rows = [["Linear speed : 1.00 [cm/s]"], ["T (°C)", "F (N)", "Reibbeiwert"], [20.0, 5.0, 0.3], [40.0, 5.0, 0.2]]
+    assert vf.read_friction_curves(saved(tmp_path, rows)).speed == pytest.approx([0.01, 0.01])
 
 
 SPEED = "speed (mm/s)"

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
-from viscofric.readers.mtm.delimited import COEFFICIENT
+from viscofric.readers.mtm.delimited import COEFFICIENT, LOAD
 
-_SPEEDS = ("v", "velocity", "sliding speed", "sliding velocity", "disc speed", "disk speed", "gleitgeschwindigkeit")
+_SPEEDS = (
+    *("v", "velocity", "sliding speed", "sliding velocity", "disc speed", "disk speed", "linear speed", "lin. speed"),
+    *("track speed", "rotational speed", "gleitgeschwindigkeit", "geschwindigkeit", "vitesse", "vitesse de glissement"),
+    *("velocidad", "velocità", "速度", "滑动速度", "すべり速度"),
+)
 #: field -> (SI unit, empty for a pure number; the heading written; other headings accepted)
 COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "speed": ("m/s", "speed", _SPEEDS),
     "temperature": ("K", "temperature", ("T", "temp", "temp.")),
-    "load": ("N", "load", ("normal load", "normal force", "F", "Fn", "fn", "Fz", "fz", "normalkraft")),
+    "load": ("N", "load", ("F", "Fz", "fz", *LOAD)),
     "viscoelastic": (
         "",
         "viscoelastic friction",
@@ -62,6 +66,7 @@ CURVES = Vocabulary(
     logarithms=True,
     means=frozenset({"viscoelastic friction"}),
     conditions=("temperature", "load", "speed"),
+    from_above=("temperature", "load", "speed"),
     alone="viscoelastic friction",
     several="titled",
 )

@@ -43,8 +43,12 @@ _OF_LOGARITHMS = re.compile(r"log.*|.*(error|scatter)")
 _ARGUMENT = re.compile(r"\((?P<first>[^()]*)\)(?P<rest>.*)|\((?P<whole>.*)\)")
 #: "storage modulus E'", "貯蔵弾性率E'": words and the symbol behind them, or, with a blank, the other way round.
 _CJK = r"[\u3040-\u9fff\uac00-\ud7a3]"
-_WITH_SYMBOL = re.compile(rf"(?P<words>.*\S(?=\s)|{_CJK}+(?!{_CJK}))\s*(?P<symbol>\S+)")
-_A_MODULUS = re.compile(r"(elastic |young('s)? )?modulus|module( d'(young|élasticité))?|modul|m[oó]dulo", re.IGNORECASE)
+_WITH_SYMBOL = re.compile(rf"(?P<words>.*\S(?=\s)|{_CJK}+(?!{_CJK}))\s*\(?(?P<symbol>[^\s()]+(?:\([^\s()]*\))?)\)?")
+_A_MODULUS = re.compile(
+    r"(elastic |young('s)? )?modulus|module( d'(young|élasticité))?|modul|m[oó]dulo|модуль( упругости)?|弹性模量"
+    r"|弾性率",
+    re.IGNORECASE,
+)
 _CELSIUS = re.compile(r"°?[CF]|deg[CF]|℃", re.IGNORECASE)
 _NUMBERED = re.compile(r"(?P<name>.*[^\d\s#.])[\s#.]*\d{1,3}")
 #: "#3": the third column of a table, whatever its heading.
@@ -106,6 +110,8 @@ _LABELS = tuple(
     re.compile(rf"(?:^|(?<=[\s,;(\[_@:]))(?P<label>[^\W\d_]+[.']?{more})\s*[=:]?\s*$")
     for more in (r"[\s_][^\W\d_]+", "")
 )
+#: "10.00 [cm/s]" at the end of a line: a value with its unit in brackets.
+_BRACKETED_VALUE = re.compile(r"(?<=\d)\s*[(\[]\s*(?P<unit>[^\s()\[\]]+)\s*[)\]]\s*$")
 #: Names are the same with and without these: "a_T", "a(T)", "aT".
 _MARKS = re.compile(r"[\s_().·\[\]-]")
 
@@ -157,6 +163,7 @@ class Vocabulary:
     # nothing else.
     conditions: tuple[str, ...] = ()
     alone: str = ""
+    from_above: tuple[str, ...] = ()  # conditions that a line above a table may state for all its rows: "Load: 20 N"
     # Whether several tables below each other are one, all rows alike, or of the temperatures in the lines above each.
     several: Literal["refused", "rows", "titled"] = "refused"
 
@@ -250,6 +257,8 @@ class Vocabulary:
             column = self.column(cell)
             given = column.quantity in self.user_columns or column.quantity in self.constants
             found.append(replace(column, quantity="" if given else column.quantity))
+        plain = {column.quantity for column in found if not column.base} & {*(self.needed[0] if self.needed else ())}
+        found = [replace(one, quantity="", base=0.0) if one.base and one.quantity in plain else one for one in found]
         held = {column.quantity for column in found} | {*self.user_columns, *self.constants}
         for n, column in enumerate(found):
             what = "" if column.quantity else self.quantity(_MEAN.sub("", column.name).strip())
@@ -263,8 +272,8 @@ class Vocabulary:
                 column = found[place]
                 if _SAID_LOGARITHM.match(column.heading) and not _OF_LOGARITHMS.fullmatch(what):
                     column = _logarithm(column.heading) or column
-                plain = replace(column, quantity=what, unit=unit or column.unit, given=True)
-                found[place] = replace(plain, stated=(), alone=False)
+                named = replace(column, quantity=what, unit=unit or column.unit, given=True)
+                found[place] = replace(named, stated=(), alone=False)
         return tuple(found)
 
     def _with_conditions(self, columns: list[Column], held: set[str]) -> list[Column]:
@@ -380,6 +389,11 @@ def place_of(said: str, cells: Sequence[str]) -> tuple[int | None, str]:
             if words and " ".join(cell.split()).casefold() == words.casefold():
                 return place, unit
     return None, ""
+
+
+def plain_value(text: str) -> str:
+    """Return a line with the unit at its end without brackets: ``Load : 5.00 N`` of ``Load : 5.00 [N]``."""
+    return _BRACKETED_VALUE.sub(r" \g<unit>", text)
 
 
 def option_of(key: str) -> str:

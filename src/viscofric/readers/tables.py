@@ -28,6 +28,7 @@ from viscofric.readers.headings import (
     Vocabulary,
     heading,
     place_of,
+    plain_value,
 )
 from viscofric.readers.source import (
     LIKE_THOUSANDS,
@@ -289,7 +290,7 @@ def _with_stated_above(table: Table) -> Table:
                 if _comparable(*_value(value)) not in held:
                     problem = f"{line!r} above the table contradicts the {what} in its headings; delete one of them."
                     raise table.refused("values-contradict", problem)
-        elif (what,) in words.needed and not table.has(what):
+        elif what in words.from_above and not table.has(what):
             found = _stated_above(table, what, alone=True)
             if len(found) == 1:
                 ((value, line),) = found.items()
@@ -337,7 +338,8 @@ def _stated_above(
     """
     found = {}
     for row in table.above if rows is None else rows:
-        cells = list(dict.fromkeys(cell.strip() for cell in row if cell.strip()))
+        parts = (plain_value(part.strip()) for cell in row for part in re.split(r";\s+", cell))
+        cells = list(dict.fromkeys(filter(None, parts)))
         every = {value for one, value in table.vocabulary.stated_in(" ".join(cells))[1] if one == what}
         if alone and len(every) > 1:  # "Load: 5 N" with "10 N" beside it
             continue

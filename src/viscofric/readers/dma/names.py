@@ -17,6 +17,7 @@ from viscofric.readers.headings import (
     Column,
     Vocabulary,
     heading,
+    plain_value,
     with_primes,
 )
 from viscofric.readers.source import Source
@@ -33,6 +34,7 @@ TEMPERATURE = frozenset(
     {"T", "temp", "temp.", "temperature", "sample temperature", "sample temp."}
     | {"temperatur", "probentemperatur", "messtemperatur", "température", "temperatura", "temperatuur", "teplota"}
     | {"lämpötila", "hőmérséklet", "température échantillon", "температура", "温度", "온도"}
+    | {"température de l'échantillon", "test temperature", "sıcaklık", "样品温度", "試料温度", "測定温度"}
 )
 #: Of the programme, read only without a measured temperature.
 SET_TEMPERATURE = frozenset(
@@ -42,6 +44,7 @@ SET_TEMPERATURE = frozenset(
 FREQUENCY = frozenset(
     {"f", "F", "freq", "freq.", "frequency", "frequenz", "prüffrequenz", "messfrequenz", "fréquence", "frecuencia"}
     | {"frequenza", "frequência", "frequentie", "frekvens", "frekvence", "częstotliwość", "частота", "频率", "周波数"}
+    | {"fréq.", "frekans", "测试频率", "測定周波数", "주파수"}
 )
 ANGULAR_FREQUENCY = frozenset(
     {"ω", "w", "omega", "angular frequency", "ang. frequency", "angular freq.", "ang. freq.", "angular freq"}
@@ -50,9 +53,13 @@ ANGULAR_FREQUENCY = frozenset(
     | {"угловая частота", "角频率", "角周波数"}
 )
 #: Of a master curve: shifted to its reference temperature.
-REDUCED_FREQUENCY = frozenset({"reduced frequency", "red. frequency", "shifted frequency", "reduzierte frequenz"})
+REDUCED_FREQUENCY = frozenset(
+    {"reduced frequency", "red. frequency", "shifted frequency", "reduzierte frequenz", "freq. (reduced)", "換算周波数"}
+    | {"f red", "f r", "f reduced", "f·aT", "aT·f", "f*at", "at*f"}
+)
 REDUCED_ANGULAR_FREQUENCY = frozenset(
     {"reduced angular frequency", "red. ang. frequency", "shifted angular frequency", "reduzierte kreisfrequenz"}
+    | {"ω red", "ω r", "ω reduced", "ω·aT", "aT·ω", "ω*at", "at*ω"}
 )
 #: Of a master curve: the isotherm that each point was measured in.
 ISOTHERM = frozenset({"isotherm", "isotherm temperature", "temperature of the isotherm", "isotherme"})
@@ -65,7 +72,8 @@ STORAGE_MODULUS = frozenset(
     | {"module de conservation en cisaillement", "módulo de almacenamiento", "módulo elástico", "modulo conservativo"}
     | {"modulo di conservazione", "modulo di accumulo", "módulo de armazenamento", "opslagmodulus", "lagringsmodul"}
     | {"shear modulus (elastic component)"}
-    | {"moduł zachowawczy", "модуль накопления", "储能模量", "储存模量", "貯蔵弾性率"}
+    | {"moduł zachowawczy", "модуль накопления", "储能模量", "储存模量", "存储模量", "貯蔵弾性率", "저장탄성률"}
+    | {"elastic modulus", "e'-modul", "g'-modul", "paměťový modul", "depolama modülü"}
 )
 LOSS_MODULUS = frozenset(
     {"E''", "G''", "e''", "g''", "e loss", "g loss", "eloss", "gloss"}
@@ -76,7 +84,8 @@ LOSS_MODULUS = frozenset(
     | {"módulo de pérdida", "módulo de pérdidas", "módulo viscoso", "modulo dissipativo", "modulo di perdita"}
     | {"shear modulus (viscous component)"}
     | {"módulo de perda", "verliesmodulus", "förlustmodul", "moduł stratności", "модуль потерь"}
-    | {"损耗模量", "损失模量", "損失弾性率"}
+    | {"损耗模量", "损失模量", "損失弾性率", "손실탄성률"}
+    | {"viscous modulus", "e''-modul", "g''-modul", "ztrátový modul", "kayıp modülü"}
 )
 COMPLEX_MODULUS = frozenset(
     {"|E*|", "|G*|", "E*", "G*", "|e*|", "|g*|", "e*", "g*"}
@@ -129,7 +138,8 @@ STRAIN_AMPLITUDE = frozenset(
     | {"deformation", "deformationsamplitude", "amplitude de déformation", "déformation", "déformation dynamique"}
     | {"amplitud de deformación", "deformación", "deformazione", "ampiezza di deformazione", "deformação"}
     | {"scherdeformation", "déformation de cisaillement", "deformação de cisalhamento", "deformazione di taglio"}
-    | {"déformation en cisaillement", "deformación de cizalla", "deformación de corte"}
+    | {"déformation en cisaillement", "deformación de cizalla", "deformación de corte", "ひずみ", "歪み", "应变"}
+    | {"dyn. strain", "peak strain", "应变幅值"}
 )
 STEP = frozenset(
     {
@@ -339,8 +349,10 @@ def temperature_of_title(cells: Sequence[str]) -> float | None:
 
 
 def _as_one_cell(filled: list[str]) -> list[str]:
-    """Return ``25 °C`` for the cells ``Temperature (°C)`` and ``25``, other cells as they are."""
-    filled = list(dict.fromkeys(filled))  # merged cells
+    """Return ``25 °C`` for the cells ``Temperature (°C)`` and ``25``, also in one cell, other cells as they are."""
+    filled = list(dict.fromkeys(map(plain_value, filled)))  # merged cells
+    if len(filled) == 1 and (label := re.fullmatch(r"(.*?)\s*[:=]\s*(\S+)", filled[0])) and is_number(label[2]):
+        return one[:1] if len(one := _as_one_cell([label[1], label[2]])) == 1 else filled
     if len(filled) == 2 and is_number(filled[1]):
         name = heading(filled[0].rstrip(":= "))
         if DMA.quantity(name.name) == "temperature" and name.unit:

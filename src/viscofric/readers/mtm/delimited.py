@@ -30,6 +30,23 @@ COEFFICIENT = frozenset(
     | {"coefficient of dynamic friction", "coefficient of kinetic friction"}
     | {"friction factor", "reibwert", "reibungskoeffizient", "reibungszahl", "coefficient de frottement"}
     | {"coeficiente de fricción", "coefficiente di attrito", "摩擦係数", "摩擦系数"}
+    | {"reibbeiwert", "coeficiente de rozamiento", "coeficiente de atrito", "wrijvingscoëfficiënt", "|cof|"}
+    | {"коэффициент трения", "współczynnik tarcia", "součinitel tření", "動摩擦係数", "动摩擦系数", "마찰계수"}
+)
+LOAD = frozenset(
+    {
+        "load",
+        "normal load",
+        "applied load",
+        "normal force",
+        "Fn",
+        "fn",
+        "normalkraft",
+        "last",
+        "force normale",
+        "charge",
+    }
+    | {"fuerza normal", "carga", "forza normale", "carico", "荷重", "垂直荷重", "载荷", "法向力"}
 )
 #: What to do with traction runs in place of friction curves or sweeps.
 AS_RUNS = Remedy(
@@ -45,14 +62,44 @@ TRACTION = Vocabulary(
     "a table of traction runs",
     {
         "temperature": TEMPERATURE,
-        "disc speed": frozenset({"disc speed", "disk speed", "u disc", "u disk"}),
-        "ball speed": frozenset({"ball speed", "u ball"}),
-        "load": frozenset({"load", "ball load", "normal load", "normal force", "Fn", "fn"}),
-        "traction force": frozenset({"traction force", "traction", "friction force"}),
+        "disc speed": frozenset(
+            {f"{one} {speed}" for one in ("disc", "disk") for speed in ("speed", "velocity")}
+            | {"u disc", "u disk", "v disc", "v disk", "scheibengeschwindigkeit", "vitesse du disque", "ディスク速度"}
+        ),
+        "ball speed": frozenset(
+            {
+                "ball speed",
+                "ball velocity",
+                "u ball",
+                "v ball",
+                "kugelgeschwindigkeit",
+                "vitesse de la bille",
+                "ボール速度",
+            }
+        ),
+        "load": LOAD | {"ball load"},
+        "traction force": frozenset(
+            {
+                "traction force",
+                "traction",
+                "friction force",
+                "reibkraft",
+                "reibungskraft",
+                "force de frottement",
+                "摩擦力",
+            }
+        ),
         "rolling speed": frozenset({"rolling speed", "entrainment speed", "entrainment velocity", "mean speed"}),
         "sliding speed": frozenset({"sliding speed", "slip speed", "sliding velocity"}),
         "slide to roll ratio": frozenset(
-            {"srr", "slide-to-roll ratio", "slide-roll ratio", "slide roll ratio", "slide to roll ratio"}
+            {
+                "srr",
+                "slide-to-roll ratio",
+                "slide-roll ratio",
+                "slide roll ratio",
+                "slide to roll ratio",
+                "slide/roll ratio",
+            }
         ),
         "traction coefficient": COEFFICIENT,
         "zero force": frozenset({"zero force", "zero traction force"}),
@@ -77,6 +124,7 @@ TRACTION = Vocabulary(
         ("replicate", ""),
     ),
     conditions=("temperature", "load"),
+    from_above=("temperature", "load"),
     several="rows",
 )
 #: Quantity -> SI unit; cells may be empty.

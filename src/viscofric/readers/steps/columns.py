@@ -37,7 +37,18 @@ CREEP_COMPLIANCE = frozenset(
 RELAXATION_MODULUS = frozenset(
     {"E", "G", "E(t)", "G(t)", "e(t)", "g(t)", "modulus", "modulus g(t)", "modulus e(t)", "relaxation modulus"}
     | {"relaxation modulus g(t)", "relaxation modulus e(t)", "shear relaxation modulus", "tensile relaxation modulus"}
-    | {"stress relaxation modulus", "shear modulus", "relaxationsmodul", "module de relaxation", "módulo de relajación"}
+    | {
+        "stress relaxation modulus",
+        "relax. modulus",
+        "G rel",
+        "E rel",
+        "G r(t)",
+        "E r(t)",
+        "shear modulus",
+        "relaxationsmodul",
+        "module de relaxation",
+        "módulo de relajación",
+    }
     | {"modulo di rilassamento", "松弛模量", "緩和弾性率"}
 )
 STRESS = frozenset(
@@ -69,6 +80,7 @@ STEPS = Vocabulary(
         ("creep compliance", "1/MPa"),
         ("relaxation modulus", "MPa"),
     ),
+    logarithms=True,
     conditions=("temperature",),
     several="titled",
 )
