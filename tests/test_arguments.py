@@ -809,6 +809,9 @@ PERHAPS = {
     "infinite": float("inf"),
     "huge": 1e300,
     "tiny": 1e-300,
+    "denormal": 1e-310,
+    "largest": 1e100,
+    "smallest": 1e-100,
 }
 
 
@@ -837,6 +840,9 @@ def resized(good):
         "nothing": [],
         "negative": -array,
         "infinite in it": np.where(first, np.inf, array),
+        "denormal in it": np.where(first, 1e-310, array),
+        "smallest in it": np.where(first, 1e-100, array),
+        "largest in it": np.where(first, 1e100, array),
     }
 
 

@@ -32,16 +32,17 @@ _KINDS = {
 MOST_PER_DECADE = 10_000
 #: Largest count or seed.
 LARGEST_WHOLE = 2**63 - 1
-#: The square of a larger number (or of the inverse of a smaller one) overflows.
-LARGEST = 1e150
+#: Largest number, and smallest above zero: the cubes of others overflow, or are zero.
+LARGEST, SMALLEST = 1e100, 1e-100
 #: Larger arrays are refused before allocation: 16384² values take 2 GiB, and a computation a dozen such arrays.
 MOST_VALUES = 2**28
 
 
 def numbers(values: object, name: str, *, infinite: bool = False, missing: bool = False) -> Array:
-    """Return one number or many as floats, in their shape; an array of floats is not copied.
+    """Return one number or many as floats, in their shape; an array of floats that are all usable is not copied.
 
-    `infinite` and `missing` allow infinite numbers and NaN.  Complex, masked or other values are an `InputError`.
+    Numbers nearer to zero than `SMALLEST` are zero.  `infinite` and `missing` allow infinite numbers and NaN.  Complex,
+    masked or other values are an `InputError`.
     """
     try:
         found = real(values)
@@ -55,11 +56,13 @@ def numbers(values: object, name: str, *, infinite: bool = False, missing: bool 
         if not allowed.all():
             wrong = float(found[~allowed].flat[0])
             raise wrong_argument(name, values, f"must hold finite numbers; {wrong} cannot be used.", "not-a-number")
-    beyond = finite & (np.abs(found) > LARGEST)
+    size = np.abs(found)
+    beyond = finite & (size > LARGEST)
     if beyond.any():
         wrong = float(found[beyond].flat[0])
         raise wrong_argument(name, values, f"holds {wrong:g}, too large for computations ({LARGEST:g}).", "too-large")
-    return found
+    vanishing = (size < SMALLEST) & (size > 0.0)
+    return np.where(vanishing, 0.0, found) if vanishing.any() else found
 
 
 def real(values: object) -> Array:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
 
-from viscofric.arguments import LARGEST, insist_on, numbers, real
+from viscofric.arguments import LARGEST, SMALLEST, insist_on, numbers, real
 from viscofric.errors import InputError, ViscofricError, not_imported, wrong_argument
 from viscofric.notes import Remedy
 
@@ -161,7 +161,16 @@ def _unlabelled(values: Any, unit: str, name: str) -> Any:
 
 
 def to_si(value: Quantity, unit: str, name: str = "value") -> float:
-    """Convert one value to a float in an SI unit; plain numbers are in `unit` already."""
+    """Convert one value to a float in an SI unit; plain numbers are in `unit` already.
+
+    A value nearer to zero than `viscofric.arguments.SMALLEST` is zero.
+    """
+    number = _in_si(value, unit, name)
+    return number if abs(number) >= SMALLEST else 0.0
+
+
+def _in_si(value: Quantity, unit: str, name: str) -> float:
+    """Return a value in an SI unit, finite and not too large for computations."""
     if isinstance(value, float) and abs(value) <= LARGEST:  # as in each step of a fit, where the rest takes most time
         return float(value)
     value = _unlabelled(value, unit, name)
@@ -339,12 +348,12 @@ def _has_units(values: object) -> bool:
 
 def positive(value: Quantity, unit: str, name: str) -> float:
     """Convert like `to_si` and insist on a value above zero, or above absolute zero."""
-    number = to_si(value, unit, name)
+    number = _in_si(value, unit, name)
     if number <= 0.0:
         least = "absolute zero" if unit == "K" else "zero"
         raise _wrong("not-positive", name, value, unit, f"must be above {least}")
-    if number < 1.0 / LARGEST:
-        raise _wrong("too-small", name, value, unit, f"is below {1.0 / LARGEST:g}, too small for computations")
+    if number < SMALLEST:
+        raise _wrong("too-small", name, value, unit, f"is below {SMALLEST:g}, too small for computations")
     return number
 
 
@@ -387,10 +396,7 @@ def velocity(value: Quantity) -> float:
     """Convert like `to_si`, but accept infinite speeds, one of the elastic limits."""
     if isinstance(value, float) and math.isinf(value):
         return value
-    number = to_si(value, "m/s", "speed")
-    if 0.0 < abs(number) < 1.0 / LARGEST:
-        raise _wrong("too-small", "speed", value, "m/s", f"is below {1.0 / LARGEST:g}, too small for computations")
-    return number
+    return to_si(value, "m/s", "speed")
 
 
 def checked_modes(strengths: object, name: str, unit: str, tau: object) -> tuple[Array, Array]:

@@ -277,6 +277,12 @@ def test_proximal_points_find_the_contact_that_the_active_set_finds(problem: Pro
     np.testing.assert_allclose(found.pressure, stage.result.pressure, atol=1e-6 * stage.result.pressure.max())
 
 
+def test_a_contact_narrower_than_a_cell_is_refused() -> None:
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    with refused("no-window", ConvergenceError):
+        vf.solve_steady(rubber, vf.Ellipsoid(1e-2, 1e3), speed=0.1, indentation=1e-4, accuracy=3e-2)
+
+
 @pytest.mark.parametrize(("ratio", "modulus_ratio"), [(0.1, 1e4), *slow((10.0, 1e4), (1000.0, 10.0))])
 def test_slender_contacts_are_solved_where_the_active_set_cycles(ratio: float, modulus_ratio: float) -> None:
     """The active set alone is lost on one of their grids at least, however long it goes on."""

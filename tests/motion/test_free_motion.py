@@ -295,6 +295,27 @@ def test_sliding_before_a_jump_at_the_start_is_at_the_first_speed_and_temperatur
     assert run.friction_coefficient[:2] == pytest.approx(steady.friction_coefficient, rel=1e-2)
 
 
+@pytest.mark.parametrize(
+    ("indenter", "control", "last"), [(CYLINDER, "load", 100.0), (vf.Ball("10 mm"), "indentation", 1e-4)]
+)
+def test_sliding_before_without_load_is_sliding_on_untouched_rubber(indenter, control, last):
+    one, two = (
+        vf.motion.solve_transient(
+            RUBBER,
+            indenter,
+            vf.motion.History([0.0, 2e-3], **{control: [0.0, last]}, speed=0.05, before=before),
+            times=[0.0, 2e-3],
+            accuracy=0.1,
+        )
+        for before in ("sliding", "untouched")
+    )
+    for name in ("load", "indentation", "friction_force"):
+        error = getattr(one.errors, name) + getattr(two.errors, name)
+        assert np.all(np.abs(getattr(one, name) - getattr(two, name)) <= error)
+    assert one.load[0] == 0.0 < one.friction_force[1]
+    assert control == "load" or one.indentation[0] == 0.0
+
+
 def test_turning_back_at_the_start_after_sliding_is_turning_back_after_a_slide():
     """The first of two points at the start, too, is compared with that of the coarser grid."""
     turned, later = (
@@ -380,6 +401,12 @@ def test_times_that_differ_by_rounding_have_the_same_friction():
     assert run.friction_force[:3] == pytest.approx(0.0, abs=1e-9 * LOAD)
     assert run.friction_force[3] == pytest.approx(run.friction_force[4], rel=1e-12)
     assert 0.0 < run.errors.friction_force[4] < 0.1 * run.friction_force[4]
+
+
+def test_a_path_of_millions_of_cells_is_refused():
+    far = vf.motion.History([0.0, 1e9], load=1.0, speed=1.0)
+    with refused("too-long-path", vf.ConvergenceError):
+        vf.motion.solve_transient(RUBBER, vf.Ball("10 mm"), far, accuracy=0.1)
 
 
 def test_a_path_too_long_for_the_memory_is_refused_before_it_is_full(monkeypatch):

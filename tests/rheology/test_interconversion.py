@@ -143,7 +143,7 @@ def test_order_of_the_modes_does_not_matter():
     assert np.array_equal(prony.to_retardation().C, turned.to_retardation().C)
 
 
-@pytest.mark.parametrize(("modulus", "seconds"), [(1e-6, 1e9), (1e12, 1e-15), (1e-150, 1e100)])
+@pytest.mark.parametrize(("modulus", "seconds"), [(1e-6, 1e9), (1e12, 1e-15), (1e-80, 1e80)])
 def test_units_of_modulus_and_time_do_not_matter(modulus, seconds):
     prony = series(5, modes=20)
     scaled = RelaxationSpectrum(modulus * prony.E0, modulus * prony.E, seconds * prony.tau).to_retardation()

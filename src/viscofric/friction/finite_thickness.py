@@ -46,6 +46,8 @@ _THICKEST, _BISECTIONS = 1e9, 40
 # the layer (1 − Θ = e⁻⁵⁰) or the contact; in plane strain they are as long as the longest memory, and longer.
 _LONG, _LONGER, _SHORTEST_OF_LAYER, _SHORTEST_OF_CONTACT = -12.0, -6.0, 3.2, 7.0
 _STEP = 0.05
+# Memory lengths in those of a wave that count as endless: their fourth powers do not overflow.
+_ENDLESS = 1e60
 # Friction of the half-space is limited to within this factor of Hertz's estimate.
 _LIKELY = 3.0
 
@@ -152,7 +154,8 @@ class ContactOnLayers:
         memory = self.speed * float(self.spectrum.tau.max(initial=0.0)) / length
         longest = min(_LONG, _LONGER - np.log(max(memory, 1.0))) if self.line else _LONG
         q = np.exp(np.arange(longest, shortest, _STEP)) / length
-        C, k = self.spectrum.C, np.multiply.outer(self.speed * self.spectrum.tau, q)
+        C = self.spectrum.C
+        k = np.minimum(np.multiply.outer(self.speed * self.spectrum.tau, q), _ENDLESS)
         glassy, t = 1.0 / self.spectrum.E_inf, q * self.radius
         if self.line:
             from scipy.special import j1

@@ -313,7 +313,7 @@ def _root_of_speed(v: float, start: float, end: float) -> float:
     """Return x in [0, 1] with v + start x + (end − start) x²/2 = 0, where v is above zero and the sum at 1 below."""
     bend = 0.5 * (end - start)
     root = math.sqrt(max(start**2 - 4.0 * bend * v, 0.0))
-    return min(max(2.0 * v / (root - start), 0.0), 1.0)
+    return min(max(2.0 * v / (root - start), 0.0), 1.0) if root > start else 1.0
 
 
 def _top(before: tuple[tuple[float, float], tuple[float, float]], last: tuple[float, float]) -> float:
@@ -326,7 +326,7 @@ def _top(before: tuple[tuple[float, float], tuple[float, float]], last: tuple[fl
         return y2
     bend = (second - first) / (x2 - x0)
     slope = first + bend * (x1 - x0)  # at x1
-    return y1 - 0.25 * slope**2 / bend
+    return y1 - 0.25 * slope * (slope / bend)
 
 
 def _zero(function: Callable[[float], float], low: float, high: float) -> float:

@@ -9,6 +9,7 @@ state.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -97,7 +98,7 @@ class Found:
         off = self.last.stiffness_steps + self._repeated * abs(found - self.before.stiffness)
         if self.coarser is not None:
             off += _OF_CELLS * abs(found - self.coarser.stiffness)
-        tangent, fewer = found.imag / found.real, (found + points).imag / (found + points).real
+        tangent, fewer = (one.imag / one.real if one.real else math.inf for one in (found, found + points))
         return (
             Estimate(found.real, off + abs(points.real) + self._relative * abs(found.real)),
             Estimate(found.imag, off + abs(points.imag) + self._relative * abs(found.imag)),

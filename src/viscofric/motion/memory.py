@@ -103,8 +103,9 @@ def step_parts(x: Array) -> StepParts:
     decay, start, end = step_coefficients(x)
     own = -0.5 * np.expm1(-2.0 * x)
     mixed = 0.5 * gone * (1.0 - end)
-    series = x * (1 / 3 - x * (1 / 4 - x * (7 / 60 - x * (1 / 24 - x * (31 / 2520 - x / 320)))))
-    new = np.where(small, series, (x - 2.0 * gone + own) / np.square(safe))
+    s = np.where(small, x, 0.0)
+    series = s * (1 / 3 - s * (1 / 4 - s * (7 / 60 - s * (1 / 24 - s * (31 / 2520 - s / 320)))))
+    new = np.where(small, series, (x - 2.0 * gone + own) / safe / safe)
     return StepParts(decay, start, end, own, mixed, new)
 
 

@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscofric.arguments import exactly_one
+from viscofric.arguments import LARGEST, exactly_one
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, wrong_argument
@@ -138,7 +138,7 @@ class PowerSpectrum(Density):
         H, long, roll, short = self_affine_shape(hurst, longest, rolloff, shortest)
         lengths = [long, roll, short] if roll < long else [long, short]
         q = 2.0 * math.pi / np.array(lengths)
-        shape = cls(q, np.minimum((q * roll / (2.0 * math.pi)) ** (-2.0 - 2.0 * H), 1.0))
+        shape = cls(q, np.maximum(q * roll / (2.0 * math.pi), 1.0) ** (-2.0 - 2.0 * H))
         return shape.scaled(rms_height=rms_height, rms_slope=rms_slope)
 
     @property
@@ -291,14 +291,20 @@ def density_at(q: Array, density: Array, at: ArrayLike) -> Array:
 
 
 def integral(q: Array, density: Array, power: float) -> float:
-    """Return ∫ q^power C(q) dq from the first to the last point."""
+    """Return ∫ q^power C(q) dq from the first to the last point; InputError if it is too large for computations."""
     # C q^power dq = C q^(power+1) d ln q: an exponential in ln q within each segment.
     logs = np.log(density) + (power + 1.0) * np.log(q)
     width = np.diff(np.log(q))
     rise = np.diff(logs)
     # (e^r − 1)/r, which is one where nothing rises
-    mean = np.where(np.abs(rise) < 1e-12, 1.0, np.expm1(rise) / np.where(rise == 0.0, 1.0, rise))
-    return float(np.sum(width * np.exp(logs[:-1]) * mean))
+    with np.errstate(over="ignore", invalid="ignore"):
+        mean = np.where(np.abs(rise) < 1e-12, 1.0, np.expm1(rise) / np.where(rise == 0.0, 1.0, rise))
+        found = float(np.sum(width * np.exp(logs[:-1]) * mean))
+    if not found <= LARGEST:
+        raise InputError(
+            f"the moment of q^{power:g} is too large for computations; give a lower order.", code="too-large"
+        )
+    return found
 
 
 def _cut_out(q: Array, density: Array, first: float, last: float) -> tuple[Array, Array]:

@@ -34,6 +34,8 @@ LARGEST = 2**24
 WIDEST = 2**14
 # Cells are square but for their last digits: rounded coordinates must not make them anything else.
 _NOT_SQUARE = 1e-6
+# Largest ratio of their sides: the influence of longer ones is lost in rounding.
+_LONGEST = 1e12
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,6 +150,11 @@ def surface_displacement(
     is_line = len(across) == 1
     width = step if is_line else spacing(across, "y")
     aspect = 1.0 if abs(width / step - 1.0) < _NOT_SQUARE else width / step
+    if not 1.0 / _LONGEST <= aspect <= _LONGEST:
+        raise InputError(
+            f"y: the cells are {aspect:.1e} times as wide as long; the ratio must lie within {_LONGEST:g}.",
+            code="out-of-range",
+        )
     beyond = [to_si(value, "m", name) for name, value in (("behind", behind), ("ahead", ahead), ("beside", beside))]
     if min(beyond) < 0.0:
         raise InputError("behind, ahead and beside must not be negative.", code="not-positive")

@@ -235,8 +235,14 @@ def _solve_on(window: Grid, problem: Problem, guess: Array, *, last: bool = Fals
     result = problem.control.solve(operator, height, start, tolerance, _PATIENCE)
     if not result.converged:
         result = proximal_points(problem.control, operator, height, result, tolerance)
-    if result.converged:
+    if result.converged and result.pressure.any():
         return Stage(problem, window, operator, result)
+    if result.converged:
+        raise ConvergenceError(
+            f"the contact is narrower than a cell of a grid of {window.shape[0]} x {window.shape[1]} cells; the "
+            "indenter may be too slender, or the window too large.",
+            code="no-window",
+        )
     raise ConvergenceError(
         f"the contact did not converge on a grid of {window.shape[0]} x {window.shape[1]} cells: a gap of "
         f"{result.complementarity:.1e} of the indentation was left, with tolerance = {tolerance:.0e}.",

@@ -161,6 +161,6 @@ def _crossing(function: Callable[[float], float], target: float) -> float:
         )
 
     def beyond(log_distance: float) -> float:
-        return math.log(max(function(math.exp(log_distance)), sys.float_info.min) / target)
+        return math.log(max(function(math.exp(log_distance)), sys.float_info.min)) - math.log(target)
 
     return math.exp(brentq(beyond, math.log(low), math.log(high), xtol=1e-15, rtol=4.0 * sys.float_info.epsilon))

@@ -106,7 +106,9 @@ def slid(cells: Cells, instant: Instant, speed: float) -> FreeState:
     surface = body.instant * spread + remembered
     loaded = pressure > 0.0
     level = surface[window.within(box)] + body.counterface * opposite + cells.height(place)
-    depth = float(level[loaded].mean()) if loaded.any() else float(level.min())
+    _, depth = cells.setting.control(instant)
+    if depth is None:
+        depth = float(level[loaded].mean()) if loaded.any() else float(level.min())
     faced = float(np.vdot(pressure, opposite))
     zero = np.zeros_like(pressure)
     force = cells.force(pressure, remembered[window.within(box)])
@@ -116,6 +118,8 @@ def slid(cells: Cells, instant: Instant, speed: float) -> FreeState:
 def _steady_pressure(cells: Cells, instant: Instant, speed: float) -> Array:
     setting = cells.setting
     load, depth = setting.control(instant)
+    if max(one for one in (load, depth) if one is not None) <= 0.0:
+        return np.zeros(cells.grid.shape)
     solid = SteadyMaterial(
         setting.body.instant, setting.body.compliances, speed * setting.body.times, setting.body.counterface
     )

@@ -16,7 +16,7 @@ from viscofric.contact.free.grids import Grid
 from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.indenters.indenter import Indenter, insist_on_round_edges
 from viscofric.contact.operators.layer import ScaledLayer
-from viscofric.errors import InputError
+from viscofric.errors import ConvergenceError, InputError
 from viscofric.motion.free.response import Response, response_of
 from viscofric.motion.memory import Modes, StepCoefficients, quickest_time, step_coefficients
 from viscofric.motion.mover import Sizes
@@ -62,6 +62,8 @@ class Body:
 
 # Distance from the load, in path lengths and units of length, from which displacements in plane strain are measured.
 _LEVEL = 20.0
+# Most steps along a path between two times.
+_MOST_STEPS = 1e6
 # Part of a cell, and of the largest load or depth, below which nothing is moved.
 _STILL = 1e-9
 # Path before the start, in units of length, over which modes of a steady contact differ.
@@ -254,6 +256,12 @@ class Setting:
         """Return times at which the indenter is a whole number of cells away, or graded ones where it rests."""
         places = np.array([self.turned(start.position), self.turned(end.position)])
         straight = float(np.abs(places[1] - places[0]).max())
+        if straight > _MOST_STEPS * cell:
+            raise ConvergenceError(
+                f"the path from {start.time:.4g} to {end.time:.4g} s takes {straight / cell:.2g} steps; shorten it, "
+                "or ask for less accuracy.",
+                code="too-long-path",
+            )
         count = 16 * (2 + math.ceil(straight / cell))
         times = np.linspace(start.time, end.time, count + 1)
         path = np.array([self.turned(self.schedule.at(float(time)).position) for time in times[:-1]] + [places[1]])
