@@ -51,14 +51,14 @@ def test_json_shows_inputs_and_points() -> None:
     words = (*SINGLE, "--cylinder", "10 mm", "--load", "100 N/m", "--speed", "1 m/s", "--accuracy", "0.02")
     done = succeed(*words, "--temperature", "40 degC", "--json")
     found = json.loads(done.stdout)
-    assert found["format"] == "viscofric friction curves 1"
-    assert found["units"]["load"] == "N/m"
-    (point,) = found["points"]
+    assert found["format"] == "viscofric friction curves 2"
+    assert found["results"]["units"]["load"] == "N/m"
+    point = {name: found["results"][name] for name in ("viscoelastic", "temperature")}
     rubber = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms")
     alone = vf.solve_steady(rubber, vf.Cylinder("10 mm"), speed="1 m/s", load="100 N/m", accuracy=0.02)
     # A rubber without shift factors is at the temperature that it is said to be at.
-    assert point["viscoelastic"] == alone.friction_coefficient
-    assert point["temperature"] == pytest.approx(313.15)
+    assert point["viscoelastic"] == [alone.friction_coefficient]
+    assert point["temperature"] == [pytest.approx(313.15)]
     assert found["inputs"]["material"]["E0"] == 1e6
     assert (found["inputs"]["load"], found["inputs"]["layer"]) == (100.0, None)
     assert found["inputs"]["indenter"] == {"shape": "cylinder", "radius": 0.01, "elastic": None}

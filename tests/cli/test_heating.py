@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import viscofric as vf
@@ -33,9 +34,9 @@ def test_a_heated_contact_has_the_numbers_of_python() -> None:
     found = json.loads(run("solve", *LINE, *options, "--json"))
     same = heated(average="loss", slip=0.05)
     assert same.heating is not None
-    assert found["heating"]["temperature_rise"] == same.heating.temperature_rise
+    assert found["results"]["temperature_rise"] == same.heating.temperature_rise
     assert found["results"]["friction_coefficient"] == same.friction_coefficient
-    assert found["units"]["loss_rise"] == "K"
+    assert found["results"]["units"]["loss_rise"] == "K"
     assert found["inputs"]["heating"]["counterface"]["name"] == "bearing steel"
     assert found["inputs"]["heating"]["slip"] == 0.05
 
@@ -48,9 +49,11 @@ def test_a_heated_curve_has_both_frictions_and_a_picture(tmp_path: Path) -> None
     heading = next(line for line in said.splitlines() if "speed" in line)
     assert heading.split()[-3:] == ["isothermal", "rise", "(K)"]
     assert picture.exists()
-    points = json.loads(run("curve", *LINE, *options, "--json"))["points"]
-    assert points[1]["temperature_rise"] > points[0]["temperature_rise"] > 0.0
-    assert all(0.0 < one["temperature_rise_error"] < one["temperature_rise"] for one in points)
+    points = json.loads(run("curve", *LINE, *options, "--json"))["results"]
+    slow, fast = points["temperature_rise"]
+    assert fast > slow > 0.0
+    assert np.all(np.less(points["temperature_rise_error"], points["temperature_rise"]))
+    assert min(points["temperature_rise_error"]) > 0.0
 
 
 @pytest.mark.slow

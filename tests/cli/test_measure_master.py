@@ -19,10 +19,10 @@ from viscofric.report.figures import saving
 def test_measure_gives_what_python_gives(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv", noise=0.01)
     found, curves = record("measure", path), vf.separate(vf.read_mtm(path))
-    assert found["format"] == "viscofric friction curves 1"
+    assert found["format"] == "viscofric friction curves 2"
     for name in ("speed", "temperature", "load", "viscoelastic", "viscoelastic_error", "coulomb", "consistency"):
-        assert [point[name] for point in found["points"]] == getattr(curves, name).tolist(), name
-    assert set(found["units"]) == set(found["points"][0])
+        assert found["results"][name] == getattr(curves, name).tolist(), name
+    assert found["results"]["units"]["load"] == "N"
     assert found["inputs"]["runs"] == [str(path)]
 
 
@@ -49,7 +49,7 @@ def test_columns_that_are_not_understood_are_named(tmp_path: Path) -> None:
     assert call("measure", strange).exit_code == 1
     known = record("measure", path)
     found = record("measure", strange, "--column", "disc_speed=V1 (mm/s)")
-    assert found["points"] == known["points"]
+    assert found["results"]["viscoelastic"] == known["results"]["viscoelastic"]
     assert found["inputs"]["columns"] == {"disc_speed": "V1 (mm/s)"}
     assert "columns" not in known["inputs"]
 
@@ -57,7 +57,7 @@ def test_columns_that_are_not_understood_are_named(tmp_path: Path) -> None:
 def test_what_cannot_be_known_is_null_and_a_question_mark(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv", signs=(1,), replicates=1)
     found = record("measure", path, "--zero", "0.3 N")
-    point = found["points"][0]
+    point = {name: values[0] for name, values in found["results"].items() if isinstance(values, list)}
     assert " ± ?" in call("measure", path, "--zero", "0.3 N").stdout.splitlines()[1]
     assert point["viscoelastic_error"] is None
     assert point["viscoelastic"] == pytest.approx(viscoelastic(30.0, 20.0), rel=1e-9)  # no noise
@@ -72,7 +72,7 @@ def test_several_files_make_one_test(tmp_path: Path) -> None:
     assert refusal("measure", back)[:2] == (1, "signs-missing")
     # One test was measured in two files: forwards in one, backwards in the other.
     found = record("measure", back, forth)
-    np.testing.assert_allclose([point["offset"] for point in found["points"]], ZERO_FORCE, rtol=1e-9)  # no noise
+    np.testing.assert_allclose(found["results"]["offset"], ZERO_FORCE, rtol=1e-9)  # no noise
 
 
 def test_separated_curves_are_read_back_as_they_are(tmp_path: Path) -> None:
@@ -88,18 +88,17 @@ def test_one_direction_of_slip_needs_an_assumption_which_is_reported(tmp_path: P
     path = runs(tmp_path / "runs.csv", slips=(1,))
     assert call("measure", path).exit_code == 1
     found = record("measure", path, "--coulomb", COULOMB, "--coulomb-error", "0.001")
-    assert found["assumption"]
-    for point in found["points"]:
-        celsius, speed = point["temperature"] - 273.15, 1e3 * point["speed"]
-        assert point["viscoelastic"] == pytest.approx(viscoelastic(celsius, speed), rel=1e-9)  # no noise
-    assert found["assumption"] in call("measure", path, "--coulomb", COULOMB, "--coulomb-error", "0.001").stdout
+    points = found["results"]
+    for kelvin, speed, friction in zip(points["temperature"], points["speed"], points["viscoelastic"], strict=True):
+        assert friction == pytest.approx(viscoelastic(kelvin - 273.15, 1e3 * speed), rel=1e-9)  # no noise
+    assert points["assumption"] in call("measure", path, "--coulomb", COULOMB, "--coulomb-error", "0.001").stdout
 
 
 def test_coulomb_friction_that_is_not_needed_is_reported(tmp_path: Path) -> None:
     path = runs(tmp_path / "runs.csv")
     alone = record("measure", path)
     given = record("measure", path, "--coulomb", "45")
-    assert given["points"] == alone["points"]
+    assert given["results"]["viscoelastic"] == alone["results"]["viscoelastic"]
     (more,) = (one for one in given["note_records"] if one not in alone["note_records"])
     assert (more["code"], len(given["notes"])) == ("coulomb-not-used", len(alone["notes"]) + 1)
     assert "Note: " in call("measure", path, "--coulomb", "45").stderr
@@ -120,7 +119,7 @@ def test_steps_that_are_not_steady_are_left_out(tmp_path: Path) -> None:
     found = record("measure", tmp_path / "steps.csv", "--except-steps", "99")
     assert found["inputs"]["except_steps"] == [99]
     whole = record("measure", tmp_path / "runs.csv")
-    assert [point["viscoelastic"] for point in found["points"]] == [point["viscoelastic"] for point in whole["points"]]
+    assert found["results"]["viscoelastic"] == whole["results"]["viscoelastic"]
 
 
 @pytest.mark.parametrize(
@@ -145,14 +144,14 @@ def test_shift_finds_the_planted_factors_and_writes_them(tmp_path: Path) -> None
     path = curves(tmp_path / "curves.csv")
     found = record("master", path, "--reference", "30 degC", "--out", tmp_path / "alpha.csv")
     assert found["found"]
-    planted = LAW.log10(np.array(found["temperature"]))
-    apart = np.abs(found["log10_shift_factor"] - planted)
+    planted = LAW.log10(np.array(found["results"]["temperature"]))
+    apart = np.abs(found["results"]["log10_shift_factor"] - planted)
     # Four standard errors, of three factors; that of the reference is exact but for rounding.
-    assert np.all(apart <= 4.0 * np.array(found["standard_error"]) + 1e-12)
-    assert max(found["standard_error"]) < 0.1
+    assert np.all(apart <= 4.0 * np.array(found["results"]["standard_error"]) + 1e-12)
+    assert max(found["results"]["standard_error"]) < 0.1
     written = vf.read_shift_factors(tmp_path / "alpha.csv")
     # The reference's own is zero but for rounding.
-    np.testing.assert_allclose(written.log10_values, found["log10_shift_factor"], rtol=0.0, atol=1e-15)
+    np.testing.assert_allclose(written.log10_values, found["results"]["log10_shift_factor"], rtol=0.0, atol=1e-15)
     np.testing.assert_array_equal(written.covariance, found["covariance"])
 
 
@@ -161,7 +160,7 @@ def test_shift_lays_the_modulus_beside(tmp_path: Path) -> None:
     vf.ShiftFactors(TEMPERATURES, LAW.log10(TEMPERATURES), "30 degC").save(tmp_path / "dma.csv")
     words = ("master", path, "--shift", tmp_path / "dma.csv", "--law", "arrhenius")
     found = record(*words)
-    assert found["reference"] == pytest.approx(303.15)  # that of the modulus
+    assert found["results"]["reference_temperature"] == pytest.approx(303.15)  # that of the modulus
     assert found["law"]["kind"] == "Arrhenius"
     # Planted in both: noise of 1 % decides, so that neither is to be called wrong at one in a thousand.
     assert found["agreement"]["p_value"] > 1e-3
@@ -174,7 +173,7 @@ def test_curves_without_errors_say_what_the_errors_of_their_shift_are(tmp_path: 
     path = curves(tmp_path / "curves.csv", noise=0.0)
     exact = record("master", path)
     assert exact["overlap"]["error"] == 0.0
-    assert max(exact["standard_error"]) > 0.0
+    assert max(exact["results"]["standard_error"]) > 0.0
     words = call("master", path).stdout
     assert re.search(r"± 0\.0+(?![0-9])", words) is None
     noisy = call("master", curves(tmp_path / "noisy.csv")).stdout
@@ -226,7 +225,9 @@ def test_curves_without_overlap_show_no_factor(tmp_path: Path) -> None:
     assert law is not None
     assert not reported["found"]
     assert reported["covariance"] is None
-    np.testing.assert_allclose(reported["log10_shift_factor"], law.log10(np.array([303.15, 363.15])), atol=1e-12)
+    np.testing.assert_allclose(
+        reported["results"]["log10_shift_factor"], law.log10(np.array([303.15, 363.15])), atol=1e-12
+    )
     words = ("master", path, "--shift", "synthetic fluoroelastomer", "--out", tmp_path / "alpha.csv")
     assert refusal(*words).status == 1
     assert not (tmp_path / "alpha.csv").exists()
@@ -240,7 +241,7 @@ def test_curves_of_one_temperature_are_shifted_by_given_factors(tmp_path: Path) 
 
 def test_runs_are_separated_before_they_are_shifted(tmp_path: Path) -> None:
     found = record("master", runs(tmp_path / "runs.csv", noise=0.01), "--shift", "synthetic fluoroelastomer")
-    assert found["temperature"] == pytest.approx([303.15, 333.15])
+    assert found["results"]["temperature"] == pytest.approx([303.15, 333.15])
 
 
 def test_loads_are_reduced_to_one_with_the_ball(tmp_path: Path) -> None:
@@ -272,4 +273,5 @@ def test_the_reference_of_known_factors_counts_where_friction_reaches_it(tmp_pat
     path = curves(tmp_path / "curves.csv", temperatures=TEMPERATURES[1:])
     alone = record("master", path)
     beside = record("master", path, "--shift", "synthetic fluoroelastomer")  # about 30 °C, below all of them
-    assert (beside["found"], beside["reference"]) == (True, alone["reference"])
+    assert beside["found"]
+    assert beside["results"]["reference_temperature"] == alone["results"]["reference_temperature"]

@@ -20,7 +20,15 @@ from viscofric.cli.contact_options import (
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, refuse_to_overwrite
 from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
-from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, write_files
+from viscofric.cli.output import (
+    answer,
+    drawing,
+    json_option,
+    json_record,
+    out_option,
+    picture_option,
+    write_files,
+)
 from viscofric.cli.rubber_options import (
     NamedRubber,
     chosen_layer,
@@ -130,12 +138,11 @@ def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
 def _record(
     curves: FrictionCurves, rubber: NamedRubber, shape: NamedIndenter, parameters: dict[str, Any]
 ) -> dict[str, Any]:
-    from viscofric.report.texts.friction import friction_record
-
     inputs = contact_inputs(parameters, rubber, shape, None)
     inputs |= {name: parameters[name] for name in ("coulomb", "accuracy", "backend", "samples", "workers")}
     direction = contact_settings(parameters)["direction"]
-    return friction_record(curves, inputs | {"direction": list(direction), "load": float(curves.load[0])})
+    inputs |= {"direction": list(direction), "load": float(curves.load[0])}
+    return json_record("friction curves 2", inputs, curves.points_dataset(), notes=curves.notes)
 
 
 def _of_heat(curves: FrictionCurves, rows: slice) -> list[list[str]]:

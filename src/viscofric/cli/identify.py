@@ -17,6 +17,7 @@ from viscofric.cli.output import (
     drawing,
     is_synthetic,
     json_option,
+    json_record,
     optional_si,
     out_option,
     picture_option,
@@ -25,7 +26,6 @@ from viscofric.cli.output import (
 )
 from viscofric.cli.rubber_options import find_rubber, shift_factor_options
 from viscofric.cli.speed_options import list_of
-from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -194,8 +194,8 @@ def command(
     anchor = check_anchor(parameters)
     from viscofric.cli.progress import contact_bar
     from viscofric.friction.identification.identify import identify_material
-    from viscofric.report.texts.inverse import identification_record
-    from viscofric.rheology.cards import write_card
+    from viscofric.report.texts.inverse import shown_frequencies
+    from viscofric.rheology.cards import native, write_card
 
     shape = chosen_indenter(parameters)
     known = None if beside is None else find_rubber(beside, "beside")
@@ -217,7 +217,23 @@ def command(
     def record() -> dict[str, Any]:
         inputs = {"sources": [plainly(str(path)) for path in sources], "indenter": shape.record}
         inputs |= _inputs(parameters, options, shape.indenter.geometry.load_unit) | separation_record(parameters)
-        return identification_record(found, inputs) | listed("notes", (*curves.notes, *found.notes))
+        spectra = [one.modes_at() for one in (found.material, *found.samples.materials)]
+        bands = ("identified", "identified_storage", "identified_loss")
+        levels = ("factor", "modulus", "chi2", "rms", "penalty")
+        return json_record(
+            "identification 2",
+            inputs,
+            found.to_dataset(shown_frequencies(found)),
+            material=spectra[0].to_dataset(),
+            shift=native.plain(found.material.shift),
+            shift_found=found.shift_found,
+            **{name: vars(getattr(found, name)) for name in bands},
+            family=[{name: getattr(fit, name) for name in levels} for fit in found.family],
+            points=found.friction_dataset(),
+            samples=[{name: getattr(one, name) for name in ("E0", "E_inf", "C")} for one in spectra[1:]],
+            sentences=found.sentences,
+            notes=(*curves.notes, *found.notes),
+        )
 
     answer(record, lambda: _print(found))
     print_notes(curves.notes)

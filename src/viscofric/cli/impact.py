@@ -19,7 +19,16 @@ from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_dataset
 from viscofric.cli.heating_options import contact_inputs
 from viscofric.cli.keys import key
-from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
+from viscofric.cli.output import (
+    answer,
+    drawing,
+    json_option,
+    json_record,
+    out_option,
+    picture_option,
+    print_pairs,
+    write_files,
+)
 from viscofric.cli.rubber_options import chosen_rubber, is_made_up, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -87,7 +96,6 @@ def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
     name = f"{shape.words} on {rubber.name}"
 
     def record() -> dict[str, Any]:
-        from viscofric.report.texts.motion import impact_record
         from viscofric.units import to_si
 
         gravity = 0.0 if parameters["gravity"] is None else to_si(parameters["gravity"], "m/s**2")
@@ -95,7 +103,10 @@ def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
         inputs |= {name: parameters[name] for name in ("rebounds", "accuracy")}
         inputs |= {"mass": to_si(parameters["mass"], "kg"), "gravity": gravity}
         inputs |= {"speed": speeds, "temperature": kelvins}
-        return impact_record(inputs, result, seconds)
+        contacts = [one._asdict() for one in getattr(result, "contacts", ())]
+        return json_record(
+            "impact 2", inputs, result.to_dataset(), contacts=contacts, seconds=seconds, warnings=result.warnings
+        )
 
     answer(record, lambda: _print(f"{name}{rubber.mark}, {parameters['mass']}\n", result, seconds), indent=None)
     write_files(

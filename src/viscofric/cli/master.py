@@ -15,6 +15,7 @@ from viscofric.cli.output import (
     drawing,
     is_synthetic,
     json_option,
+    json_record,
     optional_si,
     out_option,
     picture_option,
@@ -23,7 +24,7 @@ from viscofric.cli.output import (
     write_files,
 )
 from viscofric.cli.rubber_options import shift_factor_options
-from viscofric.notes import Note, listed
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -85,7 +86,8 @@ def command(
     """
     refuse_to_overwrite(sources, out, picture)
     from viscofric.friction.shifting.shift import chosen_law
-    from viscofric.report.texts.inverse import shift_record
+    from viscofric.report.texts.inverse import shift_factors
+    from viscofric.rheology.cards import native
 
     curves = friction_curves(sources, parameters)
     known, vertical = shifts(parameters, "known")
@@ -102,8 +104,20 @@ def command(
         inputs = {"sources": [plainly(str(path)) for path in sources], "shift": parameters["known"]}
         inputs |= {name: parameters[name] for name in ("law", "level_error")}
         inputs |= {name: optional_si(parameters[name], unit) for name, unit in (("reference", "K"), ("ball", "m"))}
-        found = shift_record(master, law, agreement, inputs | separation_record(parameters))
-        return found | {"law_explanation": why or None} | listed("notes", notes)
+        overlap = {name: getattr(master, f"overlap_{name}") for name in ("rms", "error", "points", "sentence")}
+        return json_record(
+            "friction shift 2",
+            inputs | separation_record(parameters),
+            shift_factors(master),
+            found=master.found,
+            covariance=master.shift_factors.covariance if master.found else None,
+            law=native.plain(law),
+            law_explanation=why or None,
+            overlap=overlap,
+            agreement=agreement and agreement.to_dataset(),
+            master_curve=master.to_dataset(),
+            notes=notes,
+        )
 
     answer(record, lambda: _print(master, known, law, why, agreement))
     print_notes(notes)

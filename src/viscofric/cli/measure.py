@@ -16,6 +16,7 @@ from viscofric.cli.output import (
     drawing,
     is_synthetic,
     json_option,
+    json_record,
     out_option,
     picture_option,
     print_pairs,
@@ -51,14 +52,14 @@ def command(runs: tuple[Path, ...], out: Path | None, picture: Path | None, synt
     refuse_to_overwrite(runs, out, picture)
     from viscofric.files import marked
     from viscofric.friction.curve_files import write_friction_curves
-    from viscofric.report.texts.friction import friction_record
 
     made_up = is_synthetic(synthetic, runs)
     curves = separated_runs(runs, parameters)
     curves = replace(curves, source=marked(curves.source, synthetic=made_up))
 
     def record() -> dict[str, Any]:
-        return friction_record(curves, {"runs": [plainly(str(path)) for path in runs], **separation_record(parameters)})
+        inputs = {"runs": [plainly(str(path)) for path in runs], **separation_record(parameters)}
+        return json_record("friction curves 2", inputs, curves.points_dataset(), notes=curves.notes)
 
     answer(record, lambda: _print(curves))
     print_notes(curves.notes)

@@ -15,6 +15,7 @@ import click
 from viscofric.cli.commands import Decorator
 from viscofric.cli.files import DASH, OUT, PICTURES, WRITTEN, check_ending, to_be_written
 from viscofric.cli.overview import TYPED
+from viscofric.datasets import Dataset
 from viscofric.files import says_synthetic
 
 #: Help of `--json` where a study runs.
@@ -85,6 +86,35 @@ def print_json(record: dict[str, Any], indent: int | None = 2) -> None:
     from viscofric.datasets import plain
 
     click.echo(json.dumps(plain(record, digits=None), indent=indent, ensure_ascii=False, allow_nan=False))
+
+
+def json_record(
+    kind: str,
+    inputs: dict[str, Any],
+    results: Dataset,
+    *,
+    notes: Iterable[str] = (),
+    warnings: Iterable[str] = (),
+    **more: Any,
+) -> dict[str, Any]:
+    """Return what `--json` prints: the request, the data set of the results and more of it, and the notes."""
+    from importlib.metadata import version
+
+    from viscofric.datasets import record
+    from viscofric.notes import listed
+
+    more = {name: record(one) if hasattr(one, "data_vars") else one for name, one in more.items()}
+    # Sentences are attributes as text, and listed as they are.
+    found = {name: one for name, one in record(results).items() if name not in ("notes", "note_records", "sentences")}
+    return {
+        "format": f"viscofric {kind}",
+        "viscofric_version": version("viscofric"),
+        "inputs": inputs,
+        "results": found,
+        **more,
+        **listed("notes", notes),
+        **listed("warnings", warnings),
+    }
 
 
 def answer(record: Callable[[], dict[str, Any]], show: Callable[[], object], *, indent: int | None = 2) -> None:

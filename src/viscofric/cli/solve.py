@@ -20,7 +20,16 @@ from viscofric.cli.contact_options import (
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
-from viscofric.cli.output import answer, drawing, json_option, out_option, picture_option, print_pairs, write_files
+from viscofric.cli.output import (
+    answer,
+    drawing,
+    json_option,
+    json_record,
+    out_option,
+    picture_option,
+    print_pairs,
+    write_files,
+)
 from viscofric.cli.rubber_options import (
     NamedRubber,
     chosen_layer,
@@ -118,9 +127,16 @@ def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
     name = in_contact(shape.words, rubber, settings["layer"])
 
     def record() -> dict[str, Any]:
-        from viscofric.report.texts.contact import contact_record
-
-        return contact_record(_inputs(parameters, rubber, shape, solution), solution, seconds)
+        levels = [level._asdict() for level in solution.diagnostics.levels]
+        return json_record(
+            "contact 2",
+            _inputs(parameters, rubber, shape, solution),
+            solution.to_dataset().drop_dims(("x", "y")),
+            warnings=solution.warnings,
+            derivatives=solution.derivatives and solution.derivatives.to_dataset(),
+            diagnostics=vars(solution.diagnostics) | {"levels": levels},
+            seconds=seconds,
+        )
 
     answer(record, lambda: _print(name, rubber, solution, seconds))
     draw = drawing("contact.contact_figure", solution, shape.indenter, name, mark=is_made_up(rubber, parameters))

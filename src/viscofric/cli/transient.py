@@ -29,6 +29,7 @@ from viscofric.cli.output import (
     drawing,
     is_piped,
     json_option,
+    json_record,
     out_option,
     picture_option,
     print_pairs,
@@ -199,12 +200,23 @@ def _record(
     seconds: float,
 ) -> dict[str, Any]:
     """Return the request and the results in plain types, SI."""
-    from viscofric.report.texts.motion import transient_record
+    from viscofric.report.texts.motion import notes_on_errors
 
+    run: Any = getattr(result, "run", result)
     kelvin = None if history.temperature is None else float(history.temperature[0])
     inputs = contact_inputs(parameters, rubber, shape, kelvin)
     inputs |= {name: parameters[name] for name in ("coulomb", "accuracy")}
-    return transient_record(inputs, history, result, seconds)
+    names = ("time", history.control, "position", "speed", "temperature", "before", "direction")
+    said = {name: getattr(history, name) for name in names if getattr(history, name) is not None}
+    return json_record(
+        "transient 2",
+        inputs | {"history": said},
+        result.to_dataset(),
+        **{name: getattr(run, name) for name in ("interrupted", "steps", "rejected_steps")},
+        seconds=seconds,
+        notes=notes_on_errors(run),
+        warnings=run.warnings,
+    )
 
 
 def _print(

@@ -110,6 +110,8 @@ class ShiftAgreement(Plotted):
                 "sentence": self.sentence,
                 "slope": self.slope,
                 "slope_error": self.slope_error,
+                "chi2": self.chi2,
+                "freedom": self.freedom,
                 "p_value": self.p_value,
                 "rms": self.rms,
             },

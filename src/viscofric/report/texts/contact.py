@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
-from viscofric.contact.solution import ERRORS, ContactSolution
-from viscofric.datasets import plain
-from viscofric.notes import listed
+from viscofric.contact.solution import ContactSolution
 from viscofric.report.texts.numbers import length, prefixed, short, significant, with_error
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.units import shown_number
@@ -19,11 +16,6 @@ _ROUND_OFF = 1e-12
 
 # Relative to the friction: a lateral one below it is what the solver's tolerance leaves of none.
 _LEAST_LATERAL = 1e-5
-
-# Units of what `contact_record` holds beside the numbers of the contact.
-_UNITS = {"temperature": "K", "direction": "1", "E0": "Pa", "E_inf": "Pa", "C": "1/Pa", "tau": "s", "seconds": "s"}
-# Numbers of a contact that are inputs, or work of the solver.
-_NO_RESULTS = ("speed", "temperature", "energy_balance", "complementarity", "cells", "spacing", "products")
 
 
 def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, str]]:
@@ -127,51 +119,6 @@ def _centre(solution: ContactSolution) -> str:
     return f"{length(abs(distance))} {'ahead of' if distance > 0.0 else 'behind'} the axis"
 
 
-def contact_record(inputs: dict[str, Any], solution: ContactSolution, seconds: float) -> dict[str, Any]:
-    """Return a contact in plain types: inputs (SI), results, errors, diagnostics, and the units of their names."""
-    from importlib.metadata import version
-
-    diagnostics, numbers = solution.diagnostics, solution.numbers
-    names = [str(name) for name in numbers if name not in (*ERRORS.values(), *_NO_RESULTS)]
-    results = {"geometry": solution.geometry, **{name: numbers[name].item() for name in names}}
-    errors = {
-        name: numbers[ERRORS[name]].item() if math.isfinite(results[name]) else None for name in names if name in ERRORS
-    }
-    heat = {} if solution.heating is None else solution.heating.to_dataset().data_vars
-    units = {str(name): one.attrs["units"] for name, one in (*numbers.items(), *heat.items())}
-    work = {
-        "cells": list(diagnostics.shape),
-        "spacing": diagnostics.spacing,
-        "complementarity": diagnostics.complementarity,
-        "relative_load_error": diagnostics.load,
-        "energy_balance": diagnostics.energy,
-        "peak_resolved": diagnostics.peak_resolved,
-        "collocation_shift": diagnostics.collocation_shift,
-        "levels": [level._asdict() for level in diagnostics.levels],
-        "set_changes": diagnostics.set_changes,
-        "linear_iterations": diagnostics.linear_iterations,
-        "products": diagnostics.products,
-        "ffts": diagnostics.ffts,
-        "seconds": seconds,
-    }
-    found: dict[str, Any] = plain(
-        {
-            "format": "viscofric contact 1",
-            "viscofric": version("viscofric"),
-            "inputs": inputs,
-            "results": results,
-            "errors": errors,
-            "heating": {str(name): one.item() for name, one in heat.items()} or None,
-            "derivatives": derivative_record(solution),
-            "diagnostics": work,
-            **listed("warnings", solution.warnings),
-            "units": units | _UNITS,
-        },
-        digits=None,
-    )
-    return found
-
-
 #: Modes that are shown; all of them are in the record.
 _MOST_MODES = 5
 #: Share of the largest mode's effect below which a mode is not shown.
@@ -210,29 +157,3 @@ def derivative_lines(solution: ContactSolution, spectrum: RetardationSpectrum) -
         time = prefixed(float(spectrum.tau[k]), None, "s")
         lines.append(f"  {time:<21}{relative(of_logarithms.C[k]):>15}{relative(of_logarithms.tau[k]):>17}")
     return lines
-
-
-def derivative_record(solution: ContactSolution) -> dict[str, Any] | None:
-    """Return the derivatives of a contact in plain types, with the units of their names; None without any."""
-    derivatives = solution.derivatives
-    if derivatives is None:
-        return None
-    of_logarithms = derivatives.logarithmic
-    line = solution.geometry == "line"
-    names = ("C", "tau", "E_inf", "speed", "load", "indentation")
-    return {
-        **{name: getattr(derivatives, name) for name in names},
-        "logarithmic": {name: getattr(of_logarithms, name) for name in names},
-        "error": derivatives.error,
-        "way": derivatives.way,
-        "units": {
-            "C": "Pa",
-            "tau": "1/s",
-            "E_inf": "1/Pa",
-            "speed": "s/m",
-            "load": "m/N" if line else "1/N",
-            "indentation": "1/m",
-            "logarithmic": "1",
-            "error": "1",
-        },
-    }

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields
-from typing import Any
 
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.datasets import record
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import SAME_TEMPERATURE, numbered
-from viscofric.notes import listed
 from viscofric.report.texts.numbers import ABSENT, percent, several, short, significant
 from viscofric.showing import aligned
 from viscofric.traction import TractionRuns
@@ -50,22 +46,6 @@ def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     if (check := curves.consistency_check) is not None:
         lines.append(("residual", str(check)))
     return lines
-
-
-def friction_record(curves: FrictionCurves, inputs: dict[str, Any]) -> dict[str, Any]:
-    """Return friction curves in plain types, SI units; `inputs` are what was requested, in plain types."""
-    found = record(curves.points_dataset())
-    names = [field.name for field in fields(curves) if field.name in found["units"]]
-    return {
-        "format": "viscofric friction curves 1",
-        "inputs": inputs,
-        "points": [
-            dict(zip(names, point, strict=True)) for point in zip(*(found[name] for name in names), strict=True)
-        ],
-        "assumption": curves.assumption or None,
-        **listed("notes", curves.notes),
-        "units": {name: found["units"][name] for name in names},
-    }
 
 
 def _coefficient(name: str, value: Array | None, error: Array | None, scatter: Array | None) -> list[list[str]]:

@@ -8,29 +8,16 @@ from typing import Any
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.datasets import Dataset, plain, record
+from viscofric.datasets import Dataset
 from viscofric.friction.identification.result import IdentifiedBand, IdentifiedMaterial
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.friction.shifting.shift_agreement import ShiftAgreement
-from viscofric.notes import listed
 from viscofric.report.results import values
 from viscofric.report.texts.numbers import ABSENT, degrees, significant
-from viscofric.rheology.cards import native
 from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.shifts.shift_law import ShiftLaw
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.showing import aligned
 from viscofric.units import shown_celsius, shown_number
-
-_SHIFT_UNITS = {
-    "ball": "m",
-    "temperature": "K",
-    "reference": "K",
-    "log10_shift_factor": "1",
-    "standard_error": "1",
-    "covariance": "1",
-}
-
 
 #: Errors are printed with three decimals, and not as zero.
 _SMALLEST = 1e-3
@@ -38,7 +25,7 @@ _SMALLEST = 1e-3
 
 def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str]:
     """Return the shift factors as lines of a table, with those of the modulus; dashes where these are not known."""
-    factors = _factors(master)
+    factors = shift_factors(master)
     found, doubt = values(factors, "log10_shift_factor"), np.nan_to_num(values(factors, "standard_error"))
     kelvin = values(factors, "temperature")
     columns = [["T (°C)", *(shown_celsius(float(one)) for one in kelvin)], ["log10 α", *_pairs(found, doubt)]]
@@ -49,7 +36,7 @@ def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str
     return aligned(zip(*columns, strict=True))
 
 
-def _factors(master: FrictionMasterCurve) -> Dataset:
+def shift_factors(master: FrictionMasterCurve) -> Dataset:
     """Return the shift factors of a master curve: those found, or those given at the temperatures of the curves."""
     if master.found:
         return master.shift_factors.to_dataset()
@@ -90,84 +77,19 @@ def shift_words(
     return lines
 
 
-def shift_record(
-    master: FrictionMasterCurve, law: ParametricLaw | None, agreement: ShiftAgreement | None, inputs: dict[str, Any]
-) -> dict[str, Any]:
-    """Return shifted friction in plain types, SI units, without a NaN: what is not known is None."""
-    factors, curve = _factors(master), record(master.to_dataset())
-    names = ("reduced_speed", "temperature", "viscoelastic", "viscoelastic_error", "load")
-    found: dict[str, Any] = plain(
-        {
-            "format": "viscofric friction shift 1",
-            "inputs": inputs,
-            "found": master.found,
-            "reference": master.reference,
-            "temperature": values(factors, "temperature"),
-            "log10_shift_factor": values(factors, "log10_shift_factor"),
-            "standard_error": np.nan_to_num(values(factors, "standard_error")),
-            "covariance": master.shift_factors.covariance if master.found else None,
-            "law": None if law is None else native.plain(law),
-            "overlap": {
-                "rms": master.overlap_rms,
-                "error": master.overlap_error,
-                "points": master.overlap_points,
-                "sentence": master.overlap_sentence,
-            },
-            "agreement": None if agreement is None else {name: getattr(agreement, name) for name in _AGREEMENT},
-            "master_curve": {name: curve[name] for name in names},
-            **listed("notes", master.notes),
-            "units": _SHIFT_UNITS | {"reduced_speed": "m/s", "viscoelastic": "1", "load": master.curves.load_unit},
-        },
-        digits=None,
-    )
-    return found
-
-
-_AGREEMENT = (
-    "temperature",
-    "difference",
-    "error",
-    "chi2",
-    "freedom",
-    "p_value",
-    "slope",
-    "slope_error",
-    "rms",
-    "sentence",
-)
-
-
-_UNITS = {
-    "angular_frequency": "rad/s",
-    "storage_modulus": "Pa",
-    "loss_modulus": "Pa",
-    "low": "rad/s",
-    "high": "rad/s",
-    "level_range": "Pa",
-    "modulus": "Pa",
-    "E0": "Pa",
-    "E_inf": "Pa",
-    "C": "1/Pa",
-    "tau": "s",
-    "reference": "K",
-    "speed": "m/s",
-    "temperature": "K",
-    "viscoelastic": "1",
-    "residual": "1",
-}
-_UNITS_OF_ANCHORS = {"indentation": "m", "contact_area": "m**2", "half_width": "m"}
 #: The modulus is printed so many decades beyond the frequencies of the contacts, at one frequency a decade.
 _BEYOND = 1
 
 
-def _frequencies(found: IdentifiedMaterial) -> Array:
+def shown_frequencies(found: IdentifiedMaterial) -> Array:
+    """Return the angular frequencies at which a modulus is shown, one a decade."""
     low, high = np.log10(found.frequency_range)
     return np.asarray(10.0 ** np.arange(np.floor(low) - _BEYOND, np.ceil(high) + _BEYOND + 1))
 
 
 def modulus_lines(found: IdentifiedMaterial) -> list[str]:
     """Return the modulus of an identified rubber with its 95 % limits, decade by decade, as lines of a table."""
-    data = found.to_dataset(_frequencies(found))
+    data = found.to_dataset(shown_frequencies(found))
     rows: list[tuple[str, ...]] = [("ω (rad/s)", "E' (MPa)", "95 % limits", "E'' (MPa)", "95 % limits", "")]
     for row, frequency in enumerate(values(data, "angular_frequency").tolist()):
         cells = [significant(frequency, 1)]
@@ -183,53 +105,6 @@ def _remark(band: IdentifiedBand, frequency: float) -> str:
     if band.decades > 0.0 and band.low <= frequency <= band.high:
         return "magnitude not identified" if band.relative else ""
     return "not identified"
-
-
-def identification_record(found: IdentifiedMaterial, inputs: dict[str, Any]) -> dict[str, Any]:
-    """Return an identified material in plain types, SI units; `inputs` are what was requested, in plain types."""
-    spectrum, material = found.material.modes_at(), found.material
-    modulus, points = record(found.to_dataset(_frequencies(found))), record(found.friction_dataset())
-    moduli = [f"{part}_modulus{end}" for part in ("storage", "loss") for end in ("", "_lower", "_upper")]
-    friction = ("speed", "temperature", "load", "viscoelastic", "viscoelastic_lower", "viscoelastic_upper", "residual")
-    whole: dict[str, Any] = plain(
-        {
-            "format": "viscofric identification 1",
-            "inputs": inputs,
-            "material": {
-                **_modes(spectrum),
-                "tau": spectrum.tau,
-                "poisson_ratio": material.poisson_ratio,
-                "reference": material.reference,
-                "shift": None if material.shift is None else native.plain(material.shift),
-            },
-            "modulus": {name: modulus[name] for name in ("angular_frequency", *moduli)},
-            "identified": _band(found.identified),
-            "identified_storage": _band(found.identified_storage),
-            "identified_loss": _band(found.identified_loss),
-            "anchored": found.anchored,
-            "shift_found": found.shift_found,
-            "level_range": found.level_range,
-            "family": [{name: getattr(fit, name) for name in _OF_A_LEVEL} for fit in found.family],
-            "fit": {name: float(getattr(found, name)) for name in ("chi2", "freedom", "rms", "error_scale")},
-            "points": {name: points[name] for name in friction},
-            "samples": [_modes(one.modes_at()) for one in found.samples.materials],
-            "sentences": found.sentences,
-            "units": _UNITS | {"load": found.friction.load_unit, "prior_band": "rad/s"} | _UNITS_OF_ANCHORS,
-        },
-        digits=None,
-    )
-    return whole
-
-
-_OF_A_LEVEL = ("factor", "modulus", "chi2", "rms", "penalty")
-
-
-def _modes(spectrum: RetardationSpectrum) -> dict[str, Any]:
-    return {"E0": spectrum.E0, "E_inf": spectrum.E_inf, "C": spectrum.C}
-
-
-def _band(band: IdentifiedBand) -> dict[str, Any]:
-    return {"low": band.low, "high": band.high, "limit": band.limit, "relative": band.relative}
 
 
 def family_lines(found: IdentifiedMaterial) -> list[str]:

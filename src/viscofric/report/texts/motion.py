@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 
-from viscofric.datasets import plain, record
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.history import History
 from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
 from viscofric.motion.solution import TransientSolution
-from viscofric.notes import Note, listed
+from viscofric.notes import Note
 from viscofric.report.texts.numbers import degrees, length, prefixed, short, significant, with_error
 from viscofric.showing import aligned
 
@@ -177,38 +175,3 @@ def restitution_lines(curve: RestitutionCurve) -> list[str]:
         heading = "restitution" if kelvin is None else f"e at {degrees(kelvin)}"
         columns.append([heading, *map(with_error, row.tolist(), errors.tolist())])
     return aligned(zip(*columns, strict=True))
-
-
-def impact_record(inputs: dict[str, Any], result: ImpactSolution | RestitutionCurve, seconds: float) -> dict[str, Any]:
-    """Return an impact, or several, in plain types: inputs (SI), results, and the units of their names."""
-    contacts = [one._asdict() for one in getattr(result, "contacts", ())]
-    return {
-        "format": "viscofric impact 1",
-        "viscofric_version": version("viscofric"),
-        "inputs": inputs,
-        **({"contacts": plain(contacts, None)} if contacts else {}),
-        "results": record(result.to_dataset()),
-        **listed("warnings", result.warnings),
-        "seconds": seconds,
-    }
-
-
-def transient_record(
-    inputs: dict[str, Any], history: History, result: TransientSolution | CycleSolution, seconds: float
-) -> dict[str, Any]:
-    """Return a contact over time in plain types: inputs (SI) without the history, results, and units."""
-    run: Any = getattr(result, "run", result)
-    columns = {name: getattr(history, name) for name in ("time", history.control, "position", "speed", "temperature")}
-    said = {name: plain(values, None) for name, values in columns.items() if values is not None}
-    return {
-        "format": "viscofric transient 1",
-        "viscofric_version": version("viscofric"),
-        "inputs": inputs | {"history": said | {"before": history.before, "direction": list(history.direction)}},
-        "results": record(result.to_dataset()),
-        "interrupted": run.interrupted,
-        "steps": run.steps,
-        "rejected_steps": run.rejected_steps,
-        **listed("warnings", run.warnings),
-        **listed("notes", notes_on_errors(run)),
-        "seconds": seconds,
-    }
