@@ -13,6 +13,7 @@ from refusals import refused
 from viscofric.errors import InputError
 from viscofric.friction import warming
 from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, assumption_checks_of, assumptions_dataset
+from viscofric.friction.identification.forward import FirstOrder
 from viscofric.notes import Note, Remedy, codes
 from viscofric.thermal import FILLED_RUBBER, PTFE, STEEL
 
@@ -185,13 +186,27 @@ def test_warming_is_that_of_the_heated_contact(counterbody: vf.ThermalProperties
     assert check.values["least_change"] < check.value
 
 
-@pytest.mark.apart
-def test_few_points_are_as_bad_as_all(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The points that heat alone suggests have the largest change of all."""
-    measured = replace(curves(), coulomb=np.full(4, 0.3), slip=0.2 * SPEED)
-    found = checks(RUBBER, BALL, measured, contact_radius="2 mm")["one temperature"]
-    monkeypatch.setattr(warming, "_MOST", 4)
-    assert checks(RUBBER, BALL, measured, contact_radius="2 mm")["one temperature"] == found
+def test_the_warmest_point_is_found_behind_two_whose_heat_is_overrated() -> None:
+    """The loss alone, released below the face, warms a sixth as much as its rough estimate: less than Coulomb heat."""
+    lossy = friction_curves(np.full(3, 0.2), np.full(3, 303.15), np.array([0.3, 0.28, 1e-6]), load=25.0)
+    made = replace(lossy, coulomb=np.array([0.0, 0.0, 0.03]), slip=np.full(3, 0.2))
+    mode = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    rubber = replace(mode, shift=RUBBER.shift)
+    rough = [warming._Contact.of(made, row, 2e-3, FILLED_RUBBER, STEEL).rough_rise() for row in range(3)]
+    assert rough[0] > rough[1] > rough[2]
+    assert warming.Warming.worst(rubber, BALL, made, [2e-3] * 3, FILLED_RUBBER, STEEL).row == 2
+
+
+def test_warming_has_the_same_effect_in_similar_contacts_whatever_their_load() -> None:
+    """On a ball, friction depends on v/a, and a³ on the load; near its maximum a small error of v/a changes much."""
+    mode = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 ms")
+    rubber, ball, times = replace(mode, shift=RUBBER.shift), vf.Ball(radius="10 mm"), np.array([1.0, 1.01, 1.1, 1.4])
+    made = friction_curves(2.0 * np.cbrt(times), np.full(4, 303.15), np.full(4, 0.05), load=5.0 * times)
+    solved: dict[float, FirstOrder] = {}
+    change = warming._change(rubber, ball, made, np.full(4, 0.05), solved)
+    # loads are equal to 2.5 %, and v/a to 0.8 %; the slope is 1.9 of it per relative change of v/a here
+    assert change == pytest.approx(np.full(4, change[0]), rel=0.02)
+    assert len(solved) == 3  # the first two loads are equal to a hundredth: one solution serves both
 
 
 @pytest.mark.apart
