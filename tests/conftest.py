@@ -18,6 +18,9 @@ from hypothesis.internal.conjecture import providers
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # Nothing is written to the home folder, matplotlib's cache of fonts included.
 os.environ.setdefault("MPLCONFIGDIR", str(Path(sys.prefix) / "var" / "matplotlib"))
+# Modules are compiled, and the assertions of tests rewritten, once: not in every process, nor again in every run.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 # How long an example takes is not tested: the machine may be busy.
 settings.register_profile("viscofric", deadline=None, suppress_health_check=[HealthCheck.too_slow])
