@@ -219,6 +219,18 @@ def test_friction_and_heights_that_no_rubber_or_surface_has_are_noted(tmp_path: 
     header = "temperature (degC),disc speed (mm/s),ball speed (mm/s),load (N),traction force (N)"
     path.write_text(f"{header}\n20,10,9,1,99\n20,9,10,1,-1\n", encoding="utf-8")
     assert "implausible-friction" in codes(vf.read_mtm(path).notes)
+    for values, code in (
+        ("20,0.1,0.09,1e4,0.7", "implausible-friction"),  # N for kN: below any force cell's resolution
+        ("293,0.1,0.09,1,0.7", "implausible-temperature"),
+        ("20,300,290,1,0.7", "implausible-speed"),
+    ):
+        path.write_text(f"{header.replace('mm/s', 'm/s')}\n{values}\n", encoding="utf-8")
+        assert codes(vf.read_mtm(path).notes) >= {code}
+    path.write_text("speed (m/s),temperature (K),load (N),viscoelastic friction\n300,20,1,1e-5\n", encoding="utf-8")
+    implausible = {"implausible-friction", "implausible-temperature", "implausible-speed"}
+    assert codes(vf.read_friction_curves(path).notes) == implausible | {"errors-unknown"}
+    path.write_text(path.read_text("utf-8") + "300,20,1,1e-5\n", encoding="utf-8")
+    assert "copied-rows" in codes(vf.read_friction_curves(path).notes)
     scan = tmp_path / "scan.csv"
     scan.write_text("8e298,0\n0,1\n", encoding="utf-8")
     with refused("implausible-height", DataFileError, naming="8e+298"):

@@ -17,7 +17,7 @@ from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, Remedy, setting
 from viscofric.showing import Plotted, Rows, Shown
-from viscofric.units import shown_celsius
+from viscofric.units import COLDEST_PLAUSIBLE, shown_celsius
 
 
 @dataclass(frozen=True)
@@ -86,16 +86,47 @@ _COLUMNS = {
 
 #: Above every friction coefficient of rubber; larger values have another unit, or are damaged.
 LARGEST_FRICTION = 10.0
+#: Where all coefficients are smaller, a force has another unit: no force cell resolves them.
+LEAST_FRICTION = 1e-4
+#: No friction test of rubber is as fast.
+LARGEST_SPEED = 100.0  # m/s
+#: Rubbers are tested within this: temperatures that are all above it look like kelvin taken for °C, below it like °C.
+PLAUSIBLE_TEMPERATURES = (COLDEST_PLAUSIBLE, 473.15)  # K
 
 
-def notes_on_friction(friction: ArrayLike) -> tuple[Note, ...]:
-    """Return a note on friction coefficients above those of any rubber."""
+def notes_on_friction(friction: ArrayLike, temperature: ArrayLike, speed: ArrayLike) -> tuple[Note, ...]:
+    """Return notes on friction coefficients, temperatures (K) and speeds (m/s) that suggest a wrong unit."""
     sizes = np.abs(np.asarray(friction, dtype=float))
+    kelvin, fastest = np.asarray(temperature, dtype=float), float(np.max(np.abs(speed), initial=0.0))
+    largest = float(np.max(sizes, initial=0.0))
+    notes = []
     count = int(np.count_nonzero(sizes > LARGEST_FRICTION))
-    if not count:
+    if count or 0.0 < largest < LEAST_FRICTION:
+        said = f"{count} of {sizes.size} friction coefficients are above {LARGEST_FRICTION:g}, up to {largest:.3g}"
+        if not count:
+            said = f"No friction coefficient is above {largest:.2g}"
+        said += "; check the units of force and load, and the zero of the force."
+        notes.append(Note("implausible-friction", said, values={"largest": largest}))
+    if kelvin.size and (kelvin.max() < PLAUSIBLE_TEMPERATURES[0] or kelvin.min() > PLAUSIBLE_TEMPERATURES[1]):
+        cold = kelvin.max() < PLAUSIBLE_TEMPERATURES[0]
+        low, high = (f"{one:.4g}" if cold else shown_celsius(one) for one in (kelvin.min(), kelvin.max()))
+        said = f"{low} to {high} K look like °C" if cold else f"{low} to {high} °C look like kelvin"
+        notes.append(Note("implausible-temperature", f"Temperatures of {said}; check the unit of the temperature."))
+    if fastest > LARGEST_SPEED:
+        said = f"Speeds reach {fastest:.4g} m/s, more than any friction test of rubber; check the unit of the speeds."
+        notes.append(Note("implausible-speed", said, values={"fastest": fastest}))
+    return tuple(notes)
+
+
+def notes_on_copies(columns: Iterable[ArrayLike]) -> tuple[Note, ...]:
+    """Return a note on rows, (n,) of each column, of which at least half are exact copies of others."""
+    rows = np.stack([np.asarray(column, dtype=float) for column in columns], axis=1)
+    count = len(rows) - len(np.unique(rows, axis=0))
+    if not count or 2 * count < len(rows):
         return ()
-    said = f"{count} of {sizes.size} friction coefficients are above {LARGEST_FRICTION:g}, up to {sizes.max():.3g}"
-    return (Note("implausible-friction", f"{said}; check the units of force and load, and the zero of the force."),)
+    said = f"{count} of {len(rows)} rows are exact copies of others and count as measurements of their own"
+    remedy = "; if they are copies, leave them out: errors would be too small."
+    return (Note("copied-rows", said + remedy, values={"rows": count, "of": len(rows)}),)
 
 
 @dataclass(frozen=True, eq=False)

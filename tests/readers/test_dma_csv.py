@@ -108,9 +108,16 @@ def test_two_columns_of_frequency_must_agree(tmp_path):
     ("header", "rows", "doubt"),
     [
         (HEADER, ["293,1,5,0.5", "313,1,5,0.5"], ("implausible-temperature", "293 to 313", "kelvin")),
+        (HEADER, ["253,1,5,0.5", "423,1,5,0.5"], ("implausible-temperature", "253 to 423", "kelvin")),
         (HEADER.replace("degC", "K"), ["20,1,5,0.5", "40,1,5,0.5"], ("implausible-temperature", "20 to 40", "°C")),
         (HEADER.replace("degC", "K"), ["60,1,5,0.5", "100,1,5,0.5"], ("implausible-temperature", "60 to 100", "°C")),
         (HEADER.replace("MPa", "Pa"), ["20,1,0.5,0.1"], ("implausible-modulus", "0.5 Pa", "line 2")),
+        # 5 MPa to 1.5 GPa through the transition, in Pa
+        (
+            HEADER.replace("MPa", "Pa"),
+            ["-40,1,1500,30", "0,1,90,80", "20,1,5,0.5"],
+            ("implausible-modulus", "5 to 1.5e+03"),
+        ),
         (HEADER.replace("MPa", "GPa"), ["20,1,5e5,0.1"], ("implausible-modulus", "'storage modulus (GPa)'")),
     ],
 )

@@ -25,7 +25,7 @@ from viscofric.readers.source import Source, bytes_of, is_revolutions
 from viscofric.readers.table import Table, name_columns
 from viscofric.readers.tables import find_tables
 from viscofric.readers.workbook import is_workbook
-from viscofric.traction import notes_on_friction
+from viscofric.traction import notes_on_copies, notes_on_friction
 from viscofric.units import CELSIUS_ZERO
 
 _TITLE = "viscofric friction curves"
@@ -171,7 +171,9 @@ def read_friction_curves(
     replicates = found.pop("replicates", np.ones(len(table.rows)))
     for kind in ("viscoelastic", "coulomb"):
         _complete(found, kind, replicates, notes)
-    doubts = notes_on_friction([found[name] for name in ("viscoelastic", "coulomb") if name in found])
+    coefficients = [found[name] for name in ("viscoelastic", "coulomb") if name in found]
+    doubts = notes_on_friction(coefficients, found["temperature"], found["speed"])
+    doubts += notes_on_copies(found.values())
     try:
         return FrictionCurves(
             replicates=replicates.astype(np.int64),

@@ -26,7 +26,7 @@ from viscofric.friction.identification.solving import Contacts
 from viscofric.friction.shifting.found_shifts import CURVE_LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
-from viscofric.notes import codes
+from viscofric.notes import Note, codes
 from viscofric.processes import Workers
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw
@@ -281,7 +281,9 @@ def shifts_of(
         raise _not_among(reference, found, points)
     notes = points.notes
     if not kept.all():
-        notes = (*notes, *found.notes, f"{np.count_nonzero(~kept)} points were left out with them.")
+        count = int(np.count_nonzero(~kept))
+        said = f"{count} points of temperatures without shift factors were left out."
+        notes = (*notes, *found.notes, Note("points-left-out", said, values={"points": count}))
     chosen = replace(points.chosen(kept), temperatures=found.temperatures, number=number[kept], notes=notes)
     return chosen, Shifts.unknown(found.temperatures, nearest, found)
 

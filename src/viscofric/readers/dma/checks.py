@@ -14,7 +14,7 @@ from viscofric.notes import Note
 from viscofric.readers.dma.names import COMPLIANCES, MODULI
 from viscofric.readers.dma.readings import AS_AMPLITUDES, Points, Sorted, at
 from viscofric.readers.table import Table
-from viscofric.units import CELSIUS_ZERO, shown_celsius, shown_number
+from viscofric.units import CELSIUS_ZERO, COLDEST_PLAUSIBLE, shown_celsius, shown_number
 
 #: A thousand times diamond.
 LARGEST_MODULUS = 1e15  # Pa
@@ -138,9 +138,7 @@ def insist_on_agreement(
 
 
 #: Range of sweeps of rubber in kelvin.
-LIKE_KELVIN = (200.0, 400.0)
-#: No rubber is swept below this many kelvin.
-COLDEST = 150.0
+LIKE_KELVIN = (200.0, 500.0)
 #: From the thinnest gel to ten times diamond.
 PLAUSIBLE_MODULUS = (1.0, 1e13)  # Pa
 
@@ -180,7 +178,7 @@ def _of_temperature(table: Table, place: int, temperature: Array) -> list[str]:
                 f"{span} and look like kelvin; they were read in °C, the unit of the heading.",
             )
         ]
-    if in_kelvin and high < COLDEST:
+    if in_kelvin and high < COLDEST_PLAUSIBLE:
         return [
             Note(
                 "implausible-temperature",
@@ -206,14 +204,36 @@ LARGEST_LOSS = 10.0
 FALLS = 0.9
 
 
+#: Sweeps cross a glass transition where E' changes by this factor and tan δ is below this at both of its ends.
+TRANSITION, LITTLE_LOSS = 100.0, 0.3
+#: The glass is then as stiff as this: from a foam to a filled resin.
+GLASSY_MODULUS = (1e7, 1e11)  # Pa
+
+
 def notes_on(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
     """Return a sentence on each sort of doubt; nothing is left out or changed."""
     return [
+        *_on_glass(sweeps),
         *_on_temperature(points, sweeps),
         *_on_outliers(points, sweeps),
         *on_amplitudes(sweeps),
         *_on_sense(sweeps),
     ]
+
+
+def _on_glass(sweeps: Sequence[Sorted]) -> list[Note]:
+    storage, loss = (
+        np.concatenate([getattr(one.isotherm, f"{part}_modulus") for one in sweeps]) for part in ("storage", "loss")
+    )
+    order, tenth = np.argsort(storage), max(storage.size // 10, 1)
+    ends = order[:tenth], order[-tenth:]
+    soft, stiff = (float(np.median(storage[rows])) for rows in ends)
+    elastic = all(np.median(loss[rows] / storage[rows]) < LITTLE_LOSS for rows in ends)
+    if not elastic or stiff < TRANSITION * soft or GLASSY_MODULUS[0] <= stiff <= GLASSY_MODULUS[1]:
+        return []
+    said = f"E' rises from {soft:.3g} to {stiff:.3g} Pa, as through a glass transition, but a glass has some 10⁹ Pa"
+    found = Note("implausible-modulus", f"{said}; check the unit of the moduli.", values={"soft": soft, "stiff": stiff})
+    return [found]
 
 
 def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:

@@ -19,7 +19,7 @@ from viscofric.readers.mtm import delimited, pcs_binary, pcs_text
 from viscofric.readers.mtm.readings import Thermometer, TractionReadings
 from viscofric.readers.source import Source, checked_sheet, insist_on_content
 from viscofric.readers.workbook import is_workbook, sheet_texts
-from viscofric.traction import TractionRuns, TractionStep, notes_on_friction
+from viscofric.traction import TractionRuns, TractionStep, notes_on_copies, notes_on_friction
 
 
 def read_file(source: Source, thermometer: Thermometer) -> TractionReadings:
@@ -162,13 +162,15 @@ def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
     step, steps = _steps(parts)
     replicate, numbering = _replicates(parts, columns, step)
     friction = columns["traction_force"] / columns["load"]
+    doubts = notes_on_friction(friction, columns["temperature"], columns["disc_speed"])
+    doubts += notes_on_copies([*columns.values(), *([] if time is None else [np.nan_to_num(time)])])
     several = len(parts) > 1
     own = [note_of(note).at(Path(part.source).name if several else "") for part in parts for note in part.notes]
     return TractionRuns(
         **columns,
         replicate=replicate,
         source=", ".join(marked(part.source, synthetic=says_synthetic(part.source)) for part in parts),
-        notes=(*short_notes((*own, *numbering, *timing)), *notes_on_friction(friction)),
+        notes=(*short_notes((*own, *numbering, *timing)), *doubts),
         zero_force=_optional(parts, "zero_force"),
         time=time,
         step=step,
