@@ -11,7 +11,7 @@ import pytest
 
 import viscofric as vf
 from viscofric.errors import DataFileError, InputError, StudyError, SuperpositionError
-from viscofric.notes import Note, Remedy, codes, note_of, records
+from viscofric.notes import Note, Remedy, codes, counted, note_of, records
 
 EXAMPLE = files("viscofric") / "templates" / "paper"
 GIVE = Remedy("; give unit=.", "; give --unit.", page="; fill in “Unit”.", field="material.unit")
@@ -103,3 +103,12 @@ def test_every_note_of_traction_runs_and_friction_curves_has_a_code():
     curves = vf.separate(few)
     assert {"readings-selected", "incomplete-replicates"} <= codes(curves.notes)
     assert [note for note in curves.notes if not note_of(note).code] == []
+
+
+def test_the_note_that_is_shown_of_many_is_the_most_severe() -> None:
+    each = [
+        [],
+        *([Note("adhesion", f"{share} times the load", values={"severity": share})] for share in (0.2, 0.9, 0.4)),
+    ]
+    (note,) = counted(each, rank=[0.0, 1.0, 2.0, 3.0])
+    assert (note.values["severity"], note.values["contacts"], note.values["of"]) == (0.9, 3, 4)

@@ -164,16 +164,23 @@ def counted(
 ) -> tuple[Note, ...]:
     """Return the notes of many contacts (in words, `of`), one of each code, with the number of those that have it.
 
-    Where they differ, the note is that of the contact with the highest `rank`, or the first.
+    Notes that are the same of all, such as those on the material, do not say so.
+    Where they differ, the note is the one of the highest ``severity``, if it has this value, else that of the contact
+    with the highest `rank`, or the first.
     """
+
+    def place(number: int) -> float:
+        return 0.0 if rank is None else rank[number]
+
     by_code: dict[str, dict[int, Note]] = {}
     for number, notes in enumerate(each):
         for note in map(note_of, notes):
             by_code.setdefault(note.code or note, {}).setdefault(number, note)
     found = []
     for with_it in by_code.values():
-        shown = max(with_it, key=lambda number: 0.0 if rank is None else rank[number])
-        where = f"In {len(with_it)} of {len(each)} {of}"
+        shown = max(with_it, key=lambda number: (with_it[number].values.get("severity", 0.0), place(number)))
+        of_all = len(with_it) == len(each) and len(set(with_it.values())) == 1
+        where = "" if of_all else f"In {len(with_it)} of {len(each)} {of}"
         found.append(with_it[shown].at(where).valued(contacts=len(with_it), of=len(each)))
     return tuple(found)
 

@@ -92,11 +92,12 @@ def test_a_contact_and_curves_of_contacts_note_frequencies_that_were_not_measure
         vf.solve_steady(material, vf.Ball("10 mm"), speed=speed, load="1 N", accuracy=0.1, temperature="30 degC")
         for speed in (0.5, 1.0, 10.0, 20.0)
     ]
-    assert [[note.code for note in one.warnings] for one in contacts] == [[], [], *2 * [["beyond-measured"]]]
+    beyond = ["beyond-measured"]
+    assert [[note.code for note in one.warnings] for one in contacts] == [[], [], beyond, ["quasi-static", *beyond]]
     curves = vf.FrictionCurves.from_solutions(contacts)
     assert curves.within_measured_frequencies.tolist() == [1.0, 1.0, 0.0, 0.0]
-    (note,) = curves.notes
-    assert (note.code, note.values["contacts"], note.values["of"]) == ("beyond-measured", 2, 4)
+    found = {note.code: (note.values["contacts"], note.values["of"]) for note in curves.notes}
+    assert found == {"quasi-static": (1, 4), "beyond-measured": (2, 4)}
     assert not vf.solve_steady(material, vf.Ball("10 mm"), speed=math.inf, load="1 N", accuracy=0.1).warnings
 
 
@@ -106,12 +107,13 @@ def test_of_a_prony_series_without_a_measurement_friction_beyond_its_modes_is_ma
     ball, contact = vf.Ball("10 mm"), {"load": "1 N", "accuracy": 0.1}
     speeds = (0.02, 1.0, 100.0)  # over 1.4 mm
     contacts = [vf.solve_steady(vf.Material(prony), ball, speed=speed, **contact) for speed in speeds]
-    assert [[note.code for note in one.warnings] for one in contacts] == [["beyond-measured"], [], ["beyond-measured"]]
+    beyond = ["beyond-measured"]
+    assert [[note.code for note in one.warnings] for one in contacts] == [beyond, [], ["quasi-static", *beyond]]
     assert (contacts[0].warnings[0].values["low"], contacts[0].warnings[0].values["high"]) == pytest.approx(ends)
     shifted = vf.Material(prony, shift=vf.WLF(C1=10.0, C2=100.0, reference="30 degC"))
     curves = vf.predict_friction(shifted, ball, speeds=speeds, temperatures="30 degC", **contact)
     assert curves.within_measured_frequencies.tolist() == [0.0, 1.0, 0.0]
-    assert codes(curves.notes) == {"frequencies-unknown", "beyond-measured"}
+    assert codes(curves.notes) == {"frequencies-unknown", "beyond-measured", "quasi-static"}
     road = vf.self_affine(0.8, shape=(64, 64), spacing="10 um", shortest="80 um", rms_slope=0.1, seed=1)
     fast = vf.solve_periodic(vf.Material(prony), road.to_surface(), speed="100 m/s", pressure="5 kPa")
     theory = vf.persson_theory(

@@ -373,3 +373,18 @@ def test_adhesion_is_noted_where_it_would_pull_with_a_tenth_of_the_load(
             pytest.approx(one) for one in [pull_off] if one is not None
         ]
         assert not [one for one in notes if one.code == "adhesion" and one.values["load"] != load]
+
+
+def test_inertia_is_noted_where_the_rubber_moves_a_fifth_as_fast_as_its_shear_waves() -> None:
+    """Rubber of 50 kPa, 200 kPa when fast, has shear waves of √(E/3ρ) = 3.8 to 7.6 m/s."""
+    speeds = [0.1, 0.5, 2.0]
+    curves = predict_friction(SOFT, vf.Ball("10 mm"), speeds=speeds, loads=["0.1 N", "0.2 N"], accuracy=0.1)
+    (note,) = (note for note in curves.notes if note.code == "quasi-static")
+    alone = [vf.solve_steady(SOFT, vf.Ball("10 mm"), speed=v, load="0.2 N", accuracy=0.1).warnings for v in speeds]
+    assert ["quasi-static" in codes(notes) for notes in alone] == [False, False, True]
+    (own,) = (one for one in alone[-1] if one.code == "quasi-static")
+    assert own.values["change"] == pytest.approx((2.0 / own.values["wave_speed"]) ** 2)
+    assert 3.8 < own.values["wave_speed"] < 7.7
+    # The wider contact has the lower frequency v/a, the softer rubber, and the larger effect.
+    assert (note.values["contacts"], note.values["of"]) == (2, 6)
+    assert note.values["change"] == pytest.approx(own.values["change"], rel=1e-2)

@@ -151,6 +151,16 @@ def test_wide_contacts_and_failed_ones_are_marked(desk: Desk) -> None:
         desk.run(curve, {**study, "conditions": {**conditions, "load": "1 GN"}})
 
 
+def test_points_say_which_assumption_is_doubtful(desk: Desk) -> None:
+    """Adhesion under a small load, inertia of a rubber as fast as its waves; neither is a large strain."""
+    conditions = {"load": ["0.1 mN", "1 N"], "speed": ["20 mm/s", "100 m/s"], "temperature": "60 degC"}
+    study = {**BALL, "conditions": conditions, "solver": {"accuracy": 0.1, "cases": "each", "master_curve_points": 2}}
+    answer = desk.run(curve, study)
+    found = [{word for word in words if word != "extrapolated"} for words in answer["doubts"]]
+    assert found == [{"adhesion"}, {"adhesion", "inertia"}, set(), {"inertia"}]
+    assert {"adhesion", "quasi-static"} <= {one["code"] for one in answer["warning_records"]}
+
+
 def test_surfaces_whose_grid_is_too_coarse_are_marked(desk: Desk) -> None:
     coarse = {**ROUGH["surface"], "points": 32, "spacing": "40 um", "shortest": "100 um"}
     study = {**ROUGH, "surface": coarse, "solver": {"accuracy": 1e-3}}

@@ -52,7 +52,8 @@ from viscofric.arguments import flag, real
 from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.notes import Note
 from viscofric.showing import Shown
-from viscofric.units import Quantity, checked_poisson_ratio, in_si, number, positive
+from viscofric.thermal import FILLED_RUBBER
+from viscofric.units import Quantity, checked_poisson_ratio, in_si, number, plain, positive
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,6 +61,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array
+    from viscofric.contact.free.grids import Extent
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.rheology.spectra.retardation import RetardationSpectrum
     from viscofric.showing import Rows
 
 
@@ -238,3 +242,53 @@ def unit_direction(direction: Sequence[float]) -> tuple[float, float]:
         words = "must be two numbers, not both zero, such as (1.0, 0.0)."
         raise wrong_argument("direction", direction, words, "wrong-count")
     return x / length, y / length
+
+
+#: Acceptable relative change of friction by inertia.
+LITTLE_INERTIA = 0.05
+
+
+def inertia_note(
+    speed: float,
+    modulus: float,
+    poisson_ratio: float,
+    density: float = float(FILLED_RUBBER.density),
+    where: str = "",
+) -> Note:
+    """Return the note on inertia, by the speed of a contact over that of shear waves, and |E(v/a)| of the rubber, SI.
+
+    Its ``change`` is the square of this ratio, about the relative change of friction (K. L. Johnson, Contact Mechanics,
+    section 11.3).
+    """
+    waves = math.sqrt(modulus / (2.0 * (1.0 + poisson_ratio) * density))
+    change = (speed / waves) ** 2
+    at = f"; {where}" if where else ""
+    said = (
+        f"Shear waves in the rubber run at {plain(waves, 2)} m/s (at |E(v/a)|, with {density:.4g} kg/m³{at}). Inertia, "
+        f"which is left out, changes friction by about {plain(100.0 * change, 2)} % there (good if ≤ "
+        f"{100.0 * LITTLE_INERTIA:.0f} %){'.' if change <= LITTLE_INERTIA else '; at lower speeds it does not matter.'}"
+    )
+    values = {"wave_speed": waves, "change": change, "density": density, "severity": change}
+    return Note("quasi-static", said, values=values)
+
+
+def contact_notes(
+    indenter: Indenter,
+    contact: Extent,
+    *,
+    indentation: float,
+    load: float,
+    speed: float,
+    modes: RetardationSpectrum,
+    poisson_ratio: float,
+    layer: Layer | None,
+) -> tuple[Note, ...]:
+    """Return what is doubtful about the assumptions of a steady contact, SI, with the modes at its temperature."""
+    notes = indenter.warnings(contact, indentation, load, modes.E0, poisson_ratio)
+    strained = None if layer is None else layer.strain_warning(indentation)
+    notes += [] if strained is None else [strained]
+    half = 0.5 * (contact.front + contact.rear)
+    if half > 0.0 and 0.0 < abs(speed) < math.inf:
+        inertia = inertia_note(abs(speed), abs(complex(modes.complex_modulus(abs(speed) / half))), poisson_ratio)
+        notes += [inertia] if inertia.values["change"] > LITTLE_INERTIA else []
+    return tuple(notes)

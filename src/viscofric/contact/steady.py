@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from viscofric.arguments import exactly_one, flag
-from viscofric.contact.bodies import Layer, half_space_coupling
+from viscofric.contact.bodies import Layer, contact_notes, half_space_coupling
 from viscofric.contact.derivatives.friction import differentiate
 from viscofric.contact.free.assembly import assemble
 from viscofric.contact.free.estimates import friction_estimate
@@ -290,13 +290,13 @@ class _Solved(NamedTuple):
         found = assemble(self.stages, self.scale, self.velocity, self.settings.toward, self.temperature)
         # What was given comes back as it was given, free of the rounding of sums and units.
         found = replace(found, **self.given, coulomb=float(self.settings.coulomb))
-        notes: list[Note | None] = [*self.indenter.warnings(self.contact, found.indentation)]
-        notes.append(self.indenter.adhesion_warning(found.load, self.spectrum.E0, self.material.poisson_ratio))
-        if self.settings.layer is not None:
-            notes.append(self.settings.layer.strain_warning(found.indentation))
+        notes = contact_notes(
+            self.indenter, self.contact, indentation=found.indentation, load=found.load, speed=self.velocity,
+            modes=self.spectrum, poisson_ratio=self.material.poisson_ratio, layer=self.settings.layer,
+        )  # fmt: skip
         beyond = _beyond_measured(found, self.material.spectrum, self.spectrum)
         about = *self.material.notes_on_modes, *beyond, *self.material.notes_at(self.temperature)
-        return replace(found, warnings=(*filter(None, notes), *about))
+        return replace(found, warnings=(*notes, *about))
 
     def derivatives(self, *, with_error: bool = True) -> FrictionDerivatives:
         """Return the derivatives of the friction coefficient; without an error estimate, it is infinite."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array
-from viscofric.contact.bodies import Layer
+from viscofric.contact.bodies import LITTLE_INERTIA, Layer, inertia_note
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, Place, modes_by_temperature, verdict
@@ -186,27 +186,18 @@ def _linearity(size: ContactSize) -> AssumptionCheck:
 
 
 def _quasi_static(material: Material, sizes: list[ContactSize], rubber: ThermalProperties) -> AssumptionCheck:
-    """Return the check of the speed against that of shear waves, by K. L. Johnson, Contact Mechanics, section 11.3."""
+    """Return the check of the speed against that of shear waves; see `inertia_note`."""
     modes_at, density = modes_by_temperature(material), to_si(rubber.density, "kg/m^3", "density")
 
-    def waves(size: ContactSize) -> float:
+    def note(size: ContactSize) -> Note:
         where = size.where
         modulus = abs(complex(modes_at(where.temperature).complex_modulus(where.speed / size.smallest)))
-        return float(np.sqrt(modulus / (2.0 * (1.0 + material.poisson_ratio) * density)))
+        found = inertia_note(where.speed, modulus, material.poisson_ratio, density, str(where))
+        return found.valued(**where.values)
 
-    speeds = [waves(size) for size in sizes]
-    parts = [(size.where.speed / one) ** 2 for size, one in zip(sizes, speeds, strict=True)]
-    row = int(np.argmax(parts))
-    where = sizes[row].where
-    holds = parts[row] <= CHANGE
-    sentence = Note(
-        "quasi-static",
-        f"Shear waves in the rubber run at {plain(speeds[row], 2)} m/s (at |E(v/a)|, with {density:.4g} kg/m³; "
-        f"{where}). Inertia, which is left out, changes friction by about {plain(100.0 * parts[row], 2)} % there "
-        f"(good if ≤ {100.0 * CHANGE:.0f} %){'.' if holds else '; at lower speeds it does not matter.'}",
-        values={"wave_speed": speeds[row], "change": parts[row], "density": density, **where.values},
-    )
-    return AssumptionCheck.of("quasi-static", holds, sentence, parts[row], CHANGE)
+    worst = max(map(note, sizes), key=lambda one: one.values["change"])
+    change = float(worst.values["change"])
+    return AssumptionCheck.of("quasi-static", change <= LITTLE_INERTIA, worst, change, LITTLE_INERTIA)
 
 
 def _heated(curves: HeatColumns) -> AssumptionCheck:

@@ -201,9 +201,7 @@ def restitution_curve(
     def table(name: str) -> Array:
         return np.array([[getattr(hit, name) for hit in row] for row in hits], dtype=float)
 
-    every = [hit.warnings for row in hits for hit in row]
-    of_all = [note for note in every[0] if all(note in notes for notes in every)]  # such as those on the material
-    notes = (*of_all, *counted([[note for note in notes if note not in of_all] for notes in every], of="impacts"))
+    notes = counted([hit.warnings for row in hits for hit in row], of="impacts")
     return RestitutionCurve(
         speed=each, temperature=kelvin, restitution=table("restitution"), restitution_error=table("restitution_error"),
         contact_time=table("contact_time"), peak_force=table("peak_force"),
@@ -280,9 +278,10 @@ class _Falling(NamedTuple):
         widest, deepest = float(radius.max()), float(depth.max())
         self.indenter.check(Extent(widest, widest, widest), f"at {contacts[0].speed:g} m/s", "mass or the speed")
         modes = self.material.modes_at(temperature)
-        notes = [
-            self.indenter.strain_warning(Extent(widest, widest, widest), deepest),
-            self.indenter.adhesion_warning(float(force.max()), modes.E0, self.material.poisson_ratio),
+        notes: list[Note | None] = [
+            *self.indenter.warnings(
+                Extent(widest, widest, widest), deepest, float(force.max()), modes.E0, self.material.poisson_ratio
+            )
         ]
         if contacts[-1].restitution == 0.0:
             said = "The indenter does not leave the surface again: it comes to rest on it."

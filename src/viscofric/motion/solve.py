@@ -407,8 +407,7 @@ def _doubts(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
     load = max(one.seen.load for one in moments)
     indenter.check(widest, f"under {load:g} {indenter.geometry.load_unit}", problem.schedule.control)
     deepest = max(one.seen.depth for one in moments)
-    adhesion = indenter.adhesion_warning(load, problem.schedule.spectrum.E0, material.poisson_ratio)
-    return (*indenter.warnings(widest, deepest), *([] if adhesion is None else [adhesion]))
+    return tuple(indenter.warnings(widest, deepest, load, problem.schedule.spectrum.E0, material.poisson_ratio))
 
 
 def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:

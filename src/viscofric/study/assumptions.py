@@ -25,7 +25,7 @@ from viscofric.study.run_file.study import Study
 from viscofric.study.study_rubber import curves_of
 
 # Checks with a warning of the run; others have warnings of single contacts, or are harmless.
-_WARNED_OF = ("half-space", "uncoupled", "quasi-static")
+_WARNED_OF = ("half-space", "uncoupled")
 _HEATED = Remedy("; this is the isothermal friction, the results also have that with heating.")
 
 
@@ -35,7 +35,7 @@ def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, Dataset]:
 
 
 def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[Note]:
-    """Return warnings about rubber that is no half-space, Coulomb friction that couples to pressure, and inertia."""
+    """Return warnings about rubber that is no half-space, and Coulomb friction that couples to pressure."""
     return [
         note_of(check.sentence).coded(check.name)
         for check in found

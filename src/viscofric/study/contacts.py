@@ -134,7 +134,8 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
         for number, outcome in enumerate(part.outcomes)
         if isinstance(outcome, Record)
     ]
-    each = [[note.at(f"worst at {part.place(number)}") for note in one.warnings] for part, number, one in found]
+    worst = "worst at " if len(found) > 1 else ""
+    each = [[note.at(f"{worst}{part.place(number)}") for note in one.warnings] for part, number, one in found]
     reach = [part.cases[number].reach(one) if one.warnings else 0.0 for part, number, one in found]
     notes = [*counted(each, reach)]
     for index, rubber in enumerate(rubbers):

@@ -79,16 +79,26 @@ class Indenter(Shown, ABC):
             f"Adhesion is left out: with {1e3 * TYPICAL_ADHESION:g} mJ/m², typical of clean rubber on hard, smooth "
             f"bodies, the pull-off force at rest (JKR) is {force / load:.2g} times the load, and contact and friction "
             "are larger.",
-            values={"pull_off": force, "load": float(load), "work_of_adhesion": TYPICAL_ADHESION},
+            values={
+                "pull_off": force,
+                "load": float(load),
+                "work_of_adhesion": TYPICAL_ADHESION,
+                "severity": force / load,
+            },
         )
 
     def resolution_warning(self, contact: Extent) -> Note | None:
         """Return a note where the points that the surface is given by do not resolve it."""
         return None
 
-    def warnings(self, contact: Extent, indentation: float) -> list[Note]:
-        """Return all notes on a contact, as for `strain_warning`."""
-        return [*filter(None, (self.strain_warning(contact, indentation), self.resolution_warning(contact)))]
+    def warnings(self, contact: Extent, indentation: float, load: float, E0: float, poisson_ratio: float) -> list[Note]:
+        """Return all notes on a contact, as for `strain_warning` and `adhesion_warning`."""
+        found = (
+            self.strain_warning(contact, indentation),
+            self.resolution_warning(contact),
+            self.adhesion_warning(load, E0, poisson_ratio),
+        )
+        return [one for one in found if one is not None]
 
     @property
     def reach(self) -> float:

@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from viscofric.arrays import Array, Mask, lagrange
-from viscofric.contact.bodies import Layer, indenter_compliance
+from viscofric.contact.bodies import Layer, contact_notes, indenter_compliance
 from viscofric.contact.free.geometry import LINE
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.free.scale import Scale
@@ -30,7 +30,6 @@ from viscofric.friction.cases.interpolation import FRICTION, Between, Interpolat
 from viscofric.friction.cases.record import Failure, Record, indenter_record
 from viscofric.friction.cases.solving import Task, solve_indenter
 from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
-from viscofric.notes import Note, note_of
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
@@ -176,12 +175,16 @@ class IndenterCase(Case):
             case, numbers = cases[number], _with_units(between.found, row, place)
             if math.isinf(ends[0].half_width):
                 numbers["half_width"] = math.inf
-            material = rubbers.of(case)
+            contact = _extent(numbers)
             try:
-                doubts = _doubts(case, _extent(numbers), numbers["indentation"], place.b * modes.E0, material)
+                case.indenter.check(contact, f"under {case.load:g} {case.indenter.geometry.load_unit}")
             except InputError as error:
                 yield number, Failure.of(error, case.label)
                 continue
+            doubts = contact_notes(
+                case.indenter, contact, indentation=numbers["indentation"], load=case.load, speed=case.speed,
+                modes=rubbers.modes(case), poisson_ratio=rubbers.of(case).poisson_ratio, layer=case.layer,
+            )  # fmt: skip
             known = {"speed": case.speed, "temperature": case.temperature, "load": case.load}
             record = Record.of(**(known | numbers | shared), warnings=doubts)
             yield number, record if sensitivities is None else sensitivities.complete(record, row)
@@ -238,16 +241,6 @@ def _with_units(found: Interpolated, row: int, place: Place) -> dict[str, float]
 def _extent(numbers: dict[str, float]) -> Extent:
     side = numbers["half_width"]
     return Extent(numbers["rear"], numbers["front"], 0.0 if math.isinf(side) else side)
-
-
-def _doubts(case: IndenterCase, contact: Extent, indentation: float, E0: float, material: Material) -> tuple[Note, ...]:
-    """Return the warnings that `solve_steady` would give; raise `InputError` if it is wider than the indenter."""
-    case.indenter.check(contact, f"under {case.load:g} {case.indenter.geometry.load_unit}")
-    doubts: list[Note | None] = [*case.indenter.warnings(contact, indentation)]
-    doubts.append(case.indenter.adhesion_warning(case.load, E0, material.poisson_ratio))
-    if case.layer is not None:
-        doubts.append(case.layer.strain_warning(indentation))
-    return tuple(note_of(doubt) for doubt in doubts if doubt)
 
 
 @dataclass(frozen=True, eq=False)

@@ -51,8 +51,13 @@ _DOUBTS = {
     "extrapolated": "it depends on frequencies at which the material was not measured",
     "shift": "the shift factor is extrapolated beyond the temperatures that its law was fitted to",
     "strain": "the contact is wide or steep: the small-strain assumption is doubtful",
+    "unresolved": "the points of the surface do not resolve its peaks",
+    "adhesion": "adhesion, which is left out, may matter",
+    "inertia": "inertia, which is left out, may matter",
     "inaccurate": "its estimated numerical error exceeds the requested accuracy",
 }
+#: Of notes on contacts, by code; others are about large strain.
+_OF_CODES = {"heights-unresolved": "unresolved", "adhesion": "adhesion", "quasi-static": "inertia"}
 #: Drawn beside a quantity: column, dashes and words.
 _BESIDE = {
     "heated_friction": [("friction", "6px,4px", "isothermal")],
@@ -302,13 +307,17 @@ def _doubts(contacts: Contacts, case: Any, outcome: Outcome, *, inaccurate: bool
     if isinstance(outcome, Failure):
         return ["failed"]
     rubber: StudyRubber = contacts.rubbers[case.material]
-    found = {
-        "extrapolated": rubber.is_within(case, outcome) is False,
-        "shift": bool(np.any(rubber.shift.extrapolates(np.array([case.temperature])))),
-        "strain": bool(outcome.warnings),
-        "inaccurate": inaccurate,
+    found = {_OF_CODES.get(note.code, "strain") for note in outcome.warnings}
+    found |= {
+        name
+        for name, doubtful in {
+            "extrapolated": rubber.is_within(case, outcome) is False,
+            "shift": bool(np.any(rubber.shift.extrapolates(np.array([case.temperature])))),
+            "inaccurate": inaccurate,
+        }.items()
+        if doubtful
     }
-    return [name for name, doubtful in found.items() if doubtful]
+    return [name for name in _DOUBTS if name in found]
 
 
 def master_curve(contacts: Contacts, along: Solved) -> dict[str, Any] | None:
