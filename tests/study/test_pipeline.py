@@ -343,3 +343,19 @@ def test_unwritable_output_is_reported_before_anything_is_solved(tmp_path: Path)
     (tmp_path / "taken").write_text("a file")
     with refused("is-file", vf.DataFileError):
         run_study(_small_study(tmp_path), output=tmp_path / "taken")
+
+
+def test_inertia_is_that_of_the_speeds_of_cases_not_of_the_master_curve(tmp_path: Path) -> None:
+    """At 0 °C this rubber is so hard that 15 m/s are slow; the reduced speed at its reference is hundreds of m/s."""
+    lines = [
+        '[material]\ncatalogue = "synthetic tread rubber"\n[indenter]\nshape = "cylinder"\nradius = "5 mm"',
+        '[conditions]\nload = "2 N/mm"\ntemperature = "0 degC"\nspeed = ["1 m/s", "15 m/s"]',
+        "[solver]\naccuracy = 0.1\nmaster_curve_points = 2\n[uncertainty]\ndraws = 0",
+    ]
+    path = tmp_path / "study.toml"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    assert "quasi-static" not in codes(run_study(path).warnings)
+    path.write_text("\n".join(lines).replace("0 degC", "60 degC").replace("15 m/s", "60 m/s"), encoding="utf-8")
+    (note,) = (one for one in run_study(path, output=tmp_path / "warm").warnings if one.code == "quasi-static")
+    assert "60" in note.where
+    assert note.values["contacts"] <= 2

@@ -32,6 +32,7 @@ class Solved:
     cases: tuple[Case, ...]
     outcomes: tuple[Record | Failure, ...]  # of each case
     sweep: Sweep | None = None  # if the cases are those of a sweep
+    reduced: bool = False  # whether their speeds are reduced ones, of the master curve, at which nothing moves
 
     def place(self, number: int) -> str:
         """Return the position of a case in words."""
@@ -75,7 +76,7 @@ class Contacts:
         found, parts = list(self.plan.found()), []
         for cases in (self.sweep.cases, self.at_points, self.along):
             of = self.sweep if cases is self.sweep.cases else None
-            parts.append(Solved(cases, tuple(found[: len(cases)]), of))
+            parts.append(Solved(cases, tuple(found[: len(cases)]), of, reduced=cases is self.along))
             del found[: len(cases)]
         requested, at_points, along = parts
         return requested, at_points, along
@@ -135,7 +136,14 @@ def doubts(parts: Sequence[Solved], rubbers: Sequence[StudyRubber]) -> list[Note
         if isinstance(outcome, Record)
     ]
     worst = "worst at " if len(found) > 1 else ""
-    each = [[note.at(f"{worst}{part.place(number)}") for note in one.warnings] for part, number, one in found]
+    each = [
+        [
+            note.at(f"{worst}{part.place(number)}")
+            for note in one.warnings
+            if not (part.reduced and note.code == "quasi-static")
+        ]
+        for part, number, one in found
+    ]
     reach = [part.cases[number].reach(one) if one.warnings else 0.0 for part, number, one in found]
     notes = [*counted(each, reach)]
     for index, rubber in enumerate(rubbers):
