@@ -232,8 +232,10 @@ def test_a_period_of_given_depth_begins_as_it_ends() -> None:
 def test_what_does_not_repeat_itself_is_refused() -> None:
     with refused("not-a-period"):
         vf.motion.solve_cycle(SLS, BALL, vf.motion.History([0.0, 1.0], load=[1.0, 2.0]))
-    with refused("not-repeating", ConvergenceError):
+    with refused("not-repeating", ConvergenceError) as caught:
         vf.motion.solve_cycle(SLS, BALL, vf.motion.History([0.0, 1e-3], load=1.0), most_periods=1)
+    assert "most_periods" in caught.value.words("python")
+    assert not any("most_periods" in caught.value.words(reader) for reader in ("shell", "run_file", "page"))
 
 
 @pytest.mark.parametrize("control", [*slow("load"), *apart("indentation")])

@@ -33,6 +33,7 @@ from viscofric.motion.schedule import Schedule
 from viscofric.motion.shear import with_coulomb
 from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
 from viscofric.motion.watch import Watch, Watched
+from viscofric.notes import Remedy
 from viscofric.rheology.material import Material
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantities, Quantity, number
@@ -214,8 +215,14 @@ class _Search:
                 plain = True
         raise ConvergenceError(
             f"no periodic state within {self.most_periods} periods: the memory is still {self.change:.2g} of its "
-            "size away from it; allow more periods (most_periods=).",
+            "size away from it; ",
             code="not-repeating",
+            remedy=Remedy(
+                "allow more periods (most_periods=).",
+                "leave out --cycle, and give a history of several periods.",
+                "leave out cycle under [history], and give a history of several periods.",
+                "give a history of several periods instead.",
+            ),
         )
 
 

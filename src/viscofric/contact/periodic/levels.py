@@ -14,6 +14,7 @@ import numpy as np
 from viscofric.contact.periodic.one_grid import OneGrid
 from viscofric.contact.periodic.surface import interpolated
 from viscofric.errors import ConvergenceError
+from viscofric.notes import Remedy
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -97,11 +98,12 @@ def solve_on_levels(
             stage = finer
             continue
         if not result.converged:
+            fewer = "take fewer points, or a smoother surface."
             raise ConvergenceError(
                 f"the contact did not converge on a grid of {level.shape[0]} x {level.shape[1]} points: a gap of "
-                f"{result.complementarity:.2g} rms heights was left, with tolerance = {tolerance:.2g}; allow more "
-                "products (most_products=).",
+                f"{result.complementarity:.2g} rms heights was left, with tolerance = {tolerance:.2g}; ",
                 code="not-converged",
+                remedy=Remedy("allow more products (most_products=).", fewer, fewer, fewer),
             )
         return result, Work(
             products=level.products,
