@@ -117,8 +117,11 @@ def _of_history(data: Dataset) -> list[Spec]:
     if friction[most] == 0.0:
         return found
     after = f"after {quantity(float(data['time'][most] - data['time'][0]), 'time')}"
-    return [
-        *found,
+    found += [
         at("Largest friction coefficient", "friction_coefficient", most, after),
         at("Friction coefficient at the end", "friction_coefficient", -1),
     ]
+    if "total_friction" not in data:
+        return found
+    total = float(data["total_friction"][-1])
+    return [*found, number("Total friction coefficient at the end", total, digits=4, remark="with Coulomb friction")]

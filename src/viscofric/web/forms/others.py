@@ -267,6 +267,7 @@ MOTION = [
         choice("@motion.control", "Prescribed", []),
         choice("@motion.path", "Motion given as", [["speed", "Speed"], ["position", "Position"]]),
         choice("@motion.before", "Before the first time", ["untouched", "at rest", "sliding"]),
+        number("@motion.coulomb", "Coulomb friction", min=0, step=0.01, placeholder="0"),
     ),
     *when(
         _IMPACT,

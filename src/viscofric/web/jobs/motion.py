@@ -75,6 +75,7 @@ class Options(Rows):
     """What the study's first indenter or surface does."""
 
     impact: Impact | None = None  # instead of a history
+    coulomb: float = 0.0  # Coulomb friction coefficient of a history
     #: K, or text with its unit; instead of the study's first one
     temperature: Annotated[
         float | None, BeforeValidator(lambda value: kelvin(value) if isinstance(value, str) else value)
@@ -137,6 +138,7 @@ def _transient(
         layer=case.layer,
         indenter_modulus=case.modulus,
         indenter_poisson_ratio=case.poisson_ratio,
+        coulomb=options.coulomb,
         progress=progress,
     )
 

@@ -29,7 +29,8 @@ const motion = new Job("motion", {
   inputs: () => {
     const asked = history();
     if (!asked) return null;
-    const given = asked.preset === "impact" ? { impact: asked.impact } : optionsOf(asked);
+    const { coulomb } = asked;
+    const given = asked.preset === "impact" ? { impact: asked.impact } : { ...optionsOf(asked), coulomb };
     return { study: state.study, options: { temperature: asked.temperature, ...given } };
   },
 });
