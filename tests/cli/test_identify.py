@@ -12,6 +12,7 @@ import pytest
 
 import viscofric as vf
 from cli import calls
+from viscofric.cli.friction_sources import is_of_synthetic
 from viscofric.notes import note_of
 
 RUBBER = vf.Material.standard_linear_solid("2 MPa", "6 MPa", "10 ms")
@@ -139,3 +140,12 @@ def test_tables_show_what_is_identified_and_what_not() -> None:
     assert "× 0.5" in family_lines(made)[1]
     made.family = ()
     assert family_lines(made) == []
+
+
+def test_a_prior_or_shift_of_a_synthetic_material_is_one(tmp_path: Path) -> None:
+    made = vf.write_card(vf.synthetic_fluoroelastomer(), tmp_path / "made.json", "json")
+    measured = vf.write_card(vf.catalogue_material("PVB interlayer"), tmp_path / "measured.json", "json")
+    table = tmp_path / "shift.csv"
+    table.write_text("# Synthetic\ntemperature (degC),log10 shift factor\n0,1\n20,0\n", encoding="utf-8")
+    named = ["synthetic fluoroelastomer", str(made), str(table), "PVB interlayer", str(measured), None]
+    assert [is_of_synthetic(one) for one in named] == [True, True, True, False, False, False]

@@ -13,6 +13,7 @@ from viscofric.cli.errors import words_of
 from viscofric.cli.files import plainly
 from viscofric.cli.keys import key, table_of
 from viscofric.cli.rubber_options import column_options, find_rubber
+from viscofric.files import says_synthetic
 from viscofric.notes import Note, Remedy, dumped, note_of
 
 if TYPE_CHECKING:
@@ -188,3 +189,14 @@ def shifts(
     if rubber.shift is None or not rubber.has_shift_factors:
         raise InputError(f"{name}: this rubber has no shift factors to compare with.", code="no-shift")
     return rubber.shift, rubber.vertical_shift
+
+
+def is_of_synthetic(name: str | None) -> bool:
+    """Whether a material, or a table of shift factors, that an option names is synthetic."""
+    from viscofric.rheology.cards import open_card
+    from viscofric.rheology.catalogue import catalogue_material, is_synthetic
+
+    if name is None or Path(name).suffix.lower() in _TABLES:
+        return name is not None and says_synthetic(name)
+    path = Path(name)
+    return is_synthetic(open_card(path).material if path.is_file() or path.suffix else catalogue_material(name))

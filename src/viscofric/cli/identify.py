@@ -11,7 +11,13 @@ from viscofric.cli.commands import as_command, together
 from viscofric.cli.contact_options import chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import JSON, WRITTEN, Source, plainly, refuse_to_overwrite
-from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
+from viscofric.cli.friction_sources import (
+    friction_curves,
+    is_of_synthetic,
+    separation_options,
+    separation_record,
+    shifts,
+)
 from viscofric.cli.output import (
     answer,
     drawing,
@@ -237,7 +243,7 @@ def command(
 
     answer(record, lambda: _print(found))
     print_notes(curves.notes)
-    made_up = is_synthetic(synthetic, sources)
+    made_up = is_synthetic(synthetic, sources) or any(is_of_synthetic(parameters[one]) for one in ("prior", "shift"))
     material = replace(found.material, synthetic=made_up)
     write_files(
         ("material", out, lambda path: write_card(material, path, format="json")),
