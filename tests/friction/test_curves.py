@@ -317,6 +317,11 @@ def test_material_without_shift_factors_has_one_temperature_which_is_noted(given
     np.testing.assert_array_equal(there.viscoelastic, found.viscoelastic)
     assert there.temperature == pytest.approx(313.15)
     assert not codes(there.notes) & {"temperature-assumed"}
+    done: list[int] = []
+    with refused("outside-measured"):  # before any contact is solved
+        both, watch = ["40 degC", "60 degC"], lambda now, total: done.append(now)
+        vf.predict_friction(stated, CYLINDER, **CASE, temperatures=both, load=500.0, progress=watch)
+    assert not done
     with refused("outside-measured"):
         vf.predict_friction(stated, CYLINDER, **CASE, temperatures="60 degC", load=500.0)
     with refused("no-shift"):

@@ -74,7 +74,7 @@ Example:
     type=click.IntRange(0, 10_000),
     default=0,
     show_default=True,
-    help="Bootstrap samples of a material fitted to sweeps, for the 95 % band of its friction; 20 or more, 0 for none.",
+    help="Bootstrap samples for the 95 % band of friction, with --dma or a run file; 20 or more, 0 for none.",
 )
 @click.option("--workers", type=int, default=1, show_default=True, help="Number of processes.")
 @out_option("Write the friction curves (CSV); `-` prints them instead of the table.", endings=CSV)
@@ -130,7 +130,10 @@ def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
 
     drawn = None if rubber.made is None else draw_rubber(rubber.made, count)
     if drawn is None:
-        raise click.UsageError("--samples needs a material fitted to sweeps: --dma, or a run file.")
+        raise click.UsageError(
+            "--samples needs the sweeps that the material is fitted to; material files do not hold them: give --dma, "
+            "or a run file."
+        )
     print_notes(drawn.notes)
     return drawn
 

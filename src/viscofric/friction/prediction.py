@@ -152,6 +152,8 @@ def predict_friction(
         _insist_on_values(forces, "loads", unit)
     _insist_on_values(velocities, "speeds", "m/s")
     _insist_on_values(kelvins, "temperatures", "K")
+    assert material.shift is not None
+    material.shift(kelvins)  # raises where one is not known, before any contact is solved
     check_interface(interface, slip)
     if heating is not None:
         insist_on(heating, "heating", Heating)

@@ -384,7 +384,7 @@ class OneTemperature(ShiftLaw):
                     "; use this temperature, or give Material a shift, such as WLF(…)",
                     "; use this temperature, or give shift factors (material fit --shift-factors)",
                     "; use this temperature, or give shift_factors under [material]",
-                    "; use this temperature, or give “Shift factors”",
+                    "; use this temperature, or add a file of shift factors",
                     field="conditions.temperature",
                 )
                 + kelvin_hint(wanted),
