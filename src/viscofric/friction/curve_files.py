@@ -266,12 +266,7 @@ def _insist_on_absolute_errors(table: Table, places: dict[str, int]) -> None:
 def _read_column(table: Table, name: str, place: int, load_unit: str) -> Array:
     unit = load_unit if name == "load" else COLUMNS[name][0]
     column = table.columns[place]
-    values = table.numbers_or_missing(place) if name.endswith(_OPEN) else table.numbers(place)
-    if name == "speed":
-        values = table.values(place, unit)
-    else:
-        factor, shift = table.conversion(column, unit) if unit else (table.fraction(column), 0.0)
-        values = factor * values + shift
+    values = table.values(place, unit, or_missing=name.endswith(_OPEN))
     if name in ("speed", "temperature", "load"):
         bad, right = values <= 0.0, _ABOVE_ZERO[name]
     elif name == "replicates":

@@ -156,13 +156,20 @@ class Table:
             )
         return value
 
-    def values(self, column: int, unit: str) -> Array:
+    def values(
+        self, column: int, unit: str, hint: Remedy | None = None, *, or_missing: bool = False, assumed: str = ""
+    ) -> Array:
         """Return a column, (n,), in an SI unit, or raise `DataFileError` for a wrong cell or unit."""
+        # "" is the unit of a ratio; `assumed` is that of a column without one; `hint` as for `conversion`.
         one = self.columns[column]
         if unit == "m/s" and one.unit and is_revolutions(one.unit):
             return self._on_track(column)
-        factor, offset = self.conversion(one, unit)
-        return factor * self.numbers(column) + offset
+        if assumed and not one.unit:
+            factor, offset = unit_conversion(assumed, unit, one.heading)
+        else:
+            factor, offset = self.conversion(one, unit, hint) if unit else (self.fraction(one), 0.0)
+        with np.errstate(over="ignore"):
+            return factor * self.numbers(column, or_missing=or_missing) + offset
 
     def _on_track(self, column: int) -> Array:
         """Return the speeds, m/s, of a track whose radius a column holds, from revolutions per minute."""
@@ -281,17 +288,6 @@ class Table:
     def has(self, what: str) -> bool:
         """Return whether a column holds a quantity."""
         return any(column.quantity == what for column in self.columns)
-
-    def find(self, names: frozenset[str], what: str) -> int | None:
-        """Return the place of the one column whose name is among `names`, or None."""
-        # Names are compared as printed and in lower case, with underscores as spaces. Several such columns are an
-        # error, in which `what` names the quantity.
-        found = [
-            place
-            for place, column in enumerate(self.columns)
-            if column.name in names or (len(column.name) > 1 and column.name.lower() in names)
-        ]
-        return self._one_of(found, what)
 
     def _one_of(self, found: list[int], what: str) -> int | None:
         if len(found) > 1:

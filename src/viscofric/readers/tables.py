@@ -202,8 +202,7 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
     _insist_on_one_value(table)
     place = table.place("temperature") if given and table.rows else None
     if place is not None:
-        factor, offset = table.conversion(table.columns[place], "K")
-        kelvin = float(factor * table.numbers(place)[0] + offset)
+        kelvin = float(table.values(place, "K")[0])
         if states_another(table, kelvin):
             raise table.refused("value-not-needed", f"{TITLES_STATE}; leave out {given!r}.")
         insist_on_same_temperature(table, kelvin, repr(given))

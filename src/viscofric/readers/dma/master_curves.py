@@ -146,8 +146,7 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
     storage, loss = dma_table.moduli(table, places, source, [])
     temperature = np.full(len(frequency), reference)
     if "temperature" in places:
-        factor, offset = table.conversion(table.columns[places["temperature"]], "K")
-        temperature = factor * table.numbers(places["temperature"]) + offset
+        temperature = table.values(places["temperature"], "K")
     named = {"frequency": frequency, "storage modulus": storage, "loss modulus": loss, "temperature": temperature}
     _insist_on_positive(table.path, table.lines, named)
     if _are_sweeps(frequency, storage, temperature):

@@ -286,8 +286,7 @@ def known_temperatures(table: Table, place: int | None, source: Source, notes: l
         if source.temperature is not None:
             problem = f"column {table.columns[place].heading!r} contains the temperatures"
             raise not_needed(table.path, "temperature", "temperature-not-needed", problem, " for this file")
-        factor, offset = table.conversion(table.columns[place], "K")
-        kelvin = factor * table.numbers_or_missing(place) + offset
+        kelvin = table.values(place, "K", or_missing=True)
         table.insist(~(kelvin <= 0.0), place, "above absolute zero")
         return kelvin
     titled = temperatures_of_titles(table, source)

@@ -219,8 +219,7 @@ def _optional(table: Table, name: str) -> Array | None:
     place = table.place(name)
     if place is None:
         return None
-    factor, offset = table.conversion(table.columns[place], OPTIONAL[name])
-    values = factor * table.numbers_or_missing(place) + offset
+    values = table.values(place, OPTIONAL[name], or_missing=True)
     if name == "track radius":
         table.insist(~(values <= 0.0), place, "above zero")
     return values
@@ -325,7 +324,7 @@ def force(table: Table, load: Array, slip: Array, notes: list[Note]) -> tuple[Ar
         return _values(table, "traction force", "N"), "traction force"
     place = table.place("traction coefficient")
     assert place is not None  # see `missing`
-    coefficient = table.fraction(table.columns[place]) * table.numbers(place)
+    coefficient = table.values(place, "")
     if np.any(coefficient < 0.0):
         return coefficient * load, "traction coefficient"
     alone = slip == 0.0

@@ -112,12 +112,10 @@ def time_of(table: Table, notes: list[str]) -> Array:
     if place is None:
         raise table.lacking(["time"])
     column = table.columns[place]
-    if column.unit:
-        factor, offset = table.conversion(column, "s")
-        return factor * table.numbers_or_missing(place) + offset
-    said = f"The column {column.heading!r} has no unit; it was read in seconds."
-    notes.append(Note("time-without-unit", said))
-    return table.numbers_or_missing(place)
+    if not column.unit:
+        said = f"The column {column.heading!r} has no unit; it was read in seconds."
+        notes.append(Note("time-without-unit", said))
+    return table.values(place, "s", or_missing=True, assumed="s")
 
 
 def kind_of(table: Table, name: str) -> StepKind:
@@ -154,23 +152,22 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
     if place is not None:
         column = table.columns[place]
         lacks_unit = bool(source.modulus_unit) and not column.unit
-        if lacks_unit:
-            factor, offset = unit_conversion(source.modulus_unit, _SI[kind], "response_unit")
-        elif not column.unit:
+        if not column.unit and not source.modulus_unit:
             example = "1/MPa" if kind == "creep" else "MPa"
             by = setting("material.modulus_unit", "Unit of the moduli", repr(example))
             remedy = replace(by, python=f"response_unit='{example}'") + "."
             raise table.refused("no-unit", f"column {column.heading!r} has no unit; give it by ", remedy)
-        else:
-            factor, offset = table.conversion(column, _SI[kind])
-        return factor * table.numbers_or_missing(place) + offset, column.heading, lacks_unit
+        if lacks_unit:  # an error names the argument
+            unit_conversion(source.modulus_unit, _SI[kind], "response_unit")
+        values = table.values(place, _SI[kind], or_missing=True, assumed=source.modulus_unit)
+        return values, column.heading, lacks_unit
     stress, strain = table.place("stress"), table.place("strain")
     if stress is None or strain is None:
         beside = ["stress"] if strain is not None else ["strain"] if stress is not None else []
         missing = [_COLUMN[kind], *beside]
         problem = f"no column for {' or '.join(missing)}; {STEPS.example}, this one has {table.headings()}"
         raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, missing[-1:]), missing)
-    factor, _ = table.conversion(table.columns[stress], "Pa")
+    stresses = table.values(stress, "Pa", or_missing=True)
     column = table.columns[strain]
     fraction = fraction_of(column.unit) if column.unit else None
     if fraction is None:
@@ -178,7 +175,7 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
         raise table.refused("wrong-unit", f"column {column.heading!r} has no unit of a strain; {right}.")
     said = f"The {_COLUMN[kind]} was computed from stress and strain."
     notes.append(Note("response-computed", said))
-    stresses, strains = factor * table.numbers_or_missing(stress), fraction * table.numbers_or_missing(strain)
+    strains = fraction * table.numbers_or_missing(strain)
     above, below = (strains, stresses) if kind == "creep" else (stresses, strains)
     return above / np.where(below == 0.0, np.nan, below), table.columns[stress].heading, False
 

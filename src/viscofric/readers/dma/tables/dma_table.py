@@ -27,7 +27,7 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
-from viscofric.readers.source import PRINTED_FREQUENCY, Source, fraction_of, to_rad_per_second, unit_conversion
+from viscofric.readers.source import PRINTED_FREQUENCY, Source, fraction_of, to_rad_per_second
 from viscofric.readers.table import MISSING, Table, or_name_it
 from viscofric.readers.tables import converted, find_tables, holds_table
 
@@ -185,8 +185,7 @@ def _of_compliances(table: Table, places: dict[str, int], notes: list[str]) -> t
 
 
 def _compliance(table: Table, place: int) -> Array:
-    factor, _ = table.conversion(table.columns[place], "1/Pa")
-    values = factor * table.numbers_or_missing(place)
+    values = table.values(place, "1/Pa", or_missing=True)
     return np.where(values == 0.0, np.nan, values)
 
 
@@ -202,8 +201,7 @@ def _tangent(table: Table, places: dict[str, int]) -> Array:
             raise table.refused("no-unit", problem + right)
         return tangent
     place = places["phase angle"]
-    factor, _ = table.conversion(table.columns[place], "rad")
-    angle = factor * table.numbers_or_missing(place)
+    angle = table.values(place, "rad", or_missing=True)
     beyond = (angle < 0.0) | (angle >= 0.5 * math.pi)
     if 2 * np.count_nonzero(beyond) > len(angle):
         table.insist(~beyond, place, "an angle from 0 to below 90°", "out-of-range")
@@ -239,17 +237,12 @@ def lacks_unit(table: Table, places: dict[str, int], source: Source) -> bool:
 
 def _modulus(table: Table, place: int, source: Source, notes: list[str]) -> Array:
     """Return a column in Pa, by its own unit or by the one that the user gave."""
-    column = table.columns[place]
-    if source.modulus_unit and not column.unit:
-        factor, offset = unit_conversion(source.modulus_unit, "Pa", "modulus_unit")
+    if source.modulus_unit and not table.columns[place].unit:
         said = f"The moduli have no unit in the file; they were read in {source.modulus_unit}, as requested."
         note = Note("modulus-unit-given", said)
         if note not in notes:
             notes.append(note)
-    else:
-        factor, offset = table.conversion(column, "Pa", _HINT)
-    with np.errstate(over="ignore"):
-        values = factor * table.numbers_or_missing(place) + offset
+    values = table.values(place, "Pa", _HINT, or_missing=True, assumed=source.modulus_unit)
     table.insist(~np.isinf(values), place, "a finite number of pascal", "not-a-number")
     return values
 
