@@ -7,39 +7,24 @@ holds one temperature or several blocks, each numbered from 0 anew.  Tried on ge
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field, replace
-
-import numpy as np
+from dataclasses import replace
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.names import DMA, quantity
+from viscofric.readers.dma.names import DMA
 from viscofric.readers.dma.readings import Readings
-from viscofric.readers.dma.tables.dma_table import read_export
+from viscofric.readers.dma.tables.dma_table import read_points
 from viscofric.readers.headings import with_primes
-from viscofric.readers.source import Source, decimal_comma
-from viscofric.readers.table import Table, instrument_table
+from viscofric.readers.source import Source
+from viscofric.readers.tables import find_tables
 
 NAME = "Mettler-Toledo DMA text"
 
+_WORDS = {"temperature": frozenset({"Ts"}), "frequency": frozenset({"f"}), "step": frozenset({"Index"})}
+_METTLER = replace(DMA, quantities={**DMA.quantities, **_WORDS})
 _UNIT = re.compile(r"\[[^\[\]]*\]")
-_WORD = re.compile(r"\S+")
-_QUANTITIES = {"Ts": "temperature", "tan_delta": "tan delta"}
-_KNOWN = (*_QUANTITIES, "f", "E'", "G'", "E''", "G''", "E*", "G*")
 #: Names and units stand within the first lines; what comes before is empty.
 _FIRST_LINES = 10
-
-
-@dataclass
-class _Block:
-    """Rows of numbers under one pair of header lines."""
-
-    names: list[str]
-    ends: list[int]
-    units: list[str]
-    rows: list[list[str]] = field(default_factory=list)
-    lines: list[int] = field(default_factory=list)
-    steps: list[int] = field(default_factory=list)
 
 
 def recognises(source: Source) -> bool:
@@ -57,69 +42,35 @@ def _is_header(line: str) -> bool:
 
 def read(source: Source) -> Readings:
     """Return the points, or raise `DataFileError` for a missing column, a wrong unit or a damaged row."""
-    blocks = _blocks(source)
-    numbered = [one for block in blocks for one in zip(block.rows, block.lines, strict=True)]
-    comma = decimal_comma(source.path, ((cell, line) for row, line in numbered for cell in row))
-    tables = [_table(source.path, block, comma) for block in blocks]
-    whole = read_export(tables, source, NAME, "some blocks")
-    notes = whole.notes
-    if "x" in blocks[0].names:
-        said = "The amplitude x is a displacement and the sample's length is missing, so the strain is unknown."
-        notes = (*notes, Note("strain-unknown", said))
-    steps = np.array([step for block in blocks for step in block.steps], dtype=np.int64)
-    return replace(whole, step=steps, notes=notes)
+    table = find_tables(_delimited(source), _METTLER)[""]
+    whole = read_points(table, source, NAME, "", exported=True)
+    if all(column.name != "x" for column in table.columns):
+        return whole
+    said = "The amplitude x is a displacement and the sample's length is missing, so the strain is unknown."
+    return replace(whole, notes=(*whole.notes, Note("strain-unknown", said)))
 
 
-def _table(path: str, block: _Block, comma: bool) -> Table:
-    known = {name: _QUANTITIES.get(name) or quantity(name) or "" for name in _KNOWN}
-    columns = [
-        (name, unit.strip("[] ") if name != "tan_delta" else "", known.get(name, ""))
-        for name, unit in zip(block.names, block.units, strict=True)
-    ]
-    return instrument_table(path, columns, list(zip(block.lines, block.rows, strict=True)), DMA, comma)
-
-
-def _blocks(source: Source) -> list[_Block]:
-    """Split the text into blocks; lines below a table (the method's name) are not rows of numbers."""
-    blocks: list[_Block] = []
+def _delimited(source: Source) -> Source:
+    """Return the file with tabs between its cells, and the number of its step in place of the index of each point."""
+    # Lines below a table (the method's name) become empty, so that all keep their numbers.
+    lines: list[str] = []
+    ends: list[int] = []
     step, previous = -1, -1
-    lines = iter(enumerate((source.text or "").splitlines(), start=1))
-    for number, line in lines:
-        if not line.strip():
-            continue
+    for number, line in enumerate((source.text or "").splitlines(), start=1):
+        cells = with_primes(line).split()
         if _is_header(line):
-            units = _UNIT.findall(next(lines, (0, ""))[1])
-            names = with_primes(line).split()
-            if len(units) != len(names):
-                raise DataFileError(
-                    source.path, "each name must have a unit in brackets below it.", number + 1, code="wrong-unit"
-                )
-            blocks.append(_Block(names, [word.end() for word in _WORD.finditer(line)], units))
-            previous = -1
-            step += 1
-        elif blocks and re.fullmatch(r"\d+", line.split()[0]):
-            cells = _cells(line, blocks[-1], source.path, number)
+            ends = [word.end() for word in re.finditer(r"\S+", line)]
+            step, previous = step + 1, -1
+        elif ends and cells and cells[0].isdecimal():
+            if len(cells) != len(ends) and len(line.rstrip()) == ends[-1]:
+                # A cell is blank: columns end with their names.
+                cells = [line[start:end].strip() for start, end in zip([0, *ends], ends, strict=False)]
             if not re.fullmatch(r"\d{1,9}", cells[0]):
-                raise DataFileError(
-                    source.path, f"{cells[0]!r} in column 'Index' is not a whole number.", number, code="not-a-number"
-                )
-            index = int(cells[0])
-            step, previous = step + (index <= previous), index
-            blocks[-1].rows.append(cells)
-            blocks[-1].lines.append(number)
-            blocks[-1].steps.append(step)
-    blocks = [block for block in blocks if block.rows]
-    if not blocks:
-        raise DataFileError(source.path, "there is a header, but no row of numbers under it.", code="no-points")
-    return blocks
-
-
-def _cells(line: str, block: _Block, path: str, number: int) -> list[str]:
-    cells = line.split()
-    if len(cells) != len(block.names) and len(line.rstrip()) == block.ends[-1]:
-        # A cell is blank: columns end with their names.
-        cells = [line[start:end].strip() for start, end in zip([0, *block.ends], block.ends, strict=False)]
-    if len(cells) != len(block.names):
-        problem = f"the row has {len(cells)} cells where the header names {len(block.names)} columns."
-        raise DataFileError(path, problem, number, code="row-length")
-    return cells
+                problem = f"{cells[0]!r} in column 'Index' is not a whole number."
+                raise DataFileError(source.path, problem, number, code="not-a-number")
+            step, previous = step + (int(cells[0]) <= previous), int(cells[0])
+            cells[0] = str(step)
+        elif not line.lstrip().startswith("["):
+            cells = []
+        lines.append("\t".join(cells))
+    return replace(source, data="\n".join(lines).encode(), columns={})
