@@ -57,6 +57,25 @@ def test_width_and_unit_in_the_remarks_of_a_matrix_are_believed(tmp_path):
         vf.read_topography(write(tmp_path, text), unit="um")
 
 
+@pytest.mark.parametrize("names", [("Lateral units", "Value units"), ("XY units", "Z units")])
+def test_units_in_the_remarks_of_points_are_believed(tmp_path, names):
+    remarks = f"# Channel: Height\n# {names[0]}: um\n# {names[1]}: nm\n"
+    points = "\n".join(f"{2 * x}\t{3 * y}\t{HEIGHTS[x, y]}" for x in range(6) for y in range(4))
+    found = vf.read_topography(write(tmp_path, remarks + points))
+    np.testing.assert_allclose(found.heights, 1e-9 * HEIGHTS, rtol=1e-15)
+    assert found.spacing == pytest.approx((2e-6, 3e-6), rel=1e-12)
+    with refused("unit-not-needed", None, "'um' and 'nm'"):
+        vf.read_topography(write(tmp_path, remarks + points), unit="um")
+
+
+@pytest.mark.parametrize("headings", ["Länge (mm);Profil (µm)", "Tastweg [mm];P-Profil [µm]", "距離(mm);高さ(μm)"])
+def test_positions_and_heights_are_known_in_the_users_language(tmp_path, headings):
+    rows = [f"{0.002 * n:.3f};{height}".replace(".", ",") for n, height in enumerate(HEIGHTS[:, 0])]
+    found = vf.read_topography(write(tmp_path, "\n".join([headings, *rows])))
+    np.testing.assert_allclose(found.heights[:, 0], 1e-6 * HEIGHTS[:, 0], rtol=1e-12)
+    assert found.spacing[0] == pytest.approx(2e-6, rel=1e-12)
+
+
 @pytest.mark.parametrize("heights", [HEIGHTS, HEIGHTS[:, 0], HEIGHTS[:, :1]])
 def test_arrays_that_numpy_saved_are_read(tmp_path, heights):
     path = tmp_path / "scan.npy"
@@ -257,6 +276,9 @@ def test_files_of_instruments_are_read_by_the_package(tmp_path, capfd):
     noise.write_bytes(RANDOM.bytes(5000))  # as long as a square of two-byte numbers
     with refused("unknown-format"):
         vf.read_topography(noise, unit="um", spacing="1 um")
+    text = write(tmp_path, "r(x) [mm]\ts [um]\n" + "\n".join(f"{0.001 * n}\t{n % 3}" for n in range(9)))
+    with refused("unknown-format"):  # the package would read the positions in the one unit that is given
+        vf.read_topography(text, unit="um")
     assert capfd.readouterr() == ("", "")
 
 

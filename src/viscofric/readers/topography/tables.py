@@ -164,16 +164,48 @@ def _rows(source: Source, positions: Array, axis: str) -> tuple[Integers, float,
 NUMPY = b"\x93NUMPY"
 _BLANKS = re.compile(r"\s+")
 _WHOLE = re.compile(r"[+-]?\d{1,15}")
-#: "# Width: 10.0 µm", as Gwyddion and others write above a matrix with lines along y.
-_REMARK = re.compile(r"#\s*(Width|Height|Value units)\s*:\s*(.+?)\s*$", re.IGNORECASE)
+#: "# Width: 10.0 µm", as Gwyddion and others write above a matrix with lines along y, or above points.
+_REMARK = re.compile(r"#\s*(Width|Height|Value units|Z units|Lateral units|XY units)\s*:\s*(.+?)\s*$", re.IGNORECASE)
+_LATERAL = re.compile(r"^#\s*(Lateral|XY) units\s*:", re.IGNORECASE | re.MULTILINE)
+#: Characters of a text that may hold such remarks.
+_HEAD = 5000
+_SAME_REMARK = {"z units": "value units", "xy units": "lateral units"}
 
 #: The words of tables of positions and heights.
 HEIGHTS = Vocabulary(
     "a table of heights",
     {
-        "x": frozenset({"x", "X", "position", "position x", "x position", "distance", "lateral", "weg", "länge"}),
-        "y": frozenset({"y", "Y", "position y", "y position"}),
-        "height": frozenset({"z", "Z", "height", "height z", "z height", "profile", "elevation", "höhe", "hauteur"}),
+        "x": frozenset(
+            {
+                "x",
+                "X",
+                "position",
+                "position x",
+                "x position",
+                "x-position",
+                "distance",
+                "length",
+                "lateral",
+                "scan length",
+            }
+            | {"weg", "tastweg", "länge", "abstand", "distance x", "longueur", "距離", "长度"}
+        ),
+        "y": frozenset({"y", "Y", "position y", "y position", "y-position"}),
+        "height": frozenset(
+            {
+                "z",
+                "Z",
+                "height",
+                "height z",
+                "z height",
+                "profile",
+                "profile height",
+                "total profile",
+                "elevation",
+                "höhe",
+            }
+            | {"profil", "p-profil", "hauteur", "altitude", "altura", "altezza", "高さ", "高度"}
+        ),
     },
     needed=(("x",), ("height",)),
     example="heights have e.g. 'x (um)', 'y (um)', 'z (um)'",
@@ -212,15 +244,21 @@ def read_array(source: Source, options: ScanOptions) -> Scan:
 def read_text_table(source: Source, options: ScanOptions) -> Scan:
     """Read a text table: a matrix of heights, or columns x, z or x, y, z, recognised by headings or by their grid."""
     assert source.text is not None
-    if holds_table(source, HEIGHTS):
+    if _LATERAL.search(source.text[:_HEAD]) is None and holds_table(source, HEIGHTS):
         return _points(source, options)
     table = _parsed(source.path, source.text, are_points=options.spacing is None)
     are_points = options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3)
     if are_points and _without_positions(table.rows)[2] is None:
-        factor, _ = conversion(options.unit or "m", "m", "unit")
-        rows = np.column_stack([table.rows[:, :-1], _read(table.rows[:, -1], options)])
+        stated = [table.remarks.get(name, "") for name in ("lateral units", "value units")]
+        if options.unit and all(stated):
+            problem = (
+                f"its remarks state the units {' and '.join(map(repr, stated))}; leave unit = {options.unit!r} out."
+            )
+            raise DataFileError(source.path, problem, code="unit-not-needed")
+        across, up = (conversion(one or options.unit or "m", "m", "unit")[0] for one in stated)
+        rows = np.column_stack([across * table.rows[:, :-1], up * _read(table.rows[:, -1], options)])
         assumed = Note("unit-assumed", "positions and heights assumed to be in m", values={"unit": "m"})
-        return scan_of_points(source, factor * rows, options, table.lines, () if options.unit else (assumed,))
+        return scan_of_points(source, rows, options, table.lines, () if options.unit or all(stated) else (assumed,))
     return _matrix(source, table.rows, options, table.remarks, "text matrix")
 
 
@@ -340,7 +378,7 @@ def _parsed(path: str, text: str, *, are_points: bool) -> _Text:
             continue
         if words.startswith("#"):
             if match := _REMARK.match(words):
-                remarks[match[1].lower()] = match[2]
+                remarks[_SAME_REMARK.get(match[1].lower(), match[1].lower())] = match[2]
             continue
         found.append((number, _cells(words)))
     if not found:
