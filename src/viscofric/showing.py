@@ -30,6 +30,8 @@ ABSENT = "–"
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 #: Units that take a prefix; seconds do below one only.
 _PREFIXED = {"m", "m²", "m/s", "N", "N/m", "Pa", "J", "J/m", "W", "Hz", "s"}
+#: Units of data sets, as people write them.
+_WRITTEN = {"1": "", "m2": "m²", "m**2": "m²", "W/m**2": "W/m²"}
 #: A relative error below it is rounding.
 _ROUND_OFF = 1e-12
 _SPACE = "\N{NO-BREAK SPACE}"
@@ -184,7 +186,7 @@ def rows_of(*columns: np.ndarray[Any, np.dtype[Any]]) -> list[Any]:
 
 def shown_as_text(name: str, rows: Rows) -> str:
     """Return an object as text: on one line where it fits, and else one line for each row."""
-    shown = _texts(rows)
+    shown = texts(rows)
     line = f"{name}({'; '.join(f'{label}: {text}' for label, text in shown)})"
     if len(line) <= _LONGEST_LINE:
         return line
@@ -201,11 +203,12 @@ def aligned(rows: Iterable[Iterable[str]]) -> list[str]:
 
 def shown_as_html(name: str, rows: Rows) -> str:
     """Return an object as a table of HTML, which is well-formed XML."""
-    lines = (f"<tr><th>{escape(label)}</th><td>{escape(text)}</td></tr>" for label, text in _texts(rows))
+    lines = (f"<tr><th>{escape(label)}</th><td>{escape(text)}</td></tr>" for label, text in texts(rows))
     return f"<table><caption>{escape(name)}</caption><tbody>{''.join(lines)}</tbody></table>"
 
 
-def _texts(rows: Rows) -> list[tuple[str, str]]:
+def texts(rows: Rows) -> list[tuple[str, str]]:
+    """Return rows as pairs of label and text, without those whose value is None."""
     return [(row[0], shown_value(*row[1:]).replace(_SPACE, " ")) for row in rows if row[1] is not None]
 
 
@@ -226,7 +229,7 @@ def shown_value(value: Any, unit: str = "", error: float | None = None) -> str:
     if isinstance(value, Sized) and not isinstance(value, (str, Mapping, Shown)):
         return str(len(value)) if len(value) else "none"
     if isinstance(value, Shown) and type(value).__str__ is object.__str__:
-        text = ", ".join(" ".join(row) for row in _texts(value._shown()))
+        text = ", ".join(" ".join(row) for row in texts(value._shown()))
     else:
         text = " ".join(str(value).split())
     if len(text) <= _LONGEST_VALUE:
@@ -255,6 +258,7 @@ def _array(values: np.ndarray[Any, np.dtype[Any]], unit: str) -> str:
 
 def _amount(value: float, unit: str, error: float | None = None) -> str:
     """Return a number with its unit and its error; an infinite one is no number of any unit."""
+    unit = _WRITTEN.get(unit, unit)
     if not math.isfinite(value):
         return "unknown" if math.isnan(value) else ("∞" if value > 0.0 else "−∞")
     if unit == "%":

@@ -55,7 +55,9 @@ def test_words_show_the_end_and_the_energies() -> None:
     # a³ = (3/4)(1 − ν²) R F J(t) with J = 1e-6 (1 − 0.9 e^{−t/τ}) (Lee and Radok)
     radius = (0.75 * 0.75 * 0.01 * 1e-6 * (1.0 - 0.9 * np.exp(-10.0))) ** (1.0 / 3.0)
     assert float(found["contact radius"].split()[0]) == pytest.approx(1e3 * radius, rel=1e-3)
-    stored, dissipated, work = (found[name].split() for name in ("stored", "dissipated", "work on the material"))
+    stored, dissipated, work = (
+        found[name].split() for name in ("stored energy", "dissipated energy", "work on the material")
+    )
     assert {stored[-1], dissipated[-1], work[-1]} == {"µJ"}
     assert float(stored[0]) + float(dissipated[0]) == pytest.approx(float(work[0]), rel=1e-3)
 
@@ -132,7 +134,7 @@ def test_strokes_go_forth_and_back(tmp_path: Path) -> None:
     assert abs(rest) < 1e-9 < 0.05 < forth
     assert back == pytest.approx(-forth, rel=0.1)  # the sliding forgets the dwell after some contact widths
     assert found["results"]["total_friction"] == pytest.approx([0.2 + rest, forth - 0.2, back - 0.2])  # after each jump
-    assert lines(succeed(*words))["with Coulomb friction"] == f"−{0.2 - back:.4g}"
+    assert lines(succeed(*words))["friction coefficient of hysteresis and interface together"] == f"−{0.2 - back:.4g}"
 
 
 @pytest.mark.slow

@@ -95,16 +95,17 @@ def test_words_show_the_numbers_and_their_errors() -> None:
     done = succeed(*RUBBER, *BALL)
     solution = expected()
     lines = dict(line.split("  ", 1) for line in done.stdout.splitlines()[2:] if not line.startswith(" "))
-    friction = float(lines["friction coefficient"].split("±")[0])
+    friction = float(lines["viscoelastic friction coefficient"].split("±")[0])
     assert friction == pytest.approx(solution.friction_coefficient, abs=solution.diagnostics.friction_error)
-    assert "± 0.0000" in lines["friction coefficient"]
+    assert "± 0.0000" in lines["viscoelastic friction coefficient"]
     assert lines["indentation"].strip().startswith("298.")
     assert lines["indentation"].endswith("µm")
-    assert lines["load"].strip() == "1 N"
+    assert lines["normal load"].strip() == "1 N"
+    assert lines["force across the motion over the load"].strip() == "0"
     assert lines["contact area"].strip().startswith("7.0")
     assert lines["contact area"].endswith("mm²")
-    assert "not resolved" in lines["largest pressure"]
-    assert lines["centre of pressure"].strip() == "575.5 µm ahead of the axis"
+    assert "largest contact pressure, not resolved: at least" in lines
+    assert lines["distance of the centre of pressure ahead of the indenter's axis"].strip().startswith("575.5")
     assert lines["grid"].strip().startswith("128 × 128 cells")
 
 

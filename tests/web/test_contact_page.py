@@ -90,9 +90,9 @@ def _look_and_move(tab: Tab) -> None:
     # The leading edge of the map is on the right, and farther from the axis.
     x = tab.value(f"document.querySelector('{MAP} .plot').data[0].x")
     assert max(x) > -min(x) > 0.0
-    definition = tab.page.get_by_role("note").get_by_text("Friction force over normal load")
+    definition = tab.page.get_by_role("note").get_by_text("Friction force over load")
     assert not definition.is_visible()
-    tab.page.get_by_role("button", name="Friction coefficient μ", exact=True).click()
+    tab.page.get_by_role("button", name="Viscoelastic friction coefficient", exact=True).click()
     definition.wait_for()
     assert tab.findings() == []
     tab.screenshot("contact-1400-light")

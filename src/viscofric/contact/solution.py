@@ -83,6 +83,15 @@ ERRORS = {
 }
 
 
+def number_rows(meaning: dict[str, Meaning], values: dict[str, Any]) -> dict[str, tuple[str, float, str, float | None]]:
+    """Return each number by its name with its label, unit and error, without those that are errors or None."""
+    return {
+        name: (words, values[name], unit, values.get(ERRORS.get(name, "")))
+        for name, (unit, words) in meaning.items()
+        if values[name] is not None and name not in ERRORS.values()
+    }
+
+
 def labelled_numbers(meaning: dict[str, Meaning], values: dict[str, Any]) -> xarray.Dataset:
     """Return numbers with units, long names and the names of their errors (``ancillary_variables``); None: absent."""
     found = dataset((), {name: (values[name], *words) for name, words in meaning.items() if values[name] is not None})
@@ -329,6 +338,11 @@ class ContactSolution(Plotted):
             "power": self.friction_force * self.speed if moves else None,
             "power_error": found.friction_error * self.load * abs(self.speed) if moves else None,
         }
+
+    @property
+    def number_rows(self) -> dict[str, tuple[str, float, str, float | None]]:
+        """All numbers by name: long name, value, unit, and error or None."""
+        return number_rows(LINE_NUMBERS if self.geometry == "line" else NUMBERS, self.number_values)
 
     @property
     def numbers(self) -> xarray.Dataset:

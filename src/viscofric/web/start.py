@@ -9,7 +9,6 @@ _SHIFT = "Factor by which temperature multiplies all relaxation times, relative 
 _FREQUENCY = "Frequency at which the contact deforms the rubber: speed over half the length of the contact."
 _IMBALANCE = "Work of the forces minus stored and dissipated energy, relative; zero for an exact solution."
 _MISFIT = "Root mean square of log₁₀ of fitted over measured values; 0.01 decades are 2.3 %."
-_AHEAD = "Distance from the indenter's axis, along the motion"
 
 #: Label on the page -> definition.
 GLOSSARY: dict[str, str] = {
@@ -35,31 +34,16 @@ GLOSSARY: dict[str, str] = {
     "misfit of the step tests": _MISFIT,
     "Poisson’s ratio": "Ratio of lateral contraction to extension, constant in the model.",
     # contact
-    "Friction coefficient μ": "Friction force over normal load, here from hysteresis (rolling resistance) alone.",
+    "Viscoelastic friction coefficient": "Friction force over load, here from hysteresis (rolling resistance) alone.",
     "Indentation": "Approach of the indenter to the undeformed surface far away.",
     "Contact area": "Area with pressure above zero.",
-    "Contact width": "Length of the contact along the motion.",
-    "Contact area fraction": "Area with pressure above zero over the area of the surface.",
-    "Mean pressure in contact": "Load over the area with pressure above zero.",
-    "Mean gap": "Mean distance of the two surfaces.",
-    "Maximum pressure": "Largest pressure between indenter and rubber.",
-    "Friction force": "Force against the motion, from the pressure on the slopes of the indenter.",
-    "Friction force per length": "Force against the motion per length of the cylinder.",
-    "Dissipated power": "Friction force times speed: the energy that the rubber turns into heat per time.",
-    "Leading edge ahead of axis": f"{_AHEAD}, to the front edge of the contact.",
-    "Trailing edge behind axis": f"{_AHEAD}, to the rear edge of the contact.",
-    "Contact half-width": "Half of the contact's width across the motion.",
-    "Centre of pressure ahead of axis": f"{_AHEAD}, to the resultant of the pressure.",
-    "Mean pressure": "Normal load over contact area.",
     "Frequency v/(2πa)": _FREQUENCY,
     "Frequency v/a": _FREQUENCY,
     "Shift factor α(T)": _SHIFT,
     "Loss tangent tan δ at v/a": "Ratio E″/E′ at the frequency of the contact.",
     "Storage modulus E′ at v/a": "Stress in phase with the strain, over the strain, at the frequency of the contact.",
     "Energy balance error": _IMBALANCE,
-    "Cells along an edge": "Cells of the grid along the longer edge of the computed area.",
-    "Points along an edge": "Points of the surface along its longer edge in this solution.",
-    "Lateral force over load": "Force across the motion over normal load; zero where the surface has no lay.",
+    "Points along an edge": "Points of the grid or of the surface along its longer edge in this solution.",
     "Frequency of the longest wave": "Speed over the longest wavelength of the surface: the slowest deformation.",
     "Frequency of the shortest wave": "Speed over the shortest wavelength of the surface: the fastest deformation.",
     # motion

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from viscofric.contact.solution import SHARED_NUMBERS, Meaning, labelled_numbers
+from viscofric.contact.solution import SHARED_NUMBERS, Meaning, labelled_numbers, number_rows
 from viscofric.datasets import dataset
 from viscofric.showing import Plotted, Shown
 
@@ -181,20 +181,28 @@ class PeriodicSolution(Plotted):
         return 0.0 if self.heating is None else self.heating.temperature_rise
 
     @property
+    def number_rows(self) -> dict[str, tuple[str, float, str, float | None]]:
+        """All numbers by name: long name, value, unit, and error or None."""
+        return number_rows(NUMBERS, self._number_values)
+
+    @property
     def numbers(self) -> xarray.Dataset:
         """All numbers with units and long names; ``ancillary_variables`` names the error of the friction."""
+        found = labelled_numbers(NUMBERS, self._number_values)
+        return found if self.heating is None else found.assign(self.heating.to_dataset().data_vars)
+
+    @property
+    def _number_values(self) -> dict[str, float | None]:
         found = self.diagnostics
         touching = self.contact_area_fraction
         # With shear, the pressure's work alone is not what the material dissipates.
         dissipates = math.isfinite(self.speed) and self.coulomb == 0.0
-        values = {name: getattr(self, name, getattr(found, name, None)) for name in NUMBERS} | {
+        return {name: getattr(self, name, getattr(found, name, None)) for name in NUMBERS} | {
             "mean_contact_pressure": self.mean_pressure / touching if touching > 0.0 else None,
             "power": self.friction_coefficient * self.mean_pressure * self.speed if dissipates else None,
             "energy_balance": found.energy,
             "cells": max(self.pressure.shape),
         }
-        found_numbers = labelled_numbers(NUMBERS, values)
-        return found_numbers if self.heating is None else found_numbers.assign(self.heating.to_dataset().data_vars)
 
     def to_dataset(self) -> xarray.Dataset:
         """Return pressure, displacement and gap over x and y, and all `numbers`; main results also as attributes."""

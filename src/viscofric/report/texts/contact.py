@@ -6,117 +6,45 @@ import math
 
 import numpy as np
 
+from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.solution import ContactSolution
-from viscofric.report.texts.numbers import length, prefixed, short, significant, with_error
+from viscofric.report.texts.numbers import length, prefixed, short
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
+from viscofric.showing import Row, texts
 from viscofric.units import shown_number
 
-# Friction from the pressure below it is rounding.
-_ROUND_OFF = 1e-12
+# Numbers that the heading has, or that only the solver needs.
+_NOT_SHOWN = ("speed", "temperature", "energy_balance", "complementarity", "cells", "spacing", "products")
 
-# Relative to the friction: a lateral one below it is what the solver's tolerance leaves of none.
-_LEAST_LATERAL = 1e-5
+
+def contact_rows(solution: ContactSolution | PeriodicSolution) -> dict[str, Row]:
+    """Return the numbers of a contact that are shown, by name; rounding is shown as zero."""
+    spacing = abs(solution.x[-1] - solution.x[0]) / len(solution.x)
+    rounding = {"1": max(1e-12, 1e-5 * abs(solution.friction_coefficient)), "m": 1e-6 * spacing}
+    rows: dict[str, Row] = {}
+    for name, (label, value, unit, error) in solution.number_rows.items():
+        if name == "max_pressure" and not getattr(solution.diagnostics, "peak_resolved", True):
+            rows[name] = (f"{label}, not resolved: at least", value, unit, None)
+        elif name not in _NOT_SHOWN and math.isfinite(value):
+            rounded = abs(value) < rounding.get(unit, 0.0)
+            rows[name] = (label, 0.0, unit, None) if rounded else (label, value, unit, error)
+    return rows
 
 
 def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, str]]:
-    """Return what an engineer wants to know of a contact, as pairs of name and value."""
-    line = solution.geometry == "line"
+    """Return the numbers of a contact with their errors, and the work of the solver, as pairs of name and value."""
     diagnostics = solution.diagnostics
-    force = "N/m" if line else "N"
-    peak = prefixed(solution.max_pressure, diagnostics.max_pressure_error, "Pa")
-    if not diagnostics.peak_resolved:
-        peak = f"at least {prefixed(solution.max_pressure, None, 'Pa')} (not resolved by this grid)"
     cells = " × ".join(str(count) for count in diagnostics.shape if count > 1)
-    edge, closed = diagnostics.edge_error, f"gap closed to {diagnostics.complementarity:.0e} of the indentation"
-    lines = [
-        ("friction coefficient", _friction(solution)),
-        ("  from the pressure", _five(solution.pressure_friction_coefficient)),
-        ("  from the energy", f"{_five(solution.energy_friction_coefficient)}{_balance(solution)}"),
-        ("friction force", prefixed(solution.friction_force, None, force)),
-        *([("Coulomb friction, its shear only", _five(solution.coulomb))] if solution.coulomb else []),
-        *_lateral(solution),
-        ("load", prefixed(solution.load, diagnostics.load_error, force)),
-        ("indentation", length(solution.indentation, diagnostics.indentation_error)),
-        (
-            "contact width" if line else "contact area",
-            prefixed(solution.contact_area, diagnostics.contact_area_error, "m", 1 if line else 2),
-        ),
-        ("  ahead of the axis", length(solution.front, edge)),
-        ("  behind the axis", length(solution.rear, edge)),
-    ]
-    if not line:
-        lines.append(("  half width across", length(solution.half_width, edge)))
-    lines += _heat(solution)
-    lines += [
-        ("largest pressure", peak),
-        ("mean pressure", prefixed(solution.mean_pressure, None, "Pa")),
-        ("centre of pressure", _centre(solution)),
+    closed = f"gap closed to {diagnostics.complementarity:.0e} of the indentation"
+    return [
+        *texts(contact_rows(solution).values()),
+        *(texts(solution.heating._shown()) if solution.heating else ()),
+        ("energy balance", f"{shown_number(100.0 * diagnostics.energy, '+.2g')} %"),
         ("grid", f"{cells} cells of {length(diagnostics.spacing)}, {len(diagnostics.levels)} nested grids"),
         ("solver", f"{diagnostics.linear_iterations} iterations, {diagnostics.products} products, {closed}"),
         ("time", f"{seconds:.2f} s"),
         ("after ±", "errors of the numerical solution, not of the material"),
     ]
-    return lines
-
-
-def _heat(solution: ContactSolution) -> list[tuple[str, str]]:
-    """Return the lines of a contact that its own friction heats."""
-    heat = solution.heating
-    if heat is None:
-        return []
-
-    def kelvin(rise: float) -> str:
-        return f"{short(rise, 3)} K"
-
-    lines = [
-        ("rise of temperature", f"{with_error(heat.temperature_rise, heat.temperature_rise_error)} K"),
-        ("  by Coulomb friction", kelvin(heat.coulomb_rise)),
-        ("  by the loss", kelvin(heat.loss_rise)),
-        *([("  of it by earlier passes", kelvin(heat.track_rise))] if heat.track_rise else []),
-        ("  of the face", kelvin(heat.face_rise)),
-        ("  where the loss is released", kelvin(heat.loss_weighted_rise)),
-        ("isothermal friction", _five(heat.isothermal_friction)),
-    ]
-    if heat.other_rise is not None and heat.other_friction is not None:
-        lines.append(("other stable state", f"{_five(heat.other_friction)}, {kelvin(heat.other_rise)} warmer"))
-    return lines
-
-
-def _friction(solution: ContactSolution) -> str:
-    value, error = solution.friction_coefficient, solution.diagnostics.friction_error
-    if value == 0.0:
-        return "0 (elastic: no dissipation)"
-    return with_error(value, error)
-
-
-def _lateral(solution: ContactSolution) -> list[tuple[str, str]]:
-    """Return the line of the force across the motion, where an indenter may have one."""
-    # Looking along the motion, whose sense is that of the speed.
-    value = solution.lateral_friction_coefficient * math.copysign(1.0, solution.speed)
-    if abs(value) <= _LEAST_LATERAL * abs(solution.friction_coefficient):
-        oblique = 0.0 not in solution.direction and solution.geometry == "point"
-        return [("lateral friction", "0 (no lateral force)")] if oblique else []
-    side = "left" if value > 0.0 else "right"
-    return [("lateral friction", f"{short(abs(value))} (a force to the {side} is needed to keep the direction)")]
-
-
-def _five(friction: float) -> str:
-    return significant(friction if abs(friction) > _ROUND_OFF else 0.0, 5)
-
-
-def _balance(solution: ContactSolution) -> str:
-    if solution.friction_coefficient == 0.0:
-        return ""
-    if solution.diagnostics.energy == -1.0:
-        return " (all at the sharp edge)"
-    return f" (energy balance {shown_number(100.0 * solution.diagnostics.energy, '+.2g')} %)"
-
-
-def _centre(solution: ContactSolution) -> str:
-    distance = solution.centre_of_pressure * math.copysign(1.0, solution.speed)
-    if abs(distance) < 1e-6 * solution.diagnostics.spacing:
-        return "on the axis"
-    return f"{length(abs(distance))} {'ahead of' if distance > 0.0 else 'behind'} the axis"
 
 
 #: Modes that are shown; all of them are in the record.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -12,16 +11,14 @@ from viscofric.motion.history import History
 from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
 from viscofric.motion.solution import TransientSolution
 from viscofric.notes import Note
-from viscofric.report.texts.numbers import degrees, length, prefixed, short, significant, with_error
-from viscofric.showing import aligned
+from viscofric.report.texts.numbers import degrees, length, prefixed, significant, with_error
+from viscofric.showing import aligned, texts
 
 _ERRORS_IN_TIME = Note(
     "errors-in-time",
     "The stated errors (±) of a rough contact over time are those in time; they do not include those of the distance "
     "between the surface's points.",
 )
-#: Friction below this part of the largest load is rounding.
-_ROUND_OFF = 1e-12
 _FORCES = {"point": ("N", "J"), "line": ("N/m", "J/m"), "periodic": ("Pa", "J/m²")}
 
 
@@ -54,91 +51,47 @@ def notes_on_errors(run: TransientSolution) -> tuple[Note, ...]:
     return (_ERRORS_IN_TIME,) if run.geometry == "periodic" else ()
 
 
+#: Columns that say how errors are known, where the indenter is, or what does not exist without sliding.
+_NOT_SHOWN, _OF_SLIDING = (
+    ("position_x", "position_y", "temperature", "lateral_force"),
+    ("friction", "interface", "total"),
+)
+
+
 def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, str]]:
-    """Return the main results of a contact over time, as pairs of name and value."""
-    force, energy = _FORCES[run.geometry]
+    """Return a contact at the end of its time, and its work, as pairs of name and value."""
+    data = run.to_dataset().isel(time=-1)
     slides = bool(np.any(run.position != run.position[0]))
-    lines = [
-        ("at the end", f"after {prefixed(float(run.time[-1] - run.time[0]), None, 's')}"),
+    last: dict[str, Any] = {str(name): one for name, one in data.data_vars.items() if name not in _NOT_SHOWN}
+    rows = [
         (
-            "  mean pressure" if run.geometry == "periodic" else "  load",
-            prefixed(float(run.load[-1]), float(run.errors.load[-1]), force),
-        ),
-        ("  indentation", length(float(run.indentation[-1]), float(run.errors.indentation[-1]))),
-        *_contact(run),
+            one.attrs["long_name"],
+            one.item(),
+            one.attrs["units"],
+            last[f"{name}_error"].item() if f"{name}_error" in last else None,
+        )
+        for name, one in last.items()
+        if not name.endswith("_error") and (slides or not name.startswith(_OF_SLIDING))
     ]
-    if slides:
-        lines += [("  friction coefficient", _friction(run, -1)), ("largest friction", _largest(run))]
-    if slides and run.interface_friction is not None:
-        lines.insert(-1, ("  with Coulomb friction", significant(float(run.total[-1]), 4)))
-    lines += _heat(run)
-    lines += [
-        ("work on the material", prefixed(float(run.work[-1]), None, energy)),
-        ("  stored", prefixed(float(run.stored[-1]), None, energy)),
-        ("  dissipated", prefixed(float(run.dissipated[-1]), float(run.errors.energy[-1]), energy)),
-        ("  energy balance", f"{100.0 * run.energy_imbalance:.1g} % at most"),
+    return [
+        ("at the end", f"after {prefixed(float(run.time[-1] - run.time[0]), None, 's')}"),
+        *texts(rows),
+        *([("largest friction", _largest(run))] if slides else []),
+        ("energy balance", f"{100.0 * run.energy_imbalance:.1g} % at most"),
         ("steps", f"{run.steps}, {run.rejected_steps} rejected; {len(run.time)} times returned"),
         ("time", f"{seconds:.2f} s"),
-    ]
-    return lines
-
-
-def _heat(run: TransientSolution) -> list[tuple[str, str]]:
-    """Return the lines of a contact that its own friction heats."""
-    heat = run.heating
-    if heat is None:
-        return []
-    most = int(np.argmax(heat.temperature_rise))
-    error = float(heat.error[most] + heat.residual[most])
-    when = prefixed(float(run.time[most] - run.time[0]), None, "s")
-    return [
-        ("largest rise of temperature", f"{with_error(float(heat.temperature_rise[most]), error)} K, after {when}"),
-        ("  at the end", f"{short(float(heat.temperature_rise[-1]), 3)} K"),
     ]
 
 
 def cycle_lines(cycle: CycleSolution, seconds: float) -> list[tuple[str, str]]:
     """Return the main results of a periodic state, as pairs of name and value."""
-    force, energy = _FORCES[cycle.run.geometry]
-    stiffness = {"N": "N/m", "N/m": "Pa", "Pa": "Pa/m"}[force]
-    lines = [("energy per cycle", prefixed(cycle.energy_per_cycle, cycle.energy_per_cycle_error, energy))]
-    if cycle.storage_stiffness is not None and cycle.loss_stiffness is not None and cycle.loss_tangent is not None:
-        lines += [
-            ("storage stiffness", prefixed(cycle.storage_stiffness, cycle.storage_stiffness_error, stiffness)),
-            ("loss stiffness", prefixed(cycle.loss_stiffness, cycle.loss_stiffness_error, stiffness)),
-            ("loss tangent", with_error(cycle.loss_tangent, cycle.loss_tangent_error or 0.0)),
-        ]
-    if cycle.mean_friction_coefficient is not None:
-        mean = with_error(cycle.mean_friction_coefficient, cycle.mean_friction_coefficient_error or 0.0)
-        lines.append(("mean friction coefficient", mean))
-        lines.append(("largest friction", _largest(cycle.run)))
     return [
-        *lines,
+        *texts(cycle._shown()),
+        *([] if cycle.mean_friction_coefficient is None else [("largest friction", _largest(cycle.run))]),
         ("energy balance", f"{100.0 * cycle.run.energy_imbalance:.1g} % at most"),
-        ("periods", f"{cycle.periods}; the memory is {cycle.change:.1g} of its size away from the periodic state"),
+        ("memory", f"{cycle.change:.1g} of its size away from the periodic state"),
         ("time", f"{seconds:.2f} s"),
     ]
-
-
-def _contact(run: TransientSolution) -> list[tuple[str, str]]:
-    """Return the lines of the contact at the end."""
-    if run.contact_radius is not None:
-        return [("  contact radius", length(float(run.contact_radius[-1])))]
-    if run.front is None or run.rear is None:
-        return [("  contact area fraction", f"{short(100.0 * float(run.contact_area[-1]))} %")]
-    lines = [("  ahead of the axis", length(float(run.front[-1]))), ("  behind the axis", length(float(run.rear[-1])))]
-    if run.half_width is not None:
-        lines.append(("  half width across", length(float(run.half_width[-1]))))
-    return lines
-
-
-def _friction(run: TransientSolution, place: int) -> str:
-    load = float(run.load[place])
-    if load <= 0.0:
-        return "– (no load)"
-    if abs(float(run.friction_force[place])) <= _ROUND_OFF * load:
-        return "0"
-    return with_error(float(run.friction_coefficient[place]), float(run.errors.friction_force[place]) / load)
 
 
 def _largest(run: TransientSolution) -> str:
@@ -146,25 +99,15 @@ def _largest(run: TransientSolution) -> str:
     place = int(np.abs(run.friction_coefficient).argmax())
     steps = np.hypot(*np.diff(run.position[: place + 1], axis=0).T)
     after = prefixed(float(run.time[place] - run.time[0]), None, "s")
-    return f"{_friction(run, place)} after {after} and {length(float(steps.sum()))}"
+    friction = with_error(float(run.friction_coefficient[place]), float(run.friction_error[place]))
+    return f"{friction} after {after} and {length(float(steps.sum()))}"
 
 
 def impact_lines(hit: ImpactSolution, seconds: float) -> list[tuple[str, str]]:
-    """Return the main results of an impact, as pairs of name and value."""
-    lines: list[tuple[str, str]] = []
-    for number, one in enumerate(hit.contacts, 1):
-        stays = not math.isfinite(one.contact_time)
-        if len(hit.contacts) > 1:
-            lines.append((f"contact {number}", f"{prefixed(one.start, None, 's')} after the first touch"))
-        lines += [
-            ("restitution", "0 (stays)" if stays else with_error(one.restitution, one.restitution_error)),
-            ("  speed", prefixed(one.speed, None, "m/s")),
-            ("  contact time", "without end" if stays else prefixed(one.contact_time, None, "s")),
-            ("  largest force", prefixed(one.peak_force, None, "N")),
-            ("  largest indentation", length(one.largest_indentation)),
-        ]
+    """Return each contact of an impact, as pairs of name and value."""
+    contacts = [pair for one in hit.contacts for pair in texts((("start", one.start, "s"), *one._shown()))]
     balance = f"{100.0 * hit.run.energy_imbalance:.1g} % at most"
-    return [*lines, ("energy balance", balance), ("time", f"{seconds:.2f} s")]
+    return [*contacts, ("energy balance", balance), ("time", f"{seconds:.2f} s")]
 
 
 def restitution_lines(curve: RestitutionCurve) -> list[str]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.friction.cases.case import Case
-from viscofric.web.figures.spec import Spec, axis, figure, line, number, points, quantity
+from viscofric.web.figures.spec import Spec, axis, figure, line, number, number_of, points, quantity
 
 _EDGE, _MARK = "vermilion", "grey"
 _ASIDE: Spec = {"legend": False, "decoration": True}
@@ -18,13 +18,13 @@ _PRESSURE = axis("pressure", "pressure")
 _LOSSY = 0.03
 
 
-def contact_view(found: dict[str, Any], case: Case) -> dict[str, Any]:
+def contact_view(found: dict[str, Any], case: Case, rows: dict[str, Any]) -> dict[str, Any]:
     """Return ``figures``, ``key_numbers``, ``more_numbers`` and ``why``, the cause of the friction, of `pictures`."""
     indenter = getattr(case, "indenter", None)
     noun = "rough surface" if indenter is None else indenter.noun
     rough = found["kind"] == "rough"
     figures = {"pressure-profile": _pressure(found), "surface-profile": _surface(found, noun)}
-    key, more = _numbers(found)
+    key, more = _numbers(found, rows)
     return {
         "figures": figures if found["map"] is None else {"pressure-map": _map(found), **figures},
         "key_numbers": key,
@@ -130,60 +130,35 @@ def _value(found: dict[str, Any], name: str) -> float:
     return float(found["numbers"][name]["value"])
 
 
-def _numbers(found: dict[str, Any]) -> tuple[list[Spec], list[Spec]]:
+_KEY = ("friction_coefficient", "indentation", "contact_area", "max_pressure")
+_ROUGH_KEY = ("friction_coefficient", "contact_area_fraction", "mean_contact_pressure", "mean_gap")
+
+
+def _numbers(found: dict[str, Any], rows: dict[str, Any]) -> tuple[list[Spec], list[Spec]]:
     """Return the main numbers and the others."""
 
-    def one(label: str, name: str, kind: str = "plain", digits: int = 4, **more: Any) -> Spec:
-        return number(label, **found["numbers"][name], kind=kind, digits=digits, **more)
+    def one(label: str, name: str, kind: str = "plain") -> Spec:
+        return number(label, _value(found, name), kind, digits=3)
 
-    friction = one("Friction coefficient μ", "friction_coefficient")
-    rubber = [
-        one("Shift factor α(T)", "shift_factor", digits=3),
-        one("Loss tangent tan δ at v/a", "loss_factor", digits=3),
-        one("Storage modulus E′ at v/a", "storage_modulus", "modulus", 3),
-        number("Energy balance error", 100.0 * abs(_value(found, "energy_balance")), unit="%", digits=2),
-    ]
-    if found["kind"] == "rough":
-        area = _value(found, "contact_area_fraction")
-        sideways, lateral = "Lateral force over load", abs(_value(found, "lateral_friction_coefficient"))
-        given, asked = (int(_value(found, name)) for name in ("points", "points_requested"))
-        return [
-            friction,
-            number("Contact area fraction", 100.0 * area, unit="%"),
-            one("Mean pressure in contact", "mean_contact_pressure", "pressure", 3),
-            one("Mean gap", "mean_gap", "length", 3)
-            if area < 1.0 - 1e-9
-            else number("Mean gap", "none", remark="full contact"),
-        ], [
-            one("Maximum pressure", "max_pressure", "pressure", 3, remark="on this grid"),
-            one(sideways, "lateral_friction_coefficient") if lateral > 1e-12 else number(sideways, 0.0),
-            one("Dissipated power", "power", digits=3, unit="W/m²"),
-            one("Frequency of the longest wave", "slowest_frequency", "angular_frequency", 3),
-            one("Frequency of the shortest wave", "fastest_frequency", "angular_frequency", 3),
-            *rubber,
-            number("Points along an edge", str(given), remark=f"of {asked}: coarse" if given < asked else ""),
-        ]
-    wide = found["kind"] == "line"
-    peak = one("Maximum pressure", "max_pressure", "pressure")
-    least = f"≥ {quantity(peak['value'], 'pressure', 4)}"
-    return [
-        friction,
-        one("Indentation", "indentation", "length"),
-        one("Contact width", "contact_area", "length") if wide else one("Contact area", "contact_area", "area"),
-        peak if found["peak_resolved"] else number("Maximum pressure", least, remark="not resolved"),
-    ], [
-        one("Friction force per length", "friction_force", "line_load")
-        if wide
-        else one("Friction force", "friction_force", "load"),
-        one("Dissipated power", "power", digits=3, unit="W/m" if wide else "W"),
-        one("Leading edge ahead of axis", "front", "length"),
-        one("Trailing edge behind axis", "rear", "length"),
-        *([] if wide else [one("Contact half-width", "half_width", "length")]),
-        one("Centre of pressure ahead of axis", "centre_of_pressure", "length", 3),
-        one("Mean pressure", "mean_pressure", "pressure", 3),
-        one("Frequency {v/a}", "frequency", "angular_frequency", 3),
-        *rubber,
-        number("Cells along an edge", str(int(_value(found, "cells")))),
+    rough = found["kind"] == "rough"
+    told = {name: number_of(row) for name, row in rows.items()}
+    key = [told.pop(name) for name in (_ROUGH_KEY if rough else _KEY)]
+    waves = {
+        "Frequency of the longest wave": "slowest_frequency",
+        "Frequency of the shortest wave": "fastest_frequency",
+    }
+    frequencies = waves if rough else {"Frequency {v/a}": "frequency"}
+    balance = number("Energy balance error", 100.0 * abs(_value(found, "energy_balance")), unit="%", digits=2)
+    given, asked = (int(_value(found, name)) for name in (("points", "points_requested") if rough else 2 * ("cells",)))
+    grid = number("Points along an edge", str(given), remark=f"of {asked}: coarse" if given < asked else "")
+    return key, [
+        *told.values(),
+        *(one(label, name, "angular_frequency") for label, name in frequencies.items()),
+        one("Shift factor α(T)", "shift_factor"),
+        one("Loss tangent tan δ at v/a", "loss_factor"),
+        one("Storage modulus E′ at v/a", "storage_modulus", "modulus"),
+        balance,
+        grid,
     ]
 
 

@@ -26,6 +26,7 @@ def axis(label: str, kind: str | None = None, **look: Any) -> Spec:
 _KINDS = {
     "s": "time",
     "m": "length",
+    "m**2": "area",
     "m/s": "speed",
     "K": "temperature",
     "N": "load",
@@ -81,6 +82,14 @@ def figure(title: str, x: Spec, y: Spec, traces: list[Spec], caption: str = "", 
 def number(label: str, value: Any, kind: str = "plain", **more: Any) -> Spec:
     """Return a number, or a text; `more` has digits (3), its error, a remark, or the unit of a plain number."""
     return {"label": label, "value": value, "kind": kind, **more}
+
+
+def number_of(row: tuple[str, float, str, float | None]) -> Spec:
+    """Return a number of a result with its long name, unit and error."""
+    label, value, unit, error = plain(row, _DIGITS)
+    kind = _KINDS.get(unit, "plain")
+    other = unit.replace("**2", "²") if kind == "plain" and unit != "1" else ""
+    return number(label[0].upper() + label[1:], value, kind, digits=4, error=error, unit=other)
 
 
 def quantity(value: float | None, kind: str = "plain", digits: int = 3) -> str:

@@ -12,13 +12,14 @@ from scipy.ndimage import uniform_filter
 from viscofric.arrays import Array, centre_line
 from viscofric.contact.fields.surface import surface_displacement
 from viscofric.contact.periodic.solution import PeriodicSolution
-from viscofric.contact.solution import ERRORS, ContactSolution
+from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import LOOSE
 from viscofric.datasets import plain
 from viscofric.friction.cases.case import Case, Rubbers, moved
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.notes import listed
+from viscofric.report.texts.contact import contact_rows
 from viscofric.study.study_rubber import StudyRubber
 from viscofric.web.figures.contact import contact_view
 from viscofric.web.jobs.combinations import of_combination, of_material, page_sweep
@@ -178,7 +179,7 @@ def pictures(
     found: dict[str, Any] = drawn(rubber, case, solution)
     found["numbers"]["within"] = _with_error(None if within is None else float(within))
     found |= shared
-    return found | contact_view(found, case)
+    return found | contact_view(found, case, contact_rows(solution))
 
 
 def _of_indenter(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) -> dict[str, Any]:
@@ -224,19 +225,7 @@ def _with_error(value: float | None, error: float | None = None) -> dict[str, fl
 
 def _numbers(solution: ContactSolution | PeriodicSolution, more: dict[str, float]) -> dict[str, Any]:
     """Return the numbers of a contact, each with its error where it has one, and `more` without errors."""
-    if isinstance(solution, ContactSolution):  # the first figure does not wait for xarray
-        values = {name: value for name, value in solution.number_values.items() if value is not None}
-        errors = {name: error for name, error in ERRORS.items() if {name, error} <= values.keys()}
-    else:
-        data = solution.numbers
-        values = {str(name): number.item() for name, number in data.items()}
-        beside = {name: data[name].attrs.get("ancillary_variables") for name in values}
-        errors = {name: error for name, error in beside.items() if error}
-    own = {
-        name: _with_error(value, values.get(errors.get(name) or ""))
-        for name, value in values.items()
-        if name not in errors.values()
-    }
+    own = {name: _with_error(value, error) for name, (_, value, _, error) in solution.number_rows.items()}
     return dict(plain(own | {name: _with_error(value) for name, value in more.items()}, _DIGITS))
 
 
