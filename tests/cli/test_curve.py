@@ -42,9 +42,11 @@ def test_table_file_and_json_hold_what_python_predicts(tmp_path: Path) -> None:
     np.testing.assert_array_equal(vf.read_friction_curves(tmp_path / "curves.csv").viscoelastic, expected.viscoelastic)
     assert (tmp_path / "curves.svg").stat().st_size > 0
     table = done.stdout.split("\n\n")[1].splitlines()
-    assert table[0].split() == ["speed", "(mm/s)", "μ", "at", "60", "°C", "μ", "at", "90", "°C"]
-    shown = np.array([[float(cell) for cell in row.split()] for row in table[1:]])
-    np.testing.assert_allclose(shown[:, 1:].T.ravel(), expected.viscoelastic, rtol=5e-4)  # four digits are shown
+    assert table[0].split() == ["T", "(°C)", "speed", "(mm/s)", "load", "(N)", "viscoelastic"]
+    kelvin, speed, _, friction, error = np.array([row.replace("±", "").split() for row in table[1:]], dtype=float).T
+    np.testing.assert_allclose(kelvin + 273.15, expected.temperature)
+    np.testing.assert_allclose(1e-3 * speed, expected.speed, rtol=5e-4)  # four digits are shown
+    assert np.all(np.abs(friction - expected.viscoelastic) <= error)
 
 
 def test_json_shows_inputs_and_points() -> None:
@@ -80,7 +82,7 @@ def test_points_at_frequencies_that_were_not_measured_are_marked(tmp_path: Path)
 def test_a_rubber_of_sweeps_has_bands_about_its_friction() -> None:
     words = ("--dma", DMA, "--reference", "30 degC", *BALL, "--speed", "100 mm/s", "--temperature", "60 degC")
     done = succeed(*words, "--samples", 20, "--synthetic")
-    *_, friction, lower, _, upper = done.stdout.split("\n\n")[1].splitlines()[1].split()
+    *_, friction, _, _, lower, _, upper = done.stdout.split("\n\n")[1].splitlines()[1].split()
     assert float(lower) < float(friction) < float(upper)
     known = vf.solve_steady(
         vf.synthetic_fluoroelastomer(),

@@ -148,21 +148,6 @@ def _record(
     return json_record("friction curves 2", inputs, curves.points_dataset(), notes=curves.notes)
 
 
-def _of_heat(curves: FrictionCurves, rows: slice) -> list[list[str]]:
-    """Return the columns of heated contacts at one temperature: isothermal friction, and the rise."""
-    from viscofric.friction.heating import HeatedFrictionCurves
-    from viscofric.report.texts.numbers import significant, with_error
-
-    if not isinstance(curves, HeatedFrictionCurves):
-        return []
-    assert curves.isothermal_friction is not None
-    rises = zip(curves.temperature_rise[rows].tolist(), curves.temperature_rise_error[rows].tolist(), strict=True)
-    return [
-        ["isothermal", *(significant(value, 4) for value in curves.isothermal_friction[rows].tolist())],
-        ["rise (K)", *(with_error(value, error) for value, error in rises)],
-    ]
-
-
 def _figure_of(curves: FrictionCurves) -> str:
     from viscofric.friction.heating import HeatedFrictionCurves
 
@@ -171,30 +156,12 @@ def _figure_of(curves: FrictionCurves) -> str:
 
 
 def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
-    """Print a table of friction: a line for each speed, a column for each temperature."""
-    from viscofric.report.texts.numbers import percent, prefixed, significant
-    from viscofric.showing import aligned
-    from viscofric.units import shown_celsius
+    """Print a table of friction: a line for each temperature and speed."""
+    from viscofric.report.texts.friction import friction_table
+    from viscofric.report.texts.numbers import percent
 
-    click.echo(f"{name}{rubber.mark}, {prefixed(float(curves.load[0]), None, curves.load_unit)}\n")
-    kelvins = list(dict.fromkeys(curves.temperature.tolist()))
-    measured = curves.within_measured_frequencies
-    beyond = [] if measured is None else [value == 0.0 for value in measured.tolist()]
-    count = len(curves) // len(kelvins)
-    columns = [["speed (mm/s)", *(significant(1e3 * speed, 4) for speed in curves.speed[:count].tolist())]]
-    for number, kelvin in enumerate(kelvins):
-        rows = slice(number * count, (number + 1) * count)
-        heading = f"μ at {shown_celsius(kelvin, 'z.4g')} °C"
-        friction = [significant(value, 4) for value in curves.viscoelastic[rows].tolist()]
-        if any(beyond):  # in every line, so that the digits stay below each other
-            friction = [f"{one} {'*' if mark else ' '}" for one, mark in zip(friction, beyond[rows], strict=True)]
-        columns.append([heading, *friction])
-        if curves.viscoelastic_lower is not None and curves.viscoelastic_upper is not None:
-            ends = zip(curves.viscoelastic_lower[rows].tolist(), curves.viscoelastic_upper[rows].tolist(), strict=True)
-            columns.append(["95 % band", *(f"{significant(low, 4)} to {significant(high, 4)}" for low, high in ends)])
-        columns += _of_heat(curves, rows)
-    click.echo("\n".join(aligned(zip(*columns, strict=True))))
+    click.echo("\n".join([f"{name}{rubber.mark}\n", *friction_table(curves)]))
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
     click.echo(f"\nnumerical error  {percent(worst)} at most")
-    if any(beyond):
+    if curves.within_measured_frequencies is not None and not curves.within_measured_frequencies.all():
         click.echo("marked *         frequencies at which the material is not known")

@@ -2,36 +2,39 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import SAME_TEMPERATURE, numbered
-from viscofric.report.texts.numbers import ABSENT, percent, several, short, significant
-from viscofric.showing import aligned
+from viscofric.report.texts.numbers import several, short
+from viscofric.report.texts.tables import text_table
 from viscofric.traction import TractionRuns
-from viscofric.units import shown_celsius, shown_number
+from viscofric.units import shown_celsius
 
 
 def friction_table(curves: FrictionCurves) -> list[str]:
     """Return friction against speed and temperature as lines of a table."""
-    columns = [
-        ["T (°C)", *(shown_celsius(float(kelvin)) for kelvin in curves.temperature)],
-        ["speed (mm/s)", *(significant(1e3 * float(speed), 4) for speed in curves.speed)],
-    ]
-    if curves.slip is not None:
-        columns.append(["slip (mm/s)", *(significant(1e3 * float(slip), 3) for slip in curves.slip)])
-    columns += [
-        [f"load ({curves.load_unit})", *(significant(float(load), 4) for load in curves.load)],
-        ["n", *(str(count) for count in curves.replicates)],
-        *_coefficient("viscoelastic", curves.viscoelastic, curves.viscoelastic_error, curves.viscoelastic_scatter),
-        *_coefficient("Coulomb", curves.coulomb, curves.coulomb_error, curves.coulomb_scatter),
-    ]
-    if curves.consistency is not None:
-        columns.append(["residual", *_pairs(curves.consistency, curves.consistency_error)])
-    return aligned(zip(*columns, strict=True))
+    data = curves.points_dataset()
+    measured = data.get("within_measured_frequencies")
+    if measured is not None and (measured == 0).any():
+        data["beyond"] = ("point", np.where(measured == 0, "*", ""))
+    if np.all(curves.replicates == 1):
+        data = data.drop_vars("replicates")
+    return text_table(
+        data,
+        ("temperature", "T (°C)"),
+        ("speed", "speed (mm/s)"),
+        ("slip", "slip (mm/s)"),
+        ("load", f"load ({curves.load_unit})"),
+        ("replicates", "n"),
+        ("viscoelastic", "viscoelastic"),
+        ("beyond", ""),
+        ("isothermal_friction", "isothermal"),
+        ("temperature_rise", "rise (K)"),
+        ("coulomb", "Coulomb"),
+        ("consistency", "residual"),
+    )
 
 
 def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
@@ -46,41 +49,6 @@ def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     if (check := curves.consistency_check) is not None:
         lines.append(("residual", str(check)))
     return lines
-
-
-def _coefficient(name: str, value: Array | None, error: Array | None, scatter: Array | None) -> list[list[str]]:
-    """Return the columns of a coefficient with its standard error, and of its scatter where it has any."""
-    if value is None:
-        return []
-    columns = [[name, *_pairs(value, error)]]
-    if scatter is not None and np.any(scatter > 0.0):
-        columns.append(["scatter", *(_share(one, of) for one, of in zip(scatter, value, strict=True))])
-    return columns
-
-
-def _share(part: float, whole: float) -> str:
-    """Return a scatter as a percentage of its mean."""
-    return percent(part / abs(whole)) if whole != 0.0 and math.isfinite(part) else ABSENT
-
-
-def _pairs(values: Array, errors: Array | None) -> list[str]:
-    """Return values with their errors, all with the decimals that the usual error leaves."""
-    known = np.zeros(0) if errors is None else errors[np.isfinite(errors) & (errors > 0.0)]
-    if errors is None or not known.size:
-        open_ends = [False] * len(values) if errors is None else np.isinf(errors).tolist()
-        return [
-            (significant(float(value), 4) + (" ± ?" if unknown else "")) if value or not unknown else ABSENT
-            for value, unknown in zip(values, open_ends, strict=True)
-        ]
-    decimals = int(np.clip(1 - math.floor(math.log10(float(np.median(known)))), 0, 9))
-    written = []
-    for value, error in zip(values, errors, strict=True):
-        if value == 0.0 and math.isinf(error):  # not found at all
-            written.append(ABSENT)
-            continue
-        doubt = f" ± {error:.{decimals}f}" if math.isfinite(error) else " ± ?"
-        written.append(f"{shown_number(value, f'z.{decimals}f')}{doubt}")
-    return written
 
 
 _MOST_TEMPERATURES = 8

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from typing import Any
-
 import numpy as np
 
 from viscofric.arrays import Array
@@ -13,27 +10,29 @@ from viscofric.friction.identification.result import IdentifiedBand, IdentifiedM
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.friction.shifting.shift_agreement import ShiftAgreement
 from viscofric.report.results import values
-from viscofric.report.texts.numbers import ABSENT, degrees, significant
+from viscofric.report.texts.numbers import degrees, significant
+from viscofric.report.texts.tables import text_table
 from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.showing import aligned
-from viscofric.units import shown_celsius, shown_number
-
-#: Errors are printed with three decimals, and not as zero.
-_SMALLEST = 1e-3
 
 
 def shift_lines(master: FrictionMasterCurve, known: ShiftLaw | None) -> list[str]:
     """Return the shift factors as lines of a table, with those of the modulus; dashes where these are not known."""
-    factors = shift_factors(master)
-    found, doubt = values(factors, "log10_shift_factor"), np.nan_to_num(values(factors, "standard_error"))
-    kelvin = values(factors, "temperature")
-    columns = [["T (°C)", *(shown_celsius(float(one)) for one in kelvin)], ["log10 α", *_pairs(found, doubt)]]
+    data = shift_factors(master)
     if known is not None and master.found:
-        other, errors = known.at_reference(master.reference).values_at(kelvin)
-        columns.append(["of the modulus", *_pairs(other, errors)])
-        columns.append(["difference", *_pairs(found - other, np.hypot(errors, doubt))])
-    return aligned(zip(*columns, strict=True))
+        other, errors = known.at_reference(master.reference).values_at(values(data, "temperature"))
+        found, doubt = values(data, "log10_shift_factor"), np.nan_to_num(values(data, "standard_error"))
+        added = {"known": other, "known_error": errors, "difference": found - other}
+        added["difference_error"] = np.hypot(errors, doubt)
+        data = data.assign({name: ("temperature", column) for name, column in added.items()})
+    return text_table(
+        data,
+        ("temperature", "T (°C)"),
+        ("log10_shift_factor", "log10 α", "standard_error"),
+        ("known", "of the modulus"),
+        ("difference", "difference"),
+    )
 
 
 def shift_factors(master: FrictionMasterCurve) -> Dataset:
@@ -41,17 +40,6 @@ def shift_factors(master: FrictionMasterCurve) -> Dataset:
     if master.found:
         return master.shift_factors.to_dataset()
     return master.shift.to_dataset(master.curves.temperatures)
-
-
-def _pairs(values: Any, errors: Any) -> list[str]:
-    texts = []
-    for value, error in zip(values, errors, strict=True):
-        if not math.isfinite(value):
-            texts.append(ABSENT)
-        else:
-            doubt = f" ± {max(error, _SMALLEST):.3f}" if error > 0.0 else ""
-            texts.append(f"{shown_number(value, 'z.3f')}{doubt}")
-    return texts
 
 
 def shift_words(
@@ -90,14 +78,12 @@ def shown_frequencies(found: IdentifiedMaterial) -> Array:
 def modulus_lines(found: IdentifiedMaterial) -> list[str]:
     """Return the modulus of an identified rubber with its 95 % limits, decade by decade, as lines of a table."""
     data = found.to_dataset(shown_frequencies(found))
-    rows: list[tuple[str, ...]] = [("ω (rad/s)", "E' (MPa)", "95 % limits", "E'' (MPa)", "95 % limits", "")]
-    for row, frequency in enumerate(values(data, "angular_frequency").tolist()):
-        cells = [significant(frequency, 1)]
-        for name in ("storage_modulus", "loss_modulus"):
-            value, low, high = (1e-6 * float(values(data, name + end)[row]) for end in ("", "_lower", "_upper"))
-            cells += [significant(value, 4), f"{significant(low)} to {significant(high)}"]
-        rows.append((*cells, _remark(found.identified, frequency)))
-    return aligned(rows)
+    data["remark"] = (
+        "angular_frequency",
+        [_remark(found.identified, one) for one in values(data, "angular_frequency").tolist()],
+    )
+    names = {"angular_frequency": "ω (rad/s)", "storage_modulus": "E' (MPa)", "loss_modulus": "E'' (MPa)", "remark": ""}
+    return text_table(data, *names.items())
 
 
 def _remark(band: IdentifiedBand, frequency: float) -> str:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
 from viscofric.notes import table_in
 from viscofric.report.results import group, values
-from viscofric.report.texts.numbers import ABSENT, degrees, significant
-from viscofric.units import shown_number
+from viscofric.report.texts.numbers import ABSENT, degrees, percent, significant
+from viscofric.showing import aligned
+from viscofric.units import shown_celsius, shown_number
 
 
 @dataclass(frozen=True)
@@ -118,3 +121,67 @@ def spectrum_table(tree: DataTree) -> Table | None:
     ]
     caption = "Retardation spectrum at the reference temperature: 1/E(ω) = 1/E∞ + Σ C/(1 + iωτ)."
     return made_table("spectrum", caption, spectrum, columns, is_open=False)
+
+
+def text_table(data: Dataset, *columns: tuple[str, str] | tuple[str, str, str]) -> list[str]:
+    """Return columns of a data set, (name, heading) or with the name of the error, as lines of text.
+
+    Those that are missing are left out; those that have a scatter or 95 % limits are followed by these.
+    """
+    cells: list[list[str]] = []
+    for name, heading, *other in columns:
+        if name not in data.variables:
+            continue
+        if data[name].dtype.kind in "OU":
+            cells.append([heading, *data[name].values])
+            continue
+        write, factor = _SHOWN.get(name) or _SHOWN_UNITS.get(data[name].attrs.get("units", "1"), (_four, 1.0))
+        found, error = factor * values(data, name), other[0] if other else f"{name}_error"
+        texts = _pairs(found, factor * values(data, error)) if error in data else list(map(write, found.tolist()))
+        cells.append([heading, *texts])
+        if np.any(values(data, f"{name}_scatter") > 0.0):
+            shares = zip(values(data, f"{name}_scatter"), found, strict=True)
+            cells.append(["scatter", *(_share(one, of) for one, of in shares)])
+        if f"{name}_lower" in data:
+            ends = zip(*(factor * values(data, f"{name}_{end}") for end in ("lower", "upper")), strict=True)
+            cells.append(["95 % limits", *(f"{significant(low)} to {significant(high)}" for low, high in ends)])
+    return aligned(zip(*cells, strict=True))
+
+
+def _four(value: float) -> str:
+    return significant(value, 4)
+
+
+#: How numbers of a name or a unit are written, with a factor.
+_SHOWN: dict[str, tuple[Callable[[float], str], float]] = {
+    "temperature": (shown_celsius, 1.0),
+    "replicates": (whole, 1.0),
+    "slip": (significant, 1e3),
+    "angular_frequency": (times(1.0, 1), 1.0),
+}
+_SHOWN_UNITS = {"m/s": (_four, 1e3), "Pa": (_four, 1e-6)}
+
+
+def _share(part: float, whole: float) -> str:
+    """Return a scatter as a percentage of its mean."""
+    return percent(part / abs(whole)) if whole != 0.0 and math.isfinite(part) else ABSENT
+
+
+def _pairs(values: Array, errors: Array | None) -> list[str]:
+    """Return values with their errors, all with the decimals that the usual error leaves."""
+    known = np.zeros(0) if errors is None else errors[np.isfinite(errors) & (errors > 0.0)]
+    if errors is None or not known.size:
+        open_ends = [False] * len(values) if errors is None else np.isinf(errors).tolist()
+        return [
+            (significant(float(value), 4) + (" ± ?" if unknown else "")) if value or not unknown else ABSENT
+            for value, unknown in zip(values, open_ends, strict=True)
+        ]
+    decimals = int(np.clip(1 - math.floor(math.log10(float(np.median(known)))), 0, 9))
+    written = []
+    for value, error in zip(values, errors, strict=True):
+        if not math.isfinite(value) or (value == 0.0 and math.isinf(error)):  # not found at all
+            written.append(ABSENT)
+            continue
+        doubt = f" ± {max(error, 10.0**-decimals):.{decimals}f}" if math.isfinite(error) else " ± ?"
+        written.append(f"{shown_number(value, f'z.{decimals}f')}{doubt if error else ''}")
+    return written
