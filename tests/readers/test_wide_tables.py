@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import datetime
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from itertools import cycle, product
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -27,8 +29,15 @@ FORMS = {
     "no mark": ("\t", ".", "utf-16-le"),
     "workbook": ("", "", ""),
 }
-every_form = pytest.mark.parametrize("form", FORMS)
 Rows = Sequence[Sequence[object]]
+
+
+def in_forms(names: str, cases: Iterable[Any]) -> pytest.MarkDecorator:
+    """Have each case in a workbook, and in one of the texts, which are turned into cells before headings are read."""
+    texts = cycle(form for form in FORMS if form != "workbook")
+    several = [case if "," in names else (case,) for case in cases]
+    forms = [(*case, form) for case in several for form in (next(texts), "workbook")]
+    return pytest.mark.parametrize(f"{names}, form", forms)
 
 
 def coefficient(speed: float, celsius: float, load: float) -> float:
@@ -73,8 +82,7 @@ def assert_read(path: Path, expected: list[tuple[float, ...]], **given: str) -> 
     return curves
 
 
-@every_form
-@pytest.mark.parametrize(
+@in_forms(
     "heading",
     [
         "{:g} °C",
@@ -95,8 +103,7 @@ def test_temperatures_in_headings(tmp_path: Path, form: str, heading: str) -> No
     assert ("quantity-assumed" in codes(curves.notes)) == (heading in ("{:g} °C", "T = {:g} °C"))
 
 
-@every_form
-@pytest.mark.parametrize(
+@in_forms(
     "heading",
     [
         "{:g} N",
@@ -118,10 +125,15 @@ def test_loads_in_headings(tmp_path: Path, form: str, heading: str) -> None:
     assert holds_friction_curves(path)
 
 
-@every_form
-@pytest.mark.parametrize(
+@in_forms(
     "heading",
-    ["{T:g} °C, {F:g} N", "COF {T:g} °C {F:g} N", "COF ({F:g} N, {T:g} °C)", "{F:g} N / {T:g} °C", "COF_{T:g}C_{F:g}N"],
+    [
+        "{T:g} °C, {F:g} N",
+        "COF {T:g} °C {F:g} N",
+        "COF ({F:g} N, {T:g} °C)",
+        "{F:g} N / {T:g} °C",
+        "COF_{T:g}C_{F:g}N",
+    ],
 )
 def test_temperature_and_load_in_each_heading(tmp_path: Path, form: str, heading: str) -> None:
     pairs = [(T, F) for T in CELSIUS for F in LOADS]
@@ -130,8 +142,7 @@ def test_temperature_and_load_in_each_heading(tmp_path: Path, form: str, heading
     assert_read(saved(tmp_path, rows, form), everywhere())
 
 
-@every_form
-@pytest.mark.parametrize("heading", ["{:g} mm/s", "v = {:g} mm/s", "COF @ {:g} mm/s"])
+@in_forms("heading", ["{:g} mm/s", "v = {:g} mm/s", "COF @ {:g} mm/s"])
 def test_speeds_in_headings_and_temperatures_or_loads_below_each_other(tmp_path: Path, form: str, heading: str) -> None:
     rows = [["Temperature (°C)", *map(heading.format, SPEEDS)]]
     warm = [[T, *(coefficient(v, T, 10.0) for v in SPEEDS)] for T in CELSIUS]
@@ -141,9 +152,7 @@ def test_speeds_in_headings_and_temperatures_or_loads_below_each_other(tmp_path:
     assert_read(saved(tmp_path, [*rows, *loaded], form), everywhere(celsius=[20.0]), temperature="= 20 degC")
 
 
-@every_form
-@pytest.mark.parametrize("above", ["Temperature {:g} °C", "{:g} °C", "T = {:g} °C"])
-@pytest.mark.parametrize("units", ["row", "headings"])
+@in_forms("above, units", product(("Temperature {:g} °C", "{:g} °C", "T = {:g} °C"), ("row", "headings")))
 def test_a_temperature_above_speed_load_and_friction(tmp_path: Path, form: str, above: str, units: str) -> None:
     """Three rows of headings, the first of merged cells, with an empty column between the sets."""
     names = [["speed", "load", "COF"], ["mm/s", "N", "-"]] if units == "row" else [["speed (mm/s)", "load (N)", "COF"]]
@@ -157,13 +166,16 @@ def test_a_temperature_above_speed_load_and_friction(tmp_path: Path, form: str, 
     assert_read(path, everywhere())
 
 
-@every_form
-@pytest.mark.parametrize(
-    ("above", "below"), [("{:g} °C", "{:g} N"), ("COF {:g} °C", "Load {:g} N"), ("COF {:g} °C", "COF {:g} N")]
+@in_forms(
+    "conditions, first",
+    product(
+        (("{:g} °C", "{:g} N"), ("COF {:g} °C", "Load {:g} N"), ("COF {:g} °C", "COF {:g} N")),
+        (("", "speed (mm/s)"), ("speed (mm/s)", ""), ("speed", "mm/s")),
+    ),
 )
-@pytest.mark.parametrize("first", [("", "speed (mm/s)"), ("speed (mm/s)", ""), ("speed", "mm/s")])
-def test_conditions_in_two_rows(tmp_path: Path, form: str, above: str, below: str, first: tuple[str, str]) -> None:
+def test_conditions_in_two_rows(tmp_path: Path, form: str, conditions: tuple[str, str], first: tuple[str, str]) -> None:
     """The heading of the first column is above, below, or in both rows; merged cells stand for those behind them."""
+    above, below = conditions
     pairs = [(T, F) for T in CELSIUS for F in LOADS]
     rows: list[list[object]] = [[first[0], *(cell for T in CELSIUS for cell in (above.format(T), "", ""))]]
     rows.append([first[1], *(below.format(F) for _, F in pairs)])
@@ -329,8 +341,7 @@ def test_a_dash_before_a_temperature_is_no_minus_sign(tmp_path: Path) -> None:
     assert curves.temperature == pytest.approx([263.15, 248.15])
 
 
-@every_form
-@pytest.mark.parametrize("more", [[], ["# remark"], ["", "", "", ""], ["run 3 was repeated", "", "", "", "", ""]])
+@in_forms("more", [[], ["# remark"], [""] * 4, ["run 3 was repeated", "", "", "", "", ""]])
 def test_other_columns_and_rows_do_not_disturb(tmp_path: Path, form: str, more: list[object]) -> None:
     date = datetime.date(2026, 11, 29)
     rows: list[list[object]] = [["date", "speed (mm/s)", "COF 5 N", "COF 10 N", "", "remark"]]
@@ -341,9 +352,7 @@ def test_other_columns_and_rows_do_not_disturb(tmp_path: Path, form: str, more: 
     assert noted(curves.notes, "unused-columns", "'date'", "'remark'")
 
 
-@every_form
-@pytest.mark.parametrize("label", ["Total", "Mean", "Summe", "max"])
-@pytest.mark.parametrize("place", [0, 1])
+@in_forms("label, place", product(("Total", "Mean", "Summe", "max"), (0, 1)))
 def test_rows_that_sum_up_others_are_refused(tmp_path: Path, form: str, label: str, place: int) -> None:
     rows: list[list[object]] = [["specimen", "speed (mm/s)", "COF 5 N"], ["A", 1.0, 0.1], ["B", 2.0, 0.2]]
     rows.append([label if place == 0 else "", label if place == 1 else 3.0, 0.3])
@@ -380,9 +389,8 @@ def test_merged_cells_in_per_cent_are_read_as_shown(tmp_path: Path) -> None:
 DMA_ROWS = [[1.0, 5.0, 0.5, 4.0, 0.4], [10.0, 6.0, 0.6, 5.0, 0.5]]
 
 
-@every_form
-@pytest.mark.parametrize(
-    ("header", "order"),
+@in_forms(
+    "header, order",
     [
         ([["f (Hz)", "E' 20°C (MPa)", "E'' 20°C (MPa)", "E' 40°C (MPa)", "E'' 40°C (MPa)"]], "1234"),
         ([["", "Temperature 20 °C", "", "Temperature 40 °C", ""], ["f", "E'", "E''", "E'", "E''"],
@@ -429,20 +437,31 @@ def test_step_tests_beside_each_other(tmp_path: Path) -> None:
 FORCES = {"N": 1.0, "kN": 1e3, "daN": 10.0, "kgf": 9.80665, "kp": 9.80665, "gf": 9.80665e-3, "lbf": 4.4482216152605}
 
 
-@pytest.mark.parametrize(("unit", "newton"), [*FORCES.items(), ("kg", 9.80665), ("g", 9.80665e-3)])
-@pytest.mark.parametrize("heading", ["load ({})", "load [{}]", "load / {}", "load, {}", "load\n{}"])
-def test_loads_in_older_units_and_masses_as_weights(tmp_path: Path, unit: str, newton: float, heading: str) -> None:
-    load, _, below = heading.format(unit).partition("\n")
-    rows = [["speed (mm/s)", "T (°C)", load, "COF"], ["mm/s", "°C", below, "-"], [1.0, 20.0, 3.0, 0.1]]
-    curves = vf.read_friction_curves(saved(tmp_path, rows if below else [rows[0], rows[2]]))
-    assert curves.load == pytest.approx([3.0 * newton], rel=1e-12)
-    assert ("mass-as-load" in codes(curves.notes)) == (unit in ("kg", "g"))
+WEIGHTS = {"kg": 9.80665, "g": 9.80665e-3}
 
 
 @pytest.mark.parametrize(
-    ("unit", "metres"), [("µm/s", 1e-6), ("μm/s", 1e-6), ("mm/s", 1e-3), ("cm/s", 0.01), ("m/min", 1 / 60)]
+    ("unit", "heading"), zip((FORCES | WEIGHTS), cycle(("load ({})", "load [{}]", "load / {}", "load, {}", "load\n{}")))
 )
-@pytest.mark.parametrize("heading", ["v ({})", "v [{}]", "v / {}", "v / ({})", "v/[{}]", "v, {}"])
+def test_loads_in_older_units_and_masses_as_weights(tmp_path: Path, unit: str, heading: str) -> None:
+    load, _, below = heading.format(unit).partition("\n")
+    rows = [["speed (mm/s)", "T (°C)", load, "COF"], ["mm/s", "°C", below, "-"], [1.0, 20.0, 3.0, 0.1]]
+    curves = vf.read_friction_curves(saved(tmp_path, rows if below else [rows[0], rows[2]]))
+    assert curves.load == pytest.approx([3.0 * (FORCES | WEIGHTS)[unit]], rel=1e-12)
+    assert ("mass-as-load" in codes(curves.notes)) == (unit in WEIGHTS)
+
+
+@pytest.mark.parametrize(
+    ("heading", "unit", "metres"),
+    [
+        ("v ({})", "µm/s", 1e-6),  # the micro sign
+        ("v [{}]", "μm/s", 1e-6),  # the Greek letter
+        ("v / {}", "mm/s", 1e-3),
+        ("v / ({})", "cm/s", 0.01),
+        ("v/[{}]", "m/min", 1 / 60),
+        ("v, {}", "µm/s", 1e-6),
+    ],
+)
 def test_units_of_speed_in_brackets_or_behind_a_mark(tmp_path: Path, unit: str, metres: float, heading: str) -> None:
     rows = [[heading.format(unit), "T (K)", "load (N)", "COF"], [3.0, 293.15, 5.0, 0.1]]
     assert vf.read_friction_curves(saved(tmp_path, rows)).speed == pytest.approx([3.0 * metres], rel=1e-12)
