@@ -323,16 +323,17 @@ def test_errors_grow_over_a_plateau_as_a_rate_that_wanders(hot):
     assert covariance[4, 5] == pytest.approx(2.0 * BEND**2, rel=1e-9)
 
 
-def test_a_law_fitted_to_bare_values_has_the_errors_of_a_regression_line():
+@pytest.mark.parametrize(("count", "wider"), [(5, 2.5), (40, 1.2)])
+def test_a_law_fitted_to_bare_values_has_the_errors_of_a_regression_line(count, wider):
     """Without errors of its own, log10 α over 1/T is a line whose scatter is known from n − 2 residuals."""
     random = np.random.default_rng(4)
-    kelvin = np.array([280.0, 300.0, 318.0, 331.0, 350.0])
-    values = vf.Arrhenius("120 kJ/mol", 300.0).log10(kelvin) + 0.05 * random.standard_normal(kelvin.size)
+    kelvin = np.linspace(280.0, 350.0, count) + random.uniform(-1.0, 1.0, count)
+    values = vf.Arrhenius("120 kJ/mol", 300.0).log10(kelvin) + 0.05 * random.standard_normal(count)
     law = vf.ShiftFactors(kelvin, values, 300.0).law("arrhenius")
     line = linregress(1.0 / kelvin, values)
     [constant], [error] = law.parameters, law.standard_errors
-    # The scatter is found to 1 % of its variance, half a per cent of the error; n − 1 residuals would make 13 % less.
-    assert error / constant == pytest.approx(line.stderr / line.slope, rel=0.01)
+    # Few residuals determine neither their size nor whether they bend along temperature.
+    assert 1.0 < error / constant / (line.stderr / line.slope) < wider
     assert constant == pytest.approx(line.slope * np.log(10.0) * 8.314462618, rel=1e-6)
 
 

@@ -125,8 +125,25 @@ def test_law_constants_lie_within_their_standard_errors():
         values = truth.log10(temperatures) + errors * random.standard_normal(temperatures.size)
         law = ShiftFactors(temperatures, values, truth.reference, np.diag(errors**2)).law("wlf")
         scores.append((np.array([law.C1, law.C2]) - [9.0, 100.0]) / law.standard_errors)
-    # 40 draws: the mean square of a standard normal is 1 ± 0.22 (one sigma); three sigma allowed.
-    assert np.mean(np.square(scores), axis=0) == pytest.approx([1.0, 1.0], abs=0.7)
+    # 40 draws: the mean square of a standard normal is 1 ± 0.22 (one sigma); three sigma allowed.  It is less, since
+    # the factors cannot exclude that the law misses them by as much as their errors, which is usual.
+    assert np.all(np.mean(np.square(scores), axis=0) < 1.7)
+    assert np.all(np.mean(np.square(scores), axis=0) > 0.1)
+
+
+@pytest.mark.parametrize("bend", [-0.04, 0.04])
+def test_constants_of_a_law_that_the_residuals_bend_about_hold_those_of_other_temperatures(bend):
+    """C2 changes along temperature by a few per cent: each stretch has other constants than the whole."""
+    kelvin = np.arange(0.0, 151.0, 10.0) + 273.15
+    away = kelvin - 303.15
+    values = -9.0 * away / (100.0 + away * (1.0 + bend * np.tanh(away / 50.0)))
+    walk = np.where(np.outer(away, away) > 0.0, np.minimum.outer(np.abs(away), np.abs(away)), 0.0) / 10.0
+    table = ShiftFactors(kelvin, values, 303.15, 0.002**2 * walk)  # 0.002 decades from one temperature to the next
+    whole = table.law("wlf")
+    assert whole.standard_errors[1] > 2.0  # K; an independent scatter of the same size makes it 0.4
+    colder = ShiftFactors(kelvin[:9], values[:9], 303.15, table.covariance[:9, :9]).law("wlf")
+    for part in (colder, table.law("wlf", above=kelvin[5])):
+        assert np.all(np.abs(whole.parameters - part.parameters) < 2.0 * np.array(whole.standard_errors))
 
 
 def test_misfit_of_a_law_widens_its_standard_errors():

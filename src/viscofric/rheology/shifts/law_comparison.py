@@ -262,7 +262,7 @@ def _row(kind: str, table: FactorTable, degree: int | None = None) -> LawRow[Par
     if kind == "polynomial" and degree is None:
         return _polynomial_row(table)
     try:
-        law, chi2, scatter = law_fitting.fitted(kind, table, degree)
+        law, chi2, scatter, *_ = law_fitting.fitted(kind, table, degree)
     except InputError as error:
         return LawRow(kind, TITLES[kind], None, 0, refusal=str(error))
     size = len(law.parameters)

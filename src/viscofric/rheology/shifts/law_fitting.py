@@ -120,6 +120,14 @@ SMALLEST_MISFIT = 0.003  # decades
 #: Usual misfit of a good law beyond the errors of the factors; the scale of a half-Cauchy density, which excludes no
 #: size (A. Gelman, Bayesian Analysis 1 (2006) 515).
 USUAL_MISFIT = 0.01  # decades
+#: Lengths over which deviations from a law are correlated, over the range of temperatures: the deviations that laws
+#: leave, such as a change of one law into another, are cubic, or bend more; longer ones are absorbed by the constants.
+MISFIT_LENGTHS = (1.0 / 8.0, 1.0 / 4.0, 1.0 / 3.0)
+#: Independent part of the variance of correlated deviations, for rounding.
+ROUGHNESS = 1e-6
+#: Stated errors of which residuals show no more than this part, since the constants absorb the rest, may be too small
+#: by any factor.
+VISIBLE = 0.01
 #: A constant that is uncertain by a factor of a hundred is not determined by the data.
 LARGEST_RELATIVE_ERROR = 100.0
 ITERATIONS = 50
@@ -210,17 +218,66 @@ class FactorTable(Table):
 
     temperatures: Array  # (n,), ascending, K
     reference: float  # K, where a law is to be 1
+    covariance: Array  # (n, n), of the values as measured
 
     @classmethod
-    def of(cls, temperatures: Array, values: Array, covariance: Array, reference: float) -> FactorTable:
-        """Prepare values (n,) at temperatures (n,), K, with their covariance (n, n)."""
+    def of(
+        cls, temperatures: Array, values: Array, covariance: Array, reference: float, scatter_shape: Array | None = None
+    ) -> FactorTable:
+        """Prepare values (n,) at temperatures (n,), K, with their covariance (n, n).
+
+        Scatter that is added has a covariance in proportion to `scatter_shape` (n, n); None: it is independent.
+        """
         differences = np.diff(np.eye(len(temperatures)), axis=0)
-        scatter = np.linalg.cholesky(differences @ differences.T)
+        shape = np.eye(len(temperatures)) if scatter_shape is None else scatter_shape
+        scatter = np.linalg.cholesky(differences @ shape @ differences.T)
         turn = np.linalg.solve(scatter, differences)
         variance, axes = np.linalg.eigh(turn @ covariance @ turn.T)
         floor = np.maximum(variance, 0.0) + SMALLEST_ERROR**2
         log_volume = 2.0 * float(np.sum(np.log(np.diag(scatter))))
-        return cls(values, axes.T @ turn, floor, log_volume, temperatures, reference)
+        return cls(values, axes.T @ turn, floor, log_volume, temperatures, reference, covariance)
+
+    def gain(self, constants: Array, gradient: Array, scatter: float) -> Array:
+        """Return the changes (k, n) of fitted constants (k,) by the values, from a law's derivatives (n, k)."""
+        scale, whiten = np.abs(constants) + np.finfo(float).tiny, self.whitening(scatter**2)
+        return np.asarray(scale[:, None] * (np.linalg.pinv(whiten(gradient * scale)) @ whiten(np.eye(len(gradient)))))
+
+    def misfit(self, gradient: Array, left: Array) -> Array:
+        """Return the covariance (n, n) of what the values have beyond a law and their errors, as the residuals show.
+
+        `gradient` (n, k) are the derivatives of the law by its constants, `left` (n,) the residuals.
+        """
+        # No law is exact: residuals bend along temperature, and constants of other temperatures differ by more than
+        # independent scatter explains. What remains is taken to be normal, with a covariance of one of several shapes:
+        # independent, correlated over a part of the range, or that of the stated errors, if these are too small. Shape
+        # and size are unknown: the mean over both, by the restricted likelihood (D. A. Harville, J. Am. Stat. Assoc. 72
+        # (1977) 320) and the density of `criterion_of` for sizes. A shape of size 1 leaves residuals of rms 1.
+        count, freedom = len(left), len(self) - gradient.shape[1]
+        if freedom == 0:
+            return np.zeros((count, count))
+        own = np.linalg.qr(gradient / np.linalg.norm(gradient, axis=0))[0]
+        seen = np.linalg.qr(np.column_stack([np.ones(count), own]))[0]
+        apart = (self.temperatures[:, None] - self.temperatures) / np.ptp(self.temperatures)
+        shapes = [np.eye(count), *(np.exp(-0.5 * (apart / length) ** 2) for length in MISFIT_LENGTHS)]
+        shapes.append(self.covariance)
+        size = np.geomspace(SMALLEST_ERROR, LARGEST_SCATTER, 100)
+        scaled, logarithms = [], []
+        for shape in shapes:
+            visible = np.trace(shape) - np.trace(seen.T @ shape @ seen)
+            if visible <= VISIBLE * np.trace(shape):  # errors of a few constants, or none
+                continue
+            scaled.append(shape * freedom / visible + ROUGHNESS * np.eye(count))
+            turned = FactorTable.of(self.temperatures, left, self.covariance, self.reference, scaled[-1])
+            weight = 1.0 / (turned.variance + size[:, None] ** 2)
+            X, r = turned.turn @ own, turned.turn @ left
+            normal = np.einsum("mi,sm,mj->sij", X, weight, X)
+            pull = weight * r @ X
+            chi2 = weight @ r**2 - np.sum(pull * np.linalg.solve(normal, pull[..., None])[..., 0], axis=1)
+            log_det = np.linalg.slogdet(normal)[1] - np.sum(np.log(weight), axis=1) + turned.log_volume
+            logarithms.append(-0.5 * (chi2 + log_det))
+        weight = np.exp(logarithms - np.max(logarithms)) * size / (1.0 + (size / USUAL_MISFIT) ** 2)
+        weight[0] *= len(scaled) - 1.0  # independent scatter is as likely as all other shapes together
+        return np.asarray(np.tensordot(weight @ size**2 / np.sum(weight), scaled, axes=1))
 
 
 class Solution(NamedTuple):
@@ -237,6 +294,7 @@ class Fitted(NamedTuple):
     law: ParametricLaw
     chi2: float
     scatter: float
+    misfit: Array  # (n, n), covariance of what the factors have beyond the law and their errors
 
 
 def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
@@ -254,8 +312,12 @@ def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
             f"{len(table) + 1} temperatures are too few to fit {kind!r}; give {family.size + 1} or more.",
             code="too-few-temperatures",
         )
-    found, chi2, scatter = solved(family, table, _not_described(table, kind))
-    return Fitted(family.law(found.parameters, found.covariance), chi2, scatter)
+    (constants, _, _), chi2, scatter = solved(family, table, _not_described(table, kind))
+    gradient = family.gradient(constants)
+    gain = table.gain(constants, gradient, scatter)
+    misfit = table.misfit(gradient, table.values - family.values(constants))
+    errors = table.covariance + misfit + SMALLEST_ERROR**2 * np.eye(len(misfit))
+    return Fitted(family.law(constants, gain @ errors @ gain.T), chi2, scatter, misfit)
 
 
 def solved(family: Model, table: Table, otherwise: InputError) -> tuple[Solution, float, float]:

@@ -190,8 +190,10 @@ class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
         """Fit a law to the table, with α = 1 at the same reference.
 
         Every value counts by its uncertainty.  Where the table scatters about the law by more than that, the
-        excess is taken for a misfit common to all temperatures and added to it, so that the law's standard
-        errors include both.
+        excess is added to it as independent scatter of one size.  The law's standard errors include what the values
+        have beyond the law: scatter, deviations that bend along temperature, or stated errors that are too small,
+        each with a size that agrees with the residuals (restricted likelihood, averaged over shape and size).  So
+        they hold the constants that other temperatures of the same table give.
 
         Parameters
         ----------

@@ -447,14 +447,12 @@ def _errors(random: np.random.Generator, fit: Fit, samples: int) -> tuple[Array,
 
 def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: ParametricLaw) -> list[ShiftLaw]:
     """Return the law of every sample: its constants follow linearly from the errors of the shift factors."""
-    # The scatter of the table about the law beyond its uncertainty is drawn too.
+    # The misfit of the law is drawn too.
     table = law_fitting.FactorTable.of(shifts.temperatures, shifts.log10_values, shifts.covariance, shifts.reference)
-    scatter = law_fitting.fitted(law.kind, table, len(law.parameters) if law.kind == "polynomial" else None).scatter
-    constants = law.parameters
-    scale = np.abs(constants) + 1e-300
-    whiten = table.whitening(scatter**2)
-    gain = np.linalg.pinv(whiten(law.gradient(shifts.temperatures) * scale)) @ whiten(np.eye(len(shifts.temperatures)))
-    errors = (moved + scatter * random.standard_normal(moved.shape)) @ gain.T
-    drawn = constants * np.exp(errors) if np.all(constants > 0.0) else constants + scale * errors
+    degree = len(law.parameters) if law.kind == "polynomial" else None
+    fitted, constants = law_fitting.fitted(law.kind, table, degree), law.parameters
+    gain = table.gain(constants, law.gradient(shifts.temperatures), fitted.scatter)
+    errors = (moved + normal_deviates(random, fitted.misfit, len(moved))) @ gain.T
+    drawn = constants * np.exp(errors / constants) if np.all(constants > 0.0) else constants + errors
     # A sample is valid at the same temperatures as the law.
     return [replace(law.with_parameters(row), fitted_range=law.fitted_range, bounded=law.bounded) for row in drawn]
