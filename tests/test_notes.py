@@ -112,3 +112,11 @@ def test_the_note_that_is_shown_of_many_is_the_most_severe() -> None:
     ]
     (note,) = counted(each, rank=[0.0, 1.0, 2.0, 3.0])
     assert (note.values["severity"], note.values["contacts"], note.values["of"]) == (0.9, 3, 4)
+
+
+def test_warnings_of_contacts_are_their_notes() -> None:
+    elastic, ball = vf.Material.standard_linear_solid("1 MPa", "2 MPa", "1 ms"), vf.Ball("10 mm")
+    contact = vf.solve_steady(elastic, ball, speed=0.0, load="0.1 mN", accuracy=0.1)
+    impact = vf.motion.solve_impact(elastic, ball, mass="1 ug", speed="1 mm/s", accuracy=1e-2)
+    assert codes(contact.notes) == codes(contact.warnings) == {"adhesion"}
+    assert impact.notes == impact.warnings != ()

@@ -148,6 +148,17 @@ class Note(str):
         return found
 
 
+class Warned:
+    """A result with warnings, which are its notes."""
+
+    warnings: tuple[str, ...]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """`warnings` under the name that they have in curves, theories and materials."""
+        return self.warnings
+
+
 def note_of(record: Mapping[str, Any] | str) -> Note:
     """Return the note of a record; a sentence alone has no code."""
     if isinstance(record, Note):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from viscofric.datasets import dataset
+from viscofric.notes import Warned
 from viscofric.showing import Plotted, Shown
 
 if TYPE_CHECKING:
@@ -202,7 +203,7 @@ class Diagnostics(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class ContactSolution(Plotted):
+class ContactSolution(Warned, Plotted):
     """Steady contact of an indenter moving at a constant velocity over a viscoelastic half-space or layer.
 
     All in SI units.  Here x is along `direction`, and y to the left of it: the indenter moves towards +x for a positive

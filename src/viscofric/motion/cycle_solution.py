@@ -9,6 +9,7 @@ import numpy as np
 from viscofric.datasets import Dataset
 from viscofric.motion.cycle_numbers import Estimate, Found
 from viscofric.motion.solution import TransientSolution
+from viscofric.notes import Warned
 from viscofric.showing import Plotted, Rows
 
 #: Numbers with errors.
@@ -18,7 +19,7 @@ _NUMBERS = (
 
 
 @dataclass(frozen=True, eq=False)
-class CycleSolution(Plotted):
+class CycleSolution(Warned, Plotted):
     """One period of a contact in its periodic state.
 
     Attributes

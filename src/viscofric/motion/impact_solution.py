@@ -8,6 +8,7 @@ from typing import NamedTuple
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset
 from viscofric.motion.solution import TransientSolution
+from viscofric.notes import Warned
 from viscofric.showing import Plotted, Rows, shown_as_html, shown_as_text
 
 
@@ -61,7 +62,7 @@ class ImpactContact(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class ImpactSolution(Plotted):
+class ImpactSolution(Warned, Plotted):
     """Impact of an indenter of some mass.
 
     Attributes
@@ -137,7 +138,7 @@ class ImpactSolution(Plotted):
 
 
 @dataclass(frozen=True, eq=False)
-class RestitutionCurve(Plotted):
+class RestitutionCurve(Warned, Plotted):
     """Restitution against speed and temperature.
 
     Attributes

@@ -14,6 +14,7 @@ from viscofric.errors import InputError
 from viscofric.heat.result import TransientHeating
 from viscofric.motion.mover import Field
 from viscofric.motion.restart import Restart
+from viscofric.notes import Warned
 from viscofric.rheology.interface.friction import total_friction
 from viscofric.showing import Plotted, Rows, Shown
 from viscofric.units import Quantity, to_si
@@ -62,7 +63,7 @@ class TransientErrors(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class TransientSolution(Plotted):
+class TransientSolution(Warned, Plotted):
     """Contact over time.
 
     All in SI units and along the times, (n,).  Forces, areas and energies are per length in a line contact, and per

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from viscofric.contact.solution import SHARED_NUMBERS, Meaning, labelled_numbers, number_rows
 from viscofric.datasets import dataset
+from viscofric.notes import Warned
 from viscofric.showing import Plotted, Shown
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ class PeriodicDiagnostics(Shown):
 
 
 @dataclass(frozen=True, eq=False)
-class PeriodicSolution(Plotted):
+class PeriodicSolution(Warned, Plotted):
     """Steady contact of a periodic rough surface that slides over a viscoelastic half-space or layer.
 
     All in SI units.
