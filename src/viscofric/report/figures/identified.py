@@ -83,9 +83,10 @@ def identified_figure(found: Identified, known: Material | None = None) -> Figur
 
 
 def _at_reference(known: Material | None, found: Identified) -> Material | None:
-    if known is not None and known.shift is not None and found.material.reference is not None:
-        return known.at_reference(found.material.reference)
-    return known
+    reference = found.material.reference
+    if known is None or known.shift is None or reference is None:
+        return known
+    return known.at_reference(reference) if known.shift.valid_at(reference) else None
 
 
 def indentation_figure(found: MaterialFromIndentation, known: Material | None = None) -> Figure:

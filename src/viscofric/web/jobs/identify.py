@@ -145,10 +145,12 @@ def _reply(
     }
 
 
-def _known(rubber: Material, found: IdentifiedMaterial) -> dict[str, Any]:
-    """Return the page's rubber at the temperature at which the identified one is described."""
+def _known(rubber: Material, found: IdentifiedMaterial) -> dict[str, Any] | None:
+    """Return the page's rubber at the temperature at which the identified one is described; None if it is not known."""
     reference = found.material.reference
     if rubber.shift is not None and reference is not None:
+        if not rubber.shift.valid_at(reference):
+            return None
         rubber = rubber.at_reference(reference)
     return {"name": rubber.name, **record(rubber.spectrum.modulus_dataset(found.frequencies), _DIGITS)}
 
