@@ -16,6 +16,9 @@ from cli.calls import refusal
 from rheology.planted import write_amplitudes, write_moduli
 from viscofric.cli import main
 from viscofric.cli.output import typed_command
+from viscofric.files import says_synthetic
+from viscofric.notes import Note, Remedy, dumped, records
+from viscofric.report.html import write_report
 
 EXAMPLE = Path(vf.__file__).parent / "example" / "dma.csv"
 
@@ -181,7 +184,7 @@ def test_a_card_that_cannot_be_written_keeps_no_other_from_it(tmp_path: Path) ->
 def test_a_finished_master_curve_makes_the_same_rubber(fitted: tuple[Path, str], tmp_path: Path) -> None:
     folder, _ = fitted
     before = vf.read_card(folder / "rubber.json")
-    rows = (folder / "master_curve.csv").read_text(encoding="utf-8").splitlines()[1:]
+    rows = (folder / "master_curve.csv").read_text(encoding="utf-8").splitlines()[2:]
     table = [",".join(row.split(",")[:3]) for row in rows]
     table[0] = "omega (rad/s),E' (Pa),E'' (Pa)"
     (tmp_path / "curve.csv").write_text("\n".join(table), encoding="utf-8")
@@ -203,6 +206,23 @@ def test_a_finished_master_curve_makes_the_same_rubber(fitted: tuple[Path, str],
 def test_made_data_are_called_synthetic(tmp_path: Path) -> None:
     succeed("fit", EXAMPLE, "--reference", "30 degC", "--samples", 0, "-o", tmp_path / "out")
     assert "Synthetic data" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert all(map(says_synthetic, (tmp_path / "out").glob("*.csv")))
+
+
+def test_a_test_at_one_temperature_has_no_samples_and_says_so_in_words_of_commands(tmp_path: Path) -> None:
+    omega = np.geomspace(0.1, 100.0, 25)
+    modulus = vf.synthetic_fluoroelastomer().complex_modulus(omega, "20 degC")
+    rows = zip(omega, modulus.real, modulus.imag, strict=True)
+    lines = ["omega (rad/s),E' (Pa),E'' (Pa)", *(f"{w:.8g},{storage:.8g},{loss:.8g}" for w, storage, loss in rows)]
+    (tmp_path / "curve.csv").write_text("\n".join(lines), encoding="utf-8")
+    fit = ("fit", tmp_path / "curve.csv", "--master-curve", "--reference", "20 degC", "-o", tmp_path / "out")
+    assert "no-bands" in {one["code"] for one in json.loads(succeed(*fit, "--json").stdout)["note_records"]}
+    tree = vf.open_results(tmp_path / "out").tree
+    advised = Note("", "Too coarse", remedy=Remedy("; modes=12.", "; --modes 12.", "; modes = 12 under [material]."))
+    tree["spectrum"].attrs["statement_records"] = dumped(records([advised]))
+    page = write_report(tree, tmp_path).read_text(encoding="utf-8")
+    assert "Too coarse; --modes 12." in page
+    assert not says_synthetic(tmp_path / "out" / "spectrum.csv")
 
 
 @pytest.mark.parametrize(

@@ -6,13 +6,14 @@ import base64
 import itertools
 import re
 import shlex
+from collections.abc import Mapping
 from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 from viscofric.datasets import DataTree
 from viscofric.files import write_atomically
-from viscofric.notes import notes_in, table_in
+from viscofric.notes import Reader, notes_in, table_in
 from viscofric.report.captions import captions
 from viscofric.report.figures.study import RUBBER_FIGURES, figure_images, save_images
 from viscofric.report.results import group, is_synthetic, rubbers, sentences
@@ -87,11 +88,17 @@ def write_report(tree: DataTree, folder: str | Path, *, images: dict[str, dict[s
     return path
 
 
+def _words(attributes: Mapping[Any, Any], name: str, reader: Reader) -> list[str]:
+    return [one.words(reader) for one in notes_in(attributes, name)]
+
+
 def _content(tree: DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, Any]:
     """Gather what the page shows, as texts."""
     attrs = {name: str(value) for name, value in tree.attrs.items()}
     spectrum, agreement = group(tree, "spectrum"), group(tree, "agreement")
     checks = all_checks(tree)
+    reader: Reader = "run_file" if attrs.get("study_text") else "shell"  # of a command that takes no run file
+    statements = {} if spectrum is None else spectrum.attrs
     (_, answer), *others = _figures(tree, images)
     return {
         "title": attrs.get("title") or "Viscoelastic friction",
@@ -104,15 +111,17 @@ def _content(tree: DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, A
         "glance": friction_at_a_glance(tree),
         "agreement": agreement_table(tree),
         "agreement_words": [] if agreement is None else sentences(agreement.attrs, "sentences"),
-        "statements": [] if spectrum is None else sentences(spectrum.attrs, "statements"),
-        "checks": checks,
+        "statements": _words(
+            statements, "statement_records" if "statement_records" in statements else "statements", reader
+        ),
+        "checks": [check.record(reader) for check in checks],
         "verdicts": counted(checks),
         "answer_figures": answer,
         "figure_groups": [(heading, found) for heading, found in others if found],
         "tables": detail_tables(tree),
         "failures": grouped_failures(notes_in(tree.attrs, "failures"), _MOST_KINDS_OF_FAILURE),
-        "warnings": [one.words("run_file") for one in notes_in(tree.attrs, "warnings")],
-        "notes": [one.words("run_file") for one in notes_in(tree.attrs, "notes")],
+        "warnings": _words(tree.attrs, "warnings", reader),
+        "notes": _words(tree.attrs, "notes", reader),
         "command": attrs.get("command") or f"viscofric run {shlex.quote(attrs.get('study_file') or 'study.toml')}",
         "study_text": attrs.get("study_text", ""),
         "software": table_in(tree.attrs, "software"),

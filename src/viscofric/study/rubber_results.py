@@ -23,7 +23,7 @@ from viscofric.study.results.results import StudyResults, input_hashes, provenan
 from viscofric.study.rubber import Rubber
 from viscofric.study.rubber_datasets import rubber_groups
 from viscofric.study.run_file.material import MaterialTable
-from viscofric.study.study_rubber import draw_rubber
+from viscofric.study.study_rubber import draw_rubber, no_samples
 from viscofric.units import CELSIUS_ZERO, celsius, shown_celsius
 
 #: Format of a card -> the end of its file's name.
@@ -56,12 +56,13 @@ def run_material(
     rubber = make_rubber(table, liquids=True)
     rubber = called_synthetic(rubber) if synthetic else rubber
     draws = draw_rubber(rubber, samples)
+    missing = no_samples(rubber, "The modulus has") if samples and draws is None else ()
     tree = xarray.DataTree.from_dict(rubber_groups(rubber, draws))
     tree.attrs = {
         "title": title,
         "data_origin": "synthetic" if rubber.synthetic else "measured",
         "command": command,
-        "notes": dumped(records([*rubber.notes, *(draws.notes if draws is not None else ())])),
+        "notes": dumped(records([*rubber.notes, *(missing if draws is None else draws.notes)])),
         "warnings": "[]",
         "failures": "[]",
         **rubber.attributes,
@@ -88,6 +89,9 @@ def _files(rubber: Rubber, folder: Path) -> list[Path]:
         written.append(write_step_master_curve(rubber.step_curve, folder / name))
     if isinstance(material.spectrum, RetardationSpectrum):
         written.append(write_spectrum(material.spectrum, folder / "spectrum.csv"))
+    if material.synthetic:
+        for path in written[1:]:  # the first says so itself
+            write_atomically(path, b"# SYNTHETIC, not measured\n" + path.read_bytes())
     return written
 
 

@@ -164,6 +164,17 @@ def draw_rubber(rubber: Rubber, samples: int, seed: int = 0) -> MaterialSamples 
     return sample_materials(fit, spectrum, samples=samples, seed=seed, law=law, poisson_ratio=ratio, name=name)
 
 
+def no_samples(rubber: Rubber, begun: str) -> tuple[Note, ...]:
+    """Return the note that a material has no bootstrap samples, and why; `begun` begins its sentence."""
+    if rubber.strain is not None:
+        why = "the uncertainty of a material scaled to a strain is not known."
+    elif rubber.superposed is None:
+        why = "the uncertainty of the material is known from tests at several temperatures only."
+    else:
+        return ()
+    return (Note("no-bands", f"{begun} no 95 % bands: {why}"),)
+
+
 def curves_of(records: Sequence[Record]) -> FrictionCurves:
     """Return the friction of solved cases of indenters, in their order."""
     pressure = np.array([record.load / record.contact_area for record in records])
@@ -195,12 +206,9 @@ class FrictionBands:
         self._drawn = None if self.samples is None else DrawnMaterials(self.samples, rubber.material)
         if self.samples is not None:
             self.notes = tuple(self.samples.notes)
-        elif count and rubber.strain is not None:
-            text = "Friction has no 95 % bands: the uncertainty of a material scaled to a strain is not known."
-            self._note(Note("no-bands", text))
-        elif count and rubber.superposed is None:
-            text = "Friction has no 95 % bands: the uncertainty of the material is known from its sweeps only."
-            self._note(Note("no-bands", text))
+        elif count:
+            for note in no_samples(rubber, "Friction has"):
+                self._note(note)
 
     def curves(self, records: Sequence[Record]) -> FrictionCurves:
         """Return the friction of solved cases, in their order; without bands if any has no derivatives."""
