@@ -271,6 +271,13 @@ def test_units_may_stand_in_headings_and_in_the_row_below(tmp_path, names, units
     assert_is_the_table(read_dma(write(tmp_path, names, units, *ROWS)))
 
 
+@pytest.mark.parametrize("units", ["°C,Hz,MPa,MPa", "[°C],[Hz],[MPa],[MPa]"])
+def test_symbols_may_stand_between_names_and_units(tmp_path, units):
+    names = "Temperature,Frequency,Storage modulus,Loss modulus"
+    assert_is_the_table(read_dma(write(tmp_path, names, "T,f,E',E''", units, *ROWS)))
+    assert_is_the_table(read_dma(write(tmp_path, HEADER, "T,f,E',E''", *ROWS)))
+
+
 @pytest.mark.parametrize(
     ("units", "refusal"),
     [

@@ -128,6 +128,16 @@ def test_headings_give_the_temperatures_of_relaxations_beside_each_other(tmp_pat
     assert codes(tests) == ["temperature-from-title"]
 
 
+def test_each_of_the_tests_beside_each_other_may_have_its_own_times(tmp_path):
+    headings = ("t (s)", "J 25 °C (1/MPa)", "t (s)", "J 40 °C (1/MPa)")
+    path = written(tmp_path / "all.csv", headings, [TIME, TIME**0.2, 2 * TIME, 3 * TIME**0.2])
+    tests = vf.read_step_tests(path, deformation="shear")
+    np.testing.assert_allclose(tests.temperatures, [298.15, 313.15])
+    for one, factor, level in zip(tests.tests, (1, 2), (1e-6, 3e-6), strict=True):
+        np.testing.assert_allclose(one.time, factor * TIME, rtol=1e-5)
+        np.testing.assert_allclose(one.response, level * TIME**0.2, rtol=1e-5)
+
+
 def test_units_may_be_given(tmp_path):
     path = written(tmp_path / "a.csv", ("Time", "Creep Compliance"), [TIME, 1e-7 * TIME**0.2])
     given = {"temperature": "25 degC", "deformation": "shear"}

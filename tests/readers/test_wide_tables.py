@@ -133,6 +133,8 @@ def test_loads_in_headings(tmp_path: Path, form: str, heading: str) -> None:
         "COF ({F:g} N, {T:g} °C)",
         "{F:g} N / {T:g} °C",
         "COF_{T:g}C_{F:g}N",
+        "{T:g} °C/{F:g} N",
+        "COF @ {F:g} N and {T:g} °C",
     ],
 )
 def test_temperature_and_load_in_each_heading(tmp_path: Path, form: str, heading: str) -> None:
@@ -211,6 +213,7 @@ def test_loads_as_numbers_under_their_name(tmp_path: Path, header: Rows, form: s
         [["Load: 10 N"], ["Temperature: 20 °C"]],
         [["Load (N)", 10.0], ["T [°C]", 20.0]],
         [["Load: 10 N", "Temperature = 20 °C"]],
+        [["# Load: 10 N"], ["# Temperature [°C]: 20"]],
         [["Load", 10.0, "N"], ["Temperature", 20.0, "°C"], ["Preload", "7 N"]],
         [["Load : 10.00 [N]"], ["Temperature : 20.00 [°C]"], ["Radius : 10.00 [mm]"]],
         [["Applied load = 10 N; Temperature: 20 (°C)"]],

@@ -67,7 +67,7 @@ _MEAN = re.compile(r"\b(mean|average|avg)\b\.?", re.IGNORECASE)
 # or digit: in "foam-25C" it may be a dash.  Between blanks it is one ("NR - 25 °C"), except in "T = - 25 °C".
 _OF_A_RATE = r"(?![^\W_]|\s*/\s*(?i:min\w*|s|sec\w*|h|hr|hours?|steps?)\b)"
 TEMPERATURE_IN_NAME = re.compile(
-    r"(?:(?P<mark>^|[\s_=(,;@[])(?P<sign>[+−–-]?)|[=:(](?P<minus>\s*[-−–]\s+)|(?P<dash>[-−–]))"
+    r"(?:(?P<mark>^|[\s_=(,;@[]|(?<=[^\W\d])/)(?P<sign>[+−–-]?)|[=:(](?P<minus>\s*[-−–]\s+)|(?P<dash>[-−–]))"
     r"(?P<number>\d+(?:[.,]\d+)?)\s?_?"
     rf"(?P<unit>°C|degC|deg_C|C|K|°F|degF){_OF_A_RATE}"
 )
@@ -80,7 +80,7 @@ FREQUENCY_IN_NAME = re.compile(
 
 def _positive_in_name(units: str) -> re.Pattern[str]:
     return re.compile(
-        r"(?:^|(?<=[\s_=:(,;@[]))(?P<sign>)(?P<minus>)(?P<dash>)(?P<number>\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?)\s?_?"
+        r"(?:^|(?<=[\s_=:(,;@[])|(?<=[^\W\d]/))(?P<sign>)(?P<minus>)(?P<dash>)(?P<number>\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?)\s?_?"
         rf"(?P<unit>{units})(?![^\W_]|\s*[/·*-]\s*[^\W\d]|[\^²³])"
     )
 
@@ -102,7 +102,7 @@ OF_HEADINGS = {
 _DASH_AT_END = re.compile(r"[-−–]\s*$")
 #: What a value that is cut from a heading leaves behind.
 _LEFT_BEHIND = re.compile(
-    r"[(\[]\s*[,;:=@|]?\s*[)\]]|(\b(at|bei|à|for|für|[Tf]\s*=)|[@,;:=_|])\s*(?=$|[()\[\]/])|_(?=_)|^\s*[:;,=@|/]|/\s*$",
+    r"[(\[]\s*[,;:=@|]?\s*[)\]]|(\b(at|bei|à|for|für|and|und|et|[Tf]\s*=)|[@,;:=_|])\s*(?=$|[()\[\]/])|_(?=_)|^\s*[:;,=@|/]|/\s*$",
     re.IGNORECASE,
 )
 #: The name of a quantity before its value, of two words or one: "load" of "COF, load = 5 N".

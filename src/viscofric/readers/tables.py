@@ -83,12 +83,11 @@ def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
     if found is None:
         raise no_header(source, words)
     remarks = [
-        tuple(re.split(r"[\t;,]", line))
+        tuple(re.split(r"[\t;,]", line.lstrip("# ")))
         for line in (source.text or "")[:_HEAD].splitlines()[:DEEPEST_HEADER]
         if line.lstrip().startswith("#")
     ]
-    table = _table_under(source.path, found, words)
-    return {"": replace(table, above=(*table.above, *remarks))}
+    return {"": _table_under(source.path, found, words, remarks)}
 
 
 def holds_table(source: Source, vocabulary: Vocabulary) -> bool:
@@ -163,8 +162,8 @@ def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheet
     return DataFileError(path, Note("missing-columns", problem, remedy=name_columns(words.key, missing), values=values))
 
 
-def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
-    """Return the table under a header, from all rows that are not blank."""
+def _table_under(path: str, found: Found, words: Vocabulary, remarks: Title | list[tuple[str, ...]] = ()) -> Table:
+    """Return the table under a header, from all rows that are not blank; remarks state what lines above it do."""
     rows, header = found.rows, found.header
     _insist_on_text(path, rows[:header], words)
     names = list(rows[header][1])
@@ -172,6 +171,8 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
         names = _without_end(names)
     columns = words.columns(names)
     body = list(rows[header + 1 :])
+    if body and _names_again(columns, body[0][1], words):  # symbols below names
+        body.pop(0)
     if body and _is_row_of_units(columns, body[0][1]):
         columns = _with_units(path, columns, *body.pop(0))
     _insist_on_clear_headings(path, columns, words)
@@ -193,13 +194,14 @@ def _table_under(path: str, found: Found, words: Vocabulary) -> Table:
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
     if words.conditions and (block is None or any(column.stated for column in columns)):
         table = _below_each_other(table)
-        table = _with_stated_above(table) if block is None else table
+        table = _with_stated_above(table, remarks) if block is None else table
         _insist_on_no_other_column(table)
         read = {*table.lines.tolist()}
         _insist_on_nothing_between(table, [row for row in kept if row[0] not in read])
     _insist_on_words(table)
     table, given = table.with_constants(), words.constants.get("temperature")
     _insist_on_one_value(table)
+    table = replace(table, above=(*table.above, *remarks))
     place = table.place("temperature") if given and table.rows else None
     if place is not None:
         kelvin = float(table.values(place, "K")[0])
@@ -278,19 +280,19 @@ def _may_be_thousands(
     return _unclear(path, columns, words, "ambiguous-decimals", problem + right)
 
 
-def _with_stated_above(table: Table) -> Table:
+def _with_stated_above(table: Table, remarks: Title | list[tuple[str, ...]]) -> Table:
     """Return the table with a column of each value that it needs and lacks and that one line above states alone."""
-    words = table.vocabulary
+    words, lines = table.vocabulary, [*table.above, *remarks]
     for what in (one for one in words.conditions if one not in words.constants):
         place = next((n for n, one in enumerate(table.columns) if one.heading == OF_HEADINGS[what]), None)
         if place is not None:
             held = {_comparable(row[place], table.columns[place].unit) for row in table.rows}
-            for value, line in _stated_above(table, what).items():
+            for value, line in _stated_above(table, what, lines).items():
                 if _comparable(*_value(value)) not in held:
                     problem = f"{line!r} above the table contradicts the {what} in its headings; delete one of them."
                     raise table.refused("values-contradict", problem)
         elif what in words.from_above and not table.has(what):
-            found = _stated_above(table, what, alone=True)
+            found = _stated_above(table, what, lines, alone=True)
             if len(found) == 1:
                 ((value, line),) = found.items()
                 number, unit = _value(value)
@@ -328,15 +330,13 @@ def _insist_on_nothing_between(table: Table, others: Sequence[NumberedRow]) -> N
                     raise DataFileError(table.path, problem, number, code="values-contradict")
 
 
-def _stated_above(
-    table: Table, what: str, rows: Sequence[Sequence[str]] | None = None, *, alone: bool = False
-) -> dict[str, str]:
+def _stated_above(table: Table, what: str, rows: Sequence[Sequence[str]], *, alone: bool = False) -> dict[str, str]:
     """Return the values of a quantity that lines or cells above a table state by its name and nothing else.
 
     `alone`: only those of lines that state no other value of it.
     """
     found = {}
-    for row in table.above if rows is None else rows:
+    for row in rows:
         parts = (plain_value(part.strip()) for cell in row for part in re.split(r";\s+", cell))
         cells = list(dict.fromkeys(filter(None, parts)))
         every = {value for one, value in table.vocabulary.stated_in(" ".join(cells))[1] if one == what}
@@ -487,6 +487,12 @@ def _by_headings(table: Table) -> Sets | None:
         places = [place for place, column in enumerate(table.columns) if column.stated == stated]
         sets.append(sorted(places, key=lambda place: table.columns[place].quantity))
     shared = [place for place, column in enumerate(table.columns) if not column.stated]
+    for what in {table.columns[place].quantity for place in shared} - {""}:  # each set may have its own time before it
+        own = [place for place in shared if table.columns[place].quantity == what]
+        before = [-1, *(max(one) for one in sets)]
+        if len(own) == len(sets) > 1 and all(a < p < min(s) for a, p, s in zip(before, own, sets, strict=False)):
+            sets = [[place, *one] for place, one in zip(own, sets, strict=True)]
+            shared = [place for place in shared if place not in own]
     values = [{what: _value(text) for what, text in stated} for stated in each]
     above = [*(table.above[-1] if table.above else ()), *[""] * len(table.columns)]
     said = [cell if _says_more(cell, table) else "" for cell in above]
@@ -631,6 +637,13 @@ def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:
     if len(cells) > len(columns) + 1 or any(is_number(cell) for cell in cells if cell.strip() != "1"):  # of a ratio
         return False
     return any(_stated(column, cell) for column, cell in zip(columns, cells, strict=False))
+
+
+def _names_again(columns: Sequence[Column], cells: Sequence[str], words: Vocabulary) -> bool:
+    """Return whether a row names the quantities of the columns above it once more: ``T``, ``f``, ``E'`` below words."""
+    pairs = zip(columns, cells, strict=False)
+    below = [(column.quantity, words.quantity(heading(cell).name)) for column, cell in pairs if column.quantity]
+    return len(below) > 1 and all(above == again for above, again in below)
 
 
 def _stated(column: Column, cell: str) -> str:
