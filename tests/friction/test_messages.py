@@ -384,7 +384,8 @@ def test_refusals_say(call: Callable[[], object], reader: Reader, sentence: str)
             "viscoelastic friction (%)",
             "value",
             (
-                ": there is no column 'viscoelastic friction'; there are 'speed (mm/s)', 'temperature (degC)', "
+                ": no column for viscoelastic friction; friction curves have 'speed (mm/s)', 'temperature (degC)', "
+                "'load (N)' and 'viscoelastic friction', this one has 'speed (mm/s)', 'temperature (degC)', "
                 "'load (N)', 'value'; name them, e.g. columns={'viscoelastic_friction': 'heading'}."
             ),
         ),

@@ -48,7 +48,7 @@ def test_a_creep_strain_lacks_its_stress_which_may_be_one_value(tmp_path):
     path = written(tmp_path / "creep_25C.csv", ("t (s)", "strain (%)"), [TIME, TIME**0.2])
     with refused("missing-columns", DataFileError) as caught:
         vf.read_step_tests(path, kind="creep", deformation="tension")
-    assert caught.value.note.values["missing"] == ["creep compliance", "stress"]
+    assert caught.value.note.values["missing"] == ["stress", "creep compliance"]
     tests = vf.read_step_tests(path, kind="creep", deformation="tension", columns={"stress": "= 0.1 MPa"})
     np.testing.assert_allclose(tests.tests[0].response, 1e-7 * TIME**0.2, rtol=1e-6)  # 1/Pa
 

@@ -20,9 +20,9 @@ from viscofric.notes import Note, dumped, note_of
 from viscofric.readers.dma.names import FROM_TITLES, insist_on_one_specimen, joined_tables, temperatures_of_titles
 from viscofric.readers.headings import OF_HEADINGS, Column, quantity_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
-from viscofric.readers.one_table import table_of
+from viscofric.readers.one_table import insist_on_columns, table_of
 from viscofric.readers.source import Source, bytes_of, is_revolutions
-from viscofric.readers.table import Table, name_columns
+from viscofric.readers.table import Table
 from viscofric.readers.tables import find_tables
 from viscofric.readers.workbook import is_workbook
 from viscofric.traction import notes_on_copies, notes_on_friction
@@ -240,15 +240,8 @@ def _with_temperatures(table: Table) -> tuple[Table, list[str]]:
 def _places(table: Table) -> dict[str, int]:
     """Return the index of each column; raise an error if a required one is missing."""
     found = {name: table.place(heading.lower()) for name, (_, heading, _) in COLUMNS.items()}
-    places = {name: place for name, place in found.items() if place is not None}
-    missing = CURVES.missing(column.quantity for column in table.columns)
-    if missing:
-        unit, heading = next((unit, heading) for unit, heading, _ in COLUMNS.values() if heading == missing[0])
-        example = {"m/s": "mm/s", "K": "degC"}.get(unit, unit)
-        right = f"{heading} ({example})" if unit else heading
-        problem = f"there is no column {right!r}; there are {table.headings()}"
-        raise table.refused("missing-columns", problem, name_columns(CURVES.key, missing), missing)
-    return places
+    insist_on_columns(table, CURVES)
+    return {name: place for name, place in found.items() if place is not None}
 
 
 def _insist_on_absolute_errors(table: Table, places: dict[str, int]) -> None:

@@ -227,8 +227,9 @@ def guessed(rows: Sequence[NumberedRow], words: Vocabulary) -> list[str]:
 
 def is_number(cell: str) -> bool:
     """Return whether a cell is a number, with a decimal point or comma, perhaps in per cent."""
+    plain = plain_number(cell).removesuffix("%").replace(",", ".")
     try:
-        float(plain_number(cell).removesuffix("%").replace(",", "."))
+        float(plain)
     except ValueError:
         return False
-    return True
+    return "_" not in plain

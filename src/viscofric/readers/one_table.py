@@ -14,7 +14,7 @@ from viscofric.notes import setting
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary, option_of
 from viscofric.readers.source import Source, bytes_of, checked_sheet, insist_on_content
-from viscofric.readers.table import Table, name_columns
+from viscofric.readers.table import Table
 from viscofric.readers.tables import find_tables
 from viscofric.readers.workbook import is_workbook
 
@@ -107,7 +107,5 @@ def history_columns(
 
 def insist_on_columns(table: Table, vocabulary: Vocabulary) -> None:
     """Raise `DataFileError` where a table lacks what its vocabulary needs."""
-    missing = vocabulary.missing(column.quantity for column in table.columns)
-    if missing:
-        problem = f"there is no column of the {' and the '.join(missing)}; there are {table.headings()}"
-        raise table.refused("missing-columns", problem, name_columns(vocabulary.key, missing), missing)
+    if missing := vocabulary.missing(column.quantity for column in table.columns):
+        raise table.lacking(missing)

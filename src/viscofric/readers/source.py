@@ -213,6 +213,15 @@ def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, fl
         return conversion(_SPELLINGS[folded], unit, name)
 
 
+def converted(number: str, unit: str, si: str) -> float | None:
+    """Return a number as printed in an SI unit, None if its unit is of another kind."""
+    try:
+        factor, offset = unit_conversion(unit, si)
+        return factor * float(number.replace(",", ".").replace("−", "-")) + offset
+    except (InputError, ValueError):
+        return None
+
+
 def is_revolutions(unit: str) -> bool:
     """Return whether a unit is that of revolutions per minute."""
     return bool(re.fullmatch(r"rpm|(1|u|r|tr|rev|umdr?\.?)/min\.?|min(\^?-1|⁻¹)", unit.replace(" ", ""), re.IGNORECASE))

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from viscofric.errors import DataFileError, InputError, not_needed
+from viscofric.errors import DataFileError, not_needed
 from viscofric.notes import Note
 from viscofric.readers.dma.names import (
     TITLES_STATE,
@@ -34,11 +34,11 @@ from viscofric.readers.source import (
     LIKE_THOUSANDS,
     MASSES,
     Source,
+    converted,
     decimal_comma,
     plain_number,
     same_unit,
     to_rad_per_second,
-    unit_conversion,
 )
 from viscofric.readers.table import MISSING, NumberedRow, Table, make_table, name_columns
 from viscofric.readers.workbook import is_workbook, sheets
@@ -468,15 +468,6 @@ def _in_si(number: str, unit: str, si: str) -> float | None:
         factor = to_rad_per_second(unit, angular=False)
         return None if factor is None else factor * float(number.replace(",", "."))
     return converted(number, unit, si)
-
-
-def converted(number: str, unit: str, si: str) -> float | None:
-    """Return a number as printed in an SI unit, None if its unit is of another kind."""
-    try:
-        factor, offset = unit_conversion(unit, si)
-        return factor * float(number.replace(",", ".")) + offset
-    except (InputError, ValueError):
-        return None
 
 
 def _by_headings(table: Table) -> Sets | None:

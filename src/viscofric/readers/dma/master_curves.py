@@ -17,7 +17,7 @@ from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import dma_table, reptate, workbook
 from viscofric.readers.one_table import only_table
-from viscofric.readers.source import Source, checked_sheet, unit_conversion
+from viscofric.readers.source import Source, checked_sheet, converted, unit_conversion
 from viscofric.readers.table import MILLIPASCAL, Table
 from viscofric.units import Quantity, checked_poisson_ratio, positive, shown_celsius
 
@@ -170,10 +170,9 @@ def _stated_reference(source: Source) -> float:
     """Return the reference temperature that a remark of a text table states, K, NaN without one."""
     for line in (source.text or "").splitlines()[:_REMARKS]:
         found = _REFERENCE.fullmatch(line)
-        unit = found and (found["unit"] or found["before"])
-        if found and unit:
-            factor, offset = unit_conversion(unit, "K", "reference temperature")
-            return factor * float(found["number"].replace(",", ".").replace("−", "-")) + offset
+        kelvin = found and converted(found["number"], found["unit"] or found["before"] or "", "K")
+        if kelvin:
+            return kelvin
     return float("nan")
 
 

@@ -20,9 +20,8 @@ from viscofric.readers.headings import (
     plain_value,
     with_primes,
 )
-from viscofric.readers.source import Source
+from viscofric.readers.source import Source, converted
 from viscofric.readers.table import Table
-from viscofric.units import CELSIUS_ZERO
 
 #: Kind of the moduli and the words of the file that state it, or (None, "").
 Said = tuple[Deformation | None, str]
@@ -222,10 +221,9 @@ def temperature_in_name(name: str) -> float | None:
     if len(found) != 1 or found[0]["dash"]:
         return None
     one = found[0]
-    number = float(one["number"].replace(",", ".")) * (-1.0 if one["minus"] or one["sign"] in ("-", "−", "–") else 1.0)
-    number = (number - 32.0) / 1.8 if one["unit"].endswith("F") else number
-    kelvin = number if one["unit"] == "K" else number + CELSIUS_ZERO
-    return kelvin if kelvin > _COLDEST else None
+    below_zero = one["minus"] or one["sign"] in ("-", "−", "–")
+    kelvin = converted(f"{'-' if below_zero else ''}{one['number']}", one["unit"].replace("_", ""), "K")
+    return kelvin if kelvin and kelvin > _COLDEST else None
 
 
 #: Where there is no column of temperature.

@@ -19,7 +19,7 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.source import Source, fraction_of, unit_conversion
-from viscofric.readers.table import Table, name_columns
+from viscofric.readers.table import Table
 from viscofric.step_tests import StepKind
 
 TIME = frozenset(
@@ -164,9 +164,7 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
     stress, strain = table.place("stress"), table.place("strain")
     if stress is None or strain is None:
         beside = ["stress"] if strain is not None else ["strain"] if stress is not None else []
-        missing = [_COLUMN[kind], *beside]
-        problem = f"no column for {' or '.join(missing)}; {STEPS.example}, this one has {table.headings()}"
-        raise table.refused("missing-columns", problem, name_columns(table.vocabulary.key, missing[-1:]), missing)
+        raise table.lacking([*beside, _COLUMN[kind]])
     stresses = table.values(stress, "Pa", or_missing=True)
     column = table.columns[strain]
     fraction = fraction_of(column.unit) if column.unit else None

@@ -22,11 +22,12 @@ from viscofric.notes import Note
 from viscofric.readers.dma.names import DMA, quantity
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
-from viscofric.readers.source import Source
+from viscofric.readers.headings import heading
+from viscofric.readers.source import Source, converted, unit_conversion
 from viscofric.readers.table import Table, instrument_table
 from viscofric.readers.tables import numbered_rows
 from viscofric.readers.workbook import sheet_names, sheets
-from viscofric.units import CELSIUS_ZERO, conversion, shown_celsius
+from viscofric.units import CELSIUS_ZERO, shown_celsius
 
 Rows = Sequence[Sequence[Any]]
 
@@ -79,7 +80,7 @@ def shift_list(tables: Mapping[str, Rows], path: str) -> ShiftList | None:
             wlf = _constants(words)
         elif label.startswith("Temp"):
             in_table = True
-            factor, offset = _unit_of_label(label)
+            factor, offset = unit_conversion(heading(label).unit or "degC", "K")
         elif in_table and label:
             temperature, shift = _pair(row, place, path)
             numbers.append((_above_zero(factor * temperature + offset, place, path), shift))
@@ -97,12 +98,6 @@ def _pair(row: Sequence[Any], place: int, path: str) -> tuple[float, float]:
             path, f"sheet {SHIFT_LIST!r}, row {place} must hold a temperature and a shift.", code="shift-list"
         )
     return float(cells[0]), float(cells[1])
-
-
-def _unit_of_label(label: str) -> tuple[float, float]:
-    """Return factor and offset to kelvin by the unit in "Temp. [K]"; °C where there is none."""
-    match = re.search(r"[\[(]\s*°?\s*([CKF])\s*[\])]", label, re.IGNORECASE)
-    return conversion({"C": "degC", "K": "K", "F": "degF"}[match[1].upper()] if match else "degC", "K")
 
 
 def _above_zero(kelvin: float, place: int, path: str) -> float:
@@ -131,11 +126,7 @@ def insist_on_sense(shifts: ShiftList, reference: float, path: str) -> None:
 
 def _kelvin(words: str) -> float | None:
     match = _TEMPERATURE.search(words)
-    if match is None:
-        return None
-    unit = {"c": "degC", "k": "K", "f": "degF"}[match[2].strip("°").strip().lower()]
-    factor, offset = conversion(unit, "K")
-    return factor * float(match[1].replace(",", ".")) + offset
+    return converted(match[1], match[2], "K") if match else None
 
 
 def _constants(words: str) -> tuple[float, float] | None:

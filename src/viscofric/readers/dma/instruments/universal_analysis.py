@@ -19,7 +19,6 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import DataFileError
-from viscofric.files import decoded
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.ta_steps import StepText, readings_of, steps_of
 from viscofric.readers.dma.readings import Readings
@@ -53,7 +52,7 @@ def read(source: Source) -> Readings:
     notes: list[str] = []
     if end < 0:
         kind = "TA Instruments Universal Analysis text"
-        header, rows = _split(source.path, _text(source))
+        header, rows = _split(source.path, source.text or "")
         names, units = _signals(source.path, header)
         rows, where = _measured(source.path, len(names), rows, notes), "line"
     else:
@@ -84,13 +83,6 @@ def _end_of_header(data: bytes) -> int:
     while place >= 0 and place % 2:
         place = data.find(_END_OF_HEADER, place + 1)
     return place
-
-
-def _text(source: Source) -> str:
-    data = source.data
-    if not data.startswith(_UTF16) and data[1:2] == b"\0":  # UTF-16 without its mark
-        data = _UTF16 + data
-    return decoded(data[: len(data) - len(data) % 2] if data.startswith(_UTF16) else data, source.path)
 
 
 def _tag(line: str) -> tuple[str, str]:

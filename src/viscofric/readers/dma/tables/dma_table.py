@@ -27,9 +27,9 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
-from viscofric.readers.source import PRINTED_FREQUENCY, Source, fraction_of, to_rad_per_second
+from viscofric.readers.source import PRINTED_FREQUENCY, Source, converted, fraction_of, to_rad_per_second
 from viscofric.readers.table import MISSING, Table, or_name_it
-from viscofric.readers.tables import converted, find_tables, holds_table
+from viscofric.readers.tables import find_tables, holds_table
 
 #: Of text tables: commas, semicolons, tabs or blanks between columns.
 NAME = "delimited text"

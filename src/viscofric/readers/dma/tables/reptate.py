@@ -15,10 +15,10 @@ from viscofric.errors import DataFileError
 from viscofric.readers.dma.names import DMA, quantity
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
 from viscofric.readers.dma.tables.dma_table import read_points
+from viscofric.readers.header_rows import is_number
 from viscofric.readers.headings import heading
-from viscofric.readers.source import Source
+from viscofric.readers.source import Source, converted
 from viscofric.readers.table import Table, instrument_table
-from viscofric.units import CELSIUS_ZERO
 
 NAME = "RepTate text (.osc, .tts)"
 #: Lines that show whether columns have names.
@@ -36,7 +36,7 @@ def recognises(source: Source) -> bool:
     if not _PARAMETERS.fullmatch(first):
         return False
     columns = [line.split() for line in below if not line.lstrip().startswith("#")]
-    without_names = bool(columns) and len(columns[0]) > 2 and all(map(_is_number, columns[0][:3]))
+    without_names = bool(columns) and len(columns[0]) > 2 and all(map(is_number, columns[0][:3]))
     return without_names or bool({"T", "Mw"} & set(_parameters(first)))
 
 
@@ -85,7 +85,7 @@ def table_of(source: Source) -> tuple[Table, dict[str, str]]:
     ]
     cells = [(number, [row[place] for place in places.values()]) for number, row in rows]
     held = parameters.get("T", "")
-    if names and "temperature" not in places and _is_number(held):
+    if names and "temperature" not in places and is_number(held):
         columns.append(("T", "degC", "temperature"))
         cells = [(number, [*row, held]) for number, row in cells]
     return instrument_table(source.path, columns, cells, DMA), parameters
@@ -93,17 +93,16 @@ def table_of(source: Source) -> tuple[Table, dict[str, str]]:
 
 def temperature_of(parameters: dict[str, str]) -> float:
     """Return T of the first line, K (the file's is in °C), NaN without it."""
-    held = parameters.get("T", "")
-    return float(held) + CELSIUS_ZERO if _is_number(held) else float("nan")
+    return converted(parameters.get("T", ""), "degC", "K") or float("nan")
 
 
 def _header(body: list[tuple[int, str]]) -> tuple[list[str], list[str]]:
     """Return the names and units of the columns, none where the first row is one of numbers."""
-    if not body or _is_number(body[0][1].split()[0]):
+    if not body or is_number(body[0][1].split()[0]):
         return [], []
     rows = [re.split(r"\t", line) if "\t" in line else line.split() for _, line in body[:2]]
     names = [cell.strip() for cell in rows[0]]
-    units = [] if len(rows) < 2 or _is_number(rows[1][0]) else [cell.strip().strip("[]()") for cell in rows[1]]
+    units = [] if len(rows) < 2 or is_number(rows[1][0]) else [cell.strip().strip("[]()") for cell in rows[1]]
     return names, units
 
 
@@ -133,14 +132,6 @@ def _unit(what: str, unit: str) -> str:
     if what == "temperature":
         return "K" if unit == "K" else "degC"
     return unit or ("rad/s" if what == "frequency" else "Pa")
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return "_" not in cell
 
 
 #: RepTate's names of columns -> heading with the unit that it means; its tests are in shear.
