@@ -82,6 +82,11 @@ def test_point_and_comma_that_contradict_are_refused():
         rheocompass.read(written(sweep([["25.0", "1", "1000,5", "100"], ["25.0", "10", "2000.5", "200"]])))
 
 
+def test_thousands_that_may_be_decimals_are_refused():
+    with refused("mixed-decimals", 5):  # 1.500 may be 1500
+        rheocompass.read(written(sweep([["25,0", "1", "1.500", "100"], ["25,0", "10", "1.600", "200"]])))
+
+
 def test_frequency_in_hertz_is_turned_into_radians():
     columns = ("Temperature", "Frequency", "Storage Modulus", "Loss Modulus")
     readings = rheocompass.read(written(sweep(ROWS, columns, ("[°C]", "[Hz]", "[Pa]", "[Pa]"))))

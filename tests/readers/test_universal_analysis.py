@@ -226,7 +226,7 @@ def test_file_of_another_instrument_says_what_it_holds(tmp_path):
         (lambda text: text[: text.index("StartOfData")], "has no line 'StartOfData'"),
         (lambda text: text[: text.index("Nsig")], "has no line 'StartOfData'"),
         (lambda text: text.replace("StartOfData", "StartOfData\n1.0\t2.0"), "the row has 2 cells"),
-        (lambda text: text.replace("\t0.0523", "\t0,0523"), "decimals have a comma here and a point in line"),
+        (lambda text: text.replace("\t0.0523", "\t0,0523"), "has a point, but other numbers of the file have a comma"),
         (lambda text: text[: text.index("StartOfData") + 11], "no frequency sweep"),
     ],
 )

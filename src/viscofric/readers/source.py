@@ -183,6 +183,45 @@ def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
     return bool(commas)
 
 
+_THOUSANDS_COMMA = re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d*)?([eE][+-]?\d+)?")
+_THOUSANDS_POINT = re.compile(r"[+-]?\d{1,3}(\.\d{3})+(,\d*)?([eE][+-]?\d+)?")
+
+
+@dataclass(frozen=True)
+class Decimals:
+    """The separators of thousands (usually none) and decimals in one file of an instrument."""
+
+    thousands: str = ""
+    point: str = "."
+
+    @classmethod
+    def of(cls, path: str, numbers: Sequence[tuple[str, int]]) -> Decimals:
+        """Return those of all numbers of a file, each with its row, or raise `DataFileError` if they contradict."""
+        commas = [number for number in numbers if "," in number[0]]
+        points = [number for number in numbers if "." in number[0]]
+        if not commas:
+            return cls()
+        if not points:
+            return cls("", "," if decimal_comma(path, commas) else ".")
+        both = any("." in number for number, _ in commas)  # without one, "1.500" beside "2,5" may be 1500 or 1.5
+        if both and all(_THOUSANDS_COMMA.fullmatch(number) for number, _ in commas):
+            return cls(",", ".")
+        if both and all(_THOUSANDS_POINT.fullmatch(number) for number, _ in points):
+            return cls(".", ",")
+        raise DataFileError(
+            path,
+            f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals and "
+            "thousands cannot be distinguished; write all decimals in one way.",
+            points[0][1],
+            code="mixed-decimals",
+        )
+
+    def plain(self, cell: str) -> str:
+        """Return a cell with a decimal point and without separators of thousands."""
+        plain = cell.replace(self.thousands, "") if self.thousands else cell
+        return plain.replace(",", ".") if self.point == "," else plain
+
+
 def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
     """Return ``(factor, offset)`` to an SI unit as `viscofric.units.conversion`, also for plain powers (``N/mm2``)."""
     # A unit that is none as it is written is read without regard to case: ``Mpa`` and ``mpa`` are MPa, ``mPa`` is not.

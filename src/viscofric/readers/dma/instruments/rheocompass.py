@@ -27,7 +27,7 @@ from viscofric.readers.dma import names
 from viscofric.readers.dma.names import DMA, tools_in
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
-from viscofric.readers.source import Source, decimal_comma
+from viscofric.readers.source import Decimals, Source
 from viscofric.readers.table import Table, instrument_table
 
 #: Line and cells of points.
@@ -44,9 +44,6 @@ _SWEEP = ("storage modulus", "loss modulus")
 _ROWS_BEFORE_POINTS = 3
 #: Of the number of an interval, and of its points.
 _MOST_DIGITS = 6
-
-_THOUSANDS_COMMA = re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d*)?([eE][+-]?\d+)?")
-_THOUSANDS_POINT = re.compile(r"[+-]?\d{1,3}(\.\d{3})+(,\d*)?([eE][+-]?\d+)?")
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,46 +163,6 @@ def _padded(row: list[str], size: int) -> list[str]:
     return (row + [""] * size)[:size]
 
 
-@dataclass(frozen=True)
-class Decimals:
-    """The separators of thousands (usually none) and decimals in one file."""
-
-    thousands: str = ""
-    point: str = "."
-
-    @classmethod
-    def of(cls, path: str, found: list[Interval]) -> Decimals:
-        """Return those of all numbers of the intervals, or raise `DataFileError` if they contradict each other."""
-        numbers = [
-            (row[place], line)
-            for interval in found
-            for place in set(interval.places.values())
-            for line, row in interval.rows
-        ]
-        commas = [number for number in numbers if "," in number[0]]
-        points = [number for number in numbers if "." in number[0]]
-        if not commas:
-            return cls()
-        if not points:
-            return cls("", "," if decimal_comma(path, commas) else ".")
-        if all(_THOUSANDS_COMMA.fullmatch(number) for number, _ in commas):
-            return cls(",", ".")
-        if all(_THOUSANDS_POINT.fullmatch(number) for number, _ in points):
-            return cls(".", ",")
-        raise DataFileError(
-            path,
-            f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals and "
-            "thousands cannot be distinguished; export all decimals in one way.",
-            points[0][1],
-            code="mixed-decimals",
-        )
-
-    def plain(self, cell: str) -> str:
-        """Return a cell with a decimal point and without separators of thousands."""
-        plain = cell.replace(self.thousands, "") if self.thousands else cell
-        return plain.replace(",", ".") if self.point == "," else plain
-
-
 NAME = "Anton Paar RheoCompass text"
 
 #: Relative range of a frequency that is held, as measured.
@@ -221,7 +178,13 @@ def read(source: Source) -> Readings:
     """Return the points of all frequency sweeps; each interval is a step."""
     found = intervals(source)
     oscillating = [interval for interval in found if interval.oscillates]
-    decimals = Decimals.of(source.path, oscillating)
+    numbers = [
+        (row[place], line)
+        for interval in oscillating
+        for place in set(interval.places.values())
+        for line, row in interval.rows
+    ]
+    decimals = Decimals.of(source.path, numbers)
     notes: list[Note] = []
     tables: list[Table] = []
     for interval in oscillating:

@@ -16,7 +16,7 @@ from viscofric.readers.dma.names import DMA, is_load
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
 from viscofric.readers.headings import Column, with_primes
-from viscofric.readers.source import COMMA_NUMBER, Source, Test, decimal_comma
+from viscofric.readers.source import Decimals, Source, Test
 from viscofric.readers.table import Table
 
 #: Tests in words.
@@ -144,8 +144,15 @@ def steps_of(path: str, texts: Sequence[StepText], where: str = "line") -> list[
         if "storage modulus" in places:
             _insist_on_columns(path, text)
         found.append((text, places))
-    comma = _decimal_comma(path, found)
-    return [Step(text.name, _table(path, text, places, comma), where) for text, places in found]
+    numbers = [
+        (row[place], line)
+        for text, places in found
+        for line, row in text.rows
+        for place in places.values()
+        if place < len(row)
+    ]
+    decimals = Decimals.of(path, numbers)
+    return [Step(text.name, _table(path, text, places, decimals), where) for text, places in found]
 
 
 def _insist_on_columns(path: str, table: StepText) -> None:
@@ -157,26 +164,10 @@ def _insist_on_columns(path: str, table: StepText) -> None:
             raise DataFileError(path, problem, line, code="row-length")
 
 
-def _decimal_comma(path: str, found: Sequence[tuple[StepText, dict[str, int]]]) -> bool:
-    numbers = [
-        (cells[place], line)
-        for table, places in found
-        for line, cells in table.rows
-        for place in places.values()
-        if place < len(cells)
-    ]
-    comma = next((line for cell, line in numbers if COMMA_NUMBER.fullmatch(cell)), None)
-    point = next((line for cell, line in numbers if "." in cell), None)
-    if comma and point:
-        problem = f"decimals have a comma here and a point in line {point}; write all of them in one way."
-        raise DataFileError(path, problem, comma, code="mixed-decimals")
-    return decimal_comma(path, numbers)
-
-
-def _table(path: str, text: StepText, places: Mapping[str, int], comma: bool) -> Table:
+def _table(path: str, text: StepText, places: Mapping[str, int], decimals: Decimals) -> Table:
     """Return the columns that have a number; a cell that is no number of an instrument, such as ``1_000``, is empty."""
     cells = {
-        role: [_plain(row[place], comma) if place < len(row) else "" for _, row in text.rows]
+        role: [_plain(row[place], decimals) if place < len(row) else "" for _, row in text.rows]
         for role, place in places.items()
     }
     columns = []
@@ -189,9 +180,8 @@ def _table(path: str, text: StepText, places: Mapping[str, int], comma: bool) ->
     return Table(f"{path}, step {text.name!r}", tuple(columns), rows, lines, False, vocabulary=DMA)
 
 
-def _plain(cell: str, comma: bool) -> str:
-    plain = cell.replace("−", "-")
-    plain = plain.replace(",", ".") if comma else plain
+def _plain(cell: str, decimals: Decimals) -> str:
+    plain = decimals.plain(cell.replace("−", "-"))
     return plain if _NUMBER.fullmatch(plain) and np.isfinite(float(plain)) else ""
 
 
