@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import viscofric as vf
 from marks import apart
+from viscofric.motion.chains import Moment
+from viscofric.motion.free.solve import _compared
 from viscofric.motion.march import march
 from viscofric.motion.memory import Modes
+from viscofric.motion.mover import Observation, Sizes
 from viscofric.motion.periodic import PeriodicMover
+from viscofric.motion.schedule import Instant, Reading
 from viscofric.motion.solve import checked_problem
 
 RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
@@ -135,6 +141,24 @@ def test_the_stated_error_of_an_energy_is_not_below_its_imbalance():
     )
     assert np.all(one.errors.energy >= np.abs(one.errors.balance))
     assert np.all(np.abs(one.dissipated - two.dissipated) <= one.errors.energy + two.errors.energy)
+
+
+def test_friction_of_the_memory_and_of_the_slopes_differ_by_no_more_than_their_error_by_cells():
+    """Both are the same without cells; one of them may be unchanged from grid to grid by chance."""
+
+    def level(memory, slopes):
+        seen = Observation(1.0, 1e-4, (memory, 0.0), 1e-6, 0.0, 0.0, {}, force_on_slopes=(slopes, 0.0))
+        moments = [
+            Moment(Instant(time, Reading(time, 0.0), np.zeros(2), load=1.0), seen, 0.0, Sizes(0.0, 0.0, 0.0, 0.0), None)
+            for time in (0.0, 0.5, 1.0)
+        ]
+        setting = SimpleNamespace(schedule=SimpleNamespace(kinks=np.array([0.0, 1.0])))
+        return SimpleNamespace(
+            track=SimpleNamespace(moments=moments), mover=SimpleNamespace(setting=setting), cells=100.0
+        )
+
+    for one in _compared(level(0.30, 0.32), level(0.30, 0.33), [0, 1, 2]):
+        assert one.errors.friction >= 0.02
 
 
 @pytest.mark.slow

@@ -40,8 +40,8 @@ _MOST_POINT_CELLS, _MOST_LINE_CELLS = 400, 3000
 _FINER_STEPS = 0.7
 # Part of the change from grid to grid that is left as the error, which falls with the square of the cells.
 _LEFT = 1.0 / (_FINER**2 - 1.0)
-# Part of the error of the steps that is left after its extrapolation; margin of the errors of friction and energy by
-# cells, whose signs change; least one of the energy, over that of cells of second order (benchmarks/motion).
+# Part of the error of the steps that is left after its extrapolation; margin of the errors by cells, whose signs
+# change; least one of the energy, over that of cells of second order (benchmarks/motion).
 _STEPS_LEFT, _MARGIN, _LEAST_ENERGY = 0.5, 2.0, 1.5
 # After a start or a turn, friction changes within slides of no length: so many steps, and cells of the coarser grid or
 # part of the longest contact, are not judged, of the way to the next turn at most such a part.
@@ -231,20 +231,22 @@ def _largest(level: Level) -> Sizes:
 
 def _compared(level: Level, coarser: Level, judged: Sequence[int]) -> list[Moment[Any]]:
     """Return the moments of the finer grid with the errors of steps and cells, the work of friction extrapolated."""
-    # Friction is that of the memory, or of the pressure on the indenter's slopes if that has changed less. The usual
-    # change is that of the moments that are judged.
+    # Friction is that of the memory, or of the pressure on the indenter's slopes if that has changed less; they differ
+    # by the cells only. The usual change is that of the moments that are judged.
     fine, coarse = level.track.moments, coarser.track.moments
     kinks = level.mover.setting.schedule.kinks
     here, there = np.array([_values(one) for one in fine]), np.array([_values(one) for one in coarse])
     clock, before = _order([one.instant.time for one in fine]), _order([one.instant.time for one in coarse])
     left = _LEFT * (here - _interpolated(clock, before, there, kinks))
+    forces = left[:, 3:5], left[:, 5:7], here[:, 3:5] - here[:, 5:7]
+    off = np.column_stack([np.abs(left[:, :3]), *(np.hypot(*one.T) for one in forces)])
     # One change may be small by chance.
-    usual = np.sqrt(np.mean(left[judged or slice(None)] ** 2, axis=0))
-    load, depth, energy, *forces = np.maximum(np.abs(left), usual).T[:7]
-    on_slopes = bool(math.hypot(*usual[5:7]) < math.hypot(*usual[3:5]))
-    friction = _MARGIN * np.hypot(*(forces[2:] if on_slopes else forces[:2]))
+    usual = np.sqrt(np.mean(off[judged or slice(None)] ** 2, axis=0))
+    load, depth, energy, memory, slopes, apart = _MARGIN * np.maximum(off, usual).T
+    on_slopes = bool(usual[4] < usual[3])
+    friction = np.maximum(slopes if on_slopes else memory, apart)
     # All energies share the change by the first indentation, so that their mean is no measure.
-    energy = _MARGIN * np.maximum(energy, _LEAST_ENERGY * here[:, 2] / max(level.cells, 1.0) ** 2)
+    energy = np.maximum(energy, _MARGIN * _LEAST_ENERGY * here[:, 2] / max(level.cells, 1.0) ** 2)
     found = []
     for place, one in enumerate(fine):
         of_cells = load[place], depth[place], friction[place], energy[place]
