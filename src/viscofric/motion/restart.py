@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -19,22 +19,21 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.motion.chains import Reached, Track
-    from viscofric.motion.free.stored import Level
+    from viscofric.motion.free.stored import Basis, Level
     from viscofric.motion.history import History
     from viscofric.motion.mover import Mover
     from viscofric.motion.problem import Problem
 
 # Relative difference that is rounding: of values, and of modes that may have been fitted on another machine.
 _ROUNDING, _FITTED = 1e-9, 1e-6
-#: Numbers of modes.
-NUMBERS = ("instantaneous", "at_once", "error")
 
 
 class Begun(NamedTuple):
     """A march that may be continued."""
 
     track: Track[Any]  # all that it has found, with the states that it has reached
-    basis: Mapping[str, Array]  # places of the springs, modes of the waves, or units, modes and grid of the cells
+    basis: Array | Modes | Basis  # places of the springs, modes of the waves, or units, modes and grid of the cells
+    all_steps: bool = True  # whether they have returned all steps, or certain times
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,29 +48,19 @@ class Restart:
     @classmethod
     def of(cls, problem: Problem, history: History, method: str, mover: Mover[Any], track: Track[Any]) -> Restart:
         """Return what a march leaves."""
-        if isinstance(mover, NormalMotion):
-            basis = {"s": mover.s}
-        else:
-            modes: Modes = mover.merged  # type: ignore[attr-defined]
-            basis = {"C": modes.C, "tau": modes.tau}
-            basis |= {one: np.array(getattr(modes, one)) for one in NUMBERS}
+        basis = mover.s if isinstance(mover, NormalMotion) else mover.merged  # type: ignore[attr-defined]
         return cls(method, history, (Begun(track, basis),), _same(problem, basis))
 
     @classmethod
     def on_cells(cls, problem: Problem, history: History, levels: Sequence[Level], *, all_steps: bool) -> Restart:
         """Return what marches on grids leave, which have returned all steps or certain times."""
-        marches = tuple(Begun(one.track, one.basis | {"all_steps": np.array(all_steps)}) for one in levels)
+        marches = tuple(Begun(one.track, one.basis, all_steps) for one in levels)
         return cls("grid", history, marches, _same(problem, marches[0].basis))
 
     @property
     def track(self) -> Track[Any]:
         """The only march, or that on the finest grid."""
         return self.marches[-1].track
-
-    @property
-    def basis(self) -> Mapping[str, Array]:
-        """What it is made on."""
-        return self.marches[-1].basis
 
     @property
     def reached(self) -> Reached[Any]:
@@ -107,7 +96,7 @@ class Restart:
         reached = self.track.reached
         if self.method == "waves":
             return _seen(self._waves(problem), reached)
-        fresh, s = NormalMotion.of(problem), self.basis["s"]
+        fresh, s = NormalMotion.of(problem), cast("Array", self.marches[0].basis)
         if np.array_equal(fresh.s, s):
             return _seen(fresh, reached)
         states = [link.state for link in reached.pair]
@@ -132,8 +121,8 @@ class Restart:
         problem = replace(problem, schedule=replace(now, kinks=kinks))
         setting = Setting.of(problem, Modes.of(problem.schedule.spectrum))
         levels = []
-        for track, basis in self.marches:
-            level = level_of(problem, setting, basis, track)
+        for track, basis, _ in self.marches:
+            level = level_of(problem, setting, cast("Basis", basis), track)
             mover, held = level.mover, level.mover.setting.modes
             setting = setting.in_units_of(mover.setting)
             here = setting.shortest_time(mover.grid.spacing, times), setting.longest_time
@@ -144,10 +133,10 @@ class Restart:
 
     def _insist_on_times(self, times: Sequence[float] | None) -> None:
         """Refuse other times than those of the run where only its coarser grid has come to."""
-        (coarse, basis), fine = self.marches[0], self.track.reached
+        (coarse, _, all_steps), fine = self.marches[0], self.track.reached
         between = [one for one in times or () if fine.told < one <= (coarse.reached.time or 0.0)]
         known = {one.instant.time for one in coarse.moments}
-        if coarse is not self.track and not basis["all_steps"] and (times is None or {*between} - known):
+        if coarse is not self.track and not all_steps and (times is None or {*between} - known):
             raise InputError(
                 "times: differ from those of the run, whose coarser grid has passed them; ask for the same.",
                 code="other-times",
@@ -157,8 +146,7 @@ class Restart:
         from viscofric.motion.periodic import PeriodicMover
         from viscofric.motion.wave_memory import resolved_times
 
-        one = self.basis
-        held = Modes(C=one["C"], tau=one["tau"], **{name: float(one[name]) for name in NUMBERS})
+        held = cast("Modes", self.marches[0].basis)
         return PeriodicMover(problem, replace(held, error=_merged(held, problem, *resolved_times(problem))))
 
 
@@ -195,7 +183,7 @@ def _other_past(time: float) -> InputError:
     )
 
 
-def _same(problem: Problem, basis: Mapping[str, Array]) -> dict[str, Array]:
+def _same(problem: Problem, basis: Array | Modes | Basis) -> dict[str, Array]:
     """Return the numbers by which a contact is known."""
     spectrum, layer, indenter = problem.schedule.spectrum, problem.layer, problem.indenter
     found = {
@@ -204,11 +192,11 @@ def _same(problem: Problem, basis: Mapping[str, Array]) -> dict[str, Array]:
         "layer": np.array([] if layer is None else [float(layer.thickness), float(layer.bonded)]),
         "modulus of the indenter": np.array([problem.counterface]),
     }
-    if "s" in basis:
-        return found | {"indenter": profile(indenter, basis["s"])}  # type: ignore[arg-type]
-    if "scale" in basis:
-        return found | {"indenter": _heights(indenter, basis["scale"][0].item())}  # type: ignore[arg-type]
-    return found | {"surface": np.append(indenter.z.ravel(), indenter.spacing)}  # type: ignore[union-attr]
+    if isinstance(basis, Modes):
+        return found | {"surface": np.append(indenter.z.ravel(), indenter.spacing)}  # type: ignore[union-attr]
+    if isinstance(basis, np.ndarray):
+        return found | {"indenter": profile(indenter, basis)}  # type: ignore[arg-type]
+    return found | {"indenter": _heights(indenter, basis.units[0])}  # type: ignore[arg-type]
 
 
 def _heights(indenter: Indenter, length: float) -> Array:

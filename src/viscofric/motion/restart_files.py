@@ -1,41 +1,49 @@
-"""Files of the states of runs: named arrays (.npz of NumPy) without executable content."""
+"""Files of the states of runs: records as JSON beside their arrays (.npz of NumPy), without executable content."""
 
 from __future__ import annotations
 
 import dataclasses
 import hashlib
 import io
+import json
 import math
 import zipfile
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
 from os import PathLike
-from typing import Any
+from typing import Any, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import LARGEST_FILE, LARGEST_UNPACKED, file_path, insist_on_size, read_bytes, write_atomically
-from viscofric.motion.chains import Difference, Link, Moment, Pair, Reached, Track
+from viscofric.motion.chains import Track
 from viscofric.motion.free.state import FreeState
-from viscofric.motion.free.stored import packed, unpacked
+from viscofric.motion.free.stored import Basis
 from viscofric.motion.history import History
-from viscofric.motion.mover import Field, Observation, Sizes
+from viscofric.motion.memory import Modes
+from viscofric.motion.mover import State
 from viscofric.motion.normal import SpringState
 from viscofric.motion.periodic import PeriodicState
-from viscofric.motion.restart import NUMBERS, Begun, Restart
-from viscofric.motion.schedule import Instant, Reading
+from viscofric.motion.restart import Begun, Restart
+from viscofric.motion.schedule import Reading
 
-_FORMAT, _DIGEST = "viscofric state 2", "sha256"
-#: Beginnings of the names of a march, and of that on the coarser grid of cells.
-_MARCHES = "", "coarser/"
-_DAMAGED = (KeyError, ValueError, TypeError, IndexError, OSError, EOFError, zipfile.BadZipFile, InputError)
-_REACHED = ("time", "since", "jumped", "told", "pace", "share", "stored", "limited")
-_HISTORY = ("time", "control", "position", "speed", "temperature", "before", "direction")
-_INSTANT, _MOMENT = ("time", "clock", "position"), ("work", "rubbed", "slopes", "errors")
-_FORCES = "friction_force", "force_on_slopes"
-_SEEN = ("load", "depth", *_FORCES, "area", "stored", "dissipated")
+_FORMAT, _RECORDS, _DIGEST = "viscofric state 3", "records", "sha256"
+_DAMAGED = (
+    *(KeyError, ValueError, TypeError, IndexError, OSError, EOFError, RecursionError),
+    *(zipfile.BadZipFile, InputError),
+)
+_HISTORY = ("time", "temperature", "before", "direction")
+#: Method -> kind of its states, and of what they are made on.
+_KINDS: dict[str, tuple[Any, Any]] = {
+    "springs": (SpringState, Array),
+    "waves": (PeriodicState, Modes),
+    "grid": (FreeState, Basis),
+}
+#: Longest row that stands among the records.
+_SHORT = 8
 
 
 def reached(restart: Restart | None) -> Restart:
@@ -51,17 +59,16 @@ def reached(restart: Restart | None) -> Restart:
 
 def write_restart(path: str | PathLike[str], restart: Restart) -> None:
     """Write the state of a run, atomically."""
-    history = restart.history
-    named: dict[str, Any] = {"format": _FORMAT, "method": restart.method}
-    named |= {f"same/{name}": value for name, value in restart.same.items()}
-    named |= {f"history/{name}": getattr(history, name) for name in _HISTORY}
-    named["history/value"] = getattr(history, history.control)
-    for begin, march in zip(_MARCHES, reversed(restart.marches), strict=False):
-        named |= {f"{begin}{name}": value for name, value in _march(march).items()}
-    file = io.BytesIO()
-    arrays: dict[str, Any] = {name: np.asarray(value) for name, value in named.items() if value is not None}
+    history, every = restart.history, list[Array]()
+    names = (*_HISTORY, "position" if history.speed is None else "speed", history.control)
+    given = {name: value for name in names if (value := getattr(history, name)) is not None}
+    records = {"method": restart.method, "history": given, "marches": restart.marches, "same": restart.same}
+    text = json.dumps(_packed(records, every)).encode()
+    arrays = {"format": np.asarray(_FORMAT), _RECORDS: np.frombuffer(text, np.uint8)}
+    arrays |= {str(place): one for place, one in enumerate(every)}
     arrays[_DIGEST] = np.asarray(_digest(arrays))
-    np.savez_compressed(file, **arrays)
+    file = io.BytesIO()
+    np.savez_compressed(file, **arrays)  # type: ignore[arg-type]
     if file.tell() > LARGEST_FILE or sum(one.nbytes for one in arrays.values()) > LARGEST_UNPACKED:
         size, right = math.ceil(file.tell() / 1e6), LARGEST_FILE / 1e6
         raise DataFileError(
@@ -69,48 +76,6 @@ def write_restart(path: str | PathLike[str], restart: Restart) -> None:
             code="too-large",
         )  # fmt: skip
     write_atomically(file_path(path), file.getvalue())
-
-
-def _digest(arrays: Mapping[str, Array]) -> str:
-    """Return the SHA-256 of all names, types, shapes and numbers."""
-    found = hashlib.sha256()
-    for name in sorted(set(arrays) - {_DIGEST}):
-        one = np.ascontiguousarray(arrays[name])
-        found.update(f"{name} {one.dtype.str} {one.shape}\0".encode() + one.tobytes())
-    return found.hexdigest()
-
-
-def _march(march: Begun) -> dict[str, Any]:
-    """Return a march as named arrays; None for what it does not have."""
-    track, last = march.track, march.track.reached
-    named: dict[str, Any] = {f"basis/{name}": value for name, value in march.basis.items()}
-    named |= {f"reached/{name}": getattr(last, name) for name in _REACHED}
-    named |= {
-        "reached/scales": last.scales,
-        "reached/spread": last.spread,
-        "counts": (track.steps, track.rejected, track.stored),
-    }
-    for name, link in zip(Pair._fields, last.pair, strict=True):
-        named |= {f"{name}/work": link.work, f"{name}/rubbed": link.rubbed}
-        named |= {f"{name}/seen/{one}": getattr(link.seen, one) for one in _SEEN}
-        named |= {f"{name}/extents/{one}": value for one, value in link.seen.extents.items()}
-        parts = packed(link.state) if isinstance(link.state, FreeState) else vars(link.state)
-        named |= {f"{name}/state/{part}": value for part, value in parts.items()}
-    moments = track.moments
-    for names, rows in (
-        (_INSTANT, [one.instant for one in moments]),
-        (_MOMENT, moments),
-        ((*_SEEN, "left_out"), [one.seen for one in moments]),
-    ):
-        named |= {f"moments/{name}": [getattr(row, name) for row in rows] for name in names}
-    for name in moments[0].seen.extents if moments else ():
-        named[f"moments/extents/{name}"] = [one.seen.extents[name] for one in moments]
-    for place, one in enumerate(moments):
-        if one.field is not None:
-            named[f"field/{place}/pressure"] = one.field.pressure
-            named[f"field/{place}/error"] = one.field.error
-            named |= {f"field/{place}/axes/{name}": values for name, values in one.field.axes.items()}
-    return named
 
 
 def read_restart(path: str | PathLike[str]) -> Restart:
@@ -124,95 +89,90 @@ def read_restart(path: str | PathLike[str]) -> Restart:
             raise ValueError("of another kind")
         if str(named[_DIGEST]) != _digest(named):
             raise ValueError("other numbers than were stored")
-        return _restart(named)
+        return _restart(json.loads(named[_RECORDS].tobytes()), named)
     except _DAMAGED:
         raise DataFileError(
             str(path), "is not the state of a run, as TransientSolution.save_state writes it.", code="not-a-state"
         ) from None
 
 
-def _restart(named: Mapping[str, Any]) -> Restart:
-    speed = named.get("history/speed")
-    path = {"position": named["history/position"]} if speed is None else {"speed": speed}
-    history = History(
-        named["history/time"], **{str(named["history/control"]): named["history/value"]}, **path,
-        temperature=named.get("history/temperature"), before=str(named["history/before"]),
-        direction=tuple(named["history/direction"].tolist()),
-    )  # fmt: skip
-    method = str(named["method"])
-    marches = [_begun(one, method) for one in (_below(named, start) for start in _MARCHES) if "counts" in one]
-    return Restart(method, history, tuple(reversed(marches)), _below(named, "same/"))
+def _restart(records: Mapping[str, Any], arrays: Mapping[str, Array]) -> Restart:
+    state, basis = _KINDS[records["method"]]
+    read = _Reader(arrays, state)
+    given: dict[str, Any] = {
+        name: value if isinstance(value, str) else read.array(value) for name, value in records["history"].items()
+    }
+    marches = [
+        Begun(read.of(Track, one["track"]), read.of(basis, one["basis"]), read.of(bool, one["all_steps"]))
+        for one in records["marches"]
+    ]
+    same = read.of(Mapping[str, Array], records["same"])
+    return Restart(records["method"], History(**given), tuple(marches), same)
 
 
-def _begun(named: Mapping[str, Any], method: str) -> Begun:
-    if not _BASES[method] <= set(_below(named, "basis/")):
-        raise KeyError("basis")
-    pair = Pair(*(_link(named, name, method) for name in Pair._fields))
-    values: dict[str, Any] = {name: named[f"reached/{name}"].item() for name in _REACHED if f"reached/{name}" in named}
-    values |= {"scales": Sizes(*named["reached/scales"]), "spread": Difference(*named["reached/spread"])}
-    last = Reached(pair, **values)
-    steps, rejected, begun = named["counts"].tolist()
-    track = Track(_moments(named), int(steps), int(rejected), True, last, begun)
-    return Begun(track, _below(named, "basis/"))
+def _digest(arrays: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of all names, types, shapes and numbers."""
+    found = hashlib.sha256()
+    for name in sorted(set(arrays) - {_DIGEST}):
+        one = np.ascontiguousarray(arrays[name])
+        found.update(f"{name} {one.dtype.str} {one.shape}\0".encode() + one.tobytes())
+    return found.hexdigest()
 
 
-def _below(named: Mapping[str, Any], start: str) -> dict[str, Array]:
-    return {name.removeprefix(start): value for name, value in named.items() if name.startswith(start)}
+def _parts(kind: Any) -> tuple[str, ...]:
+    """Return the names by which a record is made: those of a dataclass or a named tuple."""
+    if dataclasses.is_dataclass(kind):
+        return tuple(one.name for one in dataclasses.fields(kind) if one.init)
+    return getattr(kind, "_fields", ())
 
 
-def _link(named: Mapping[str, Any], name: str, method: str) -> Link[Any]:
-    parts = _below(named, f"{name}/state/")
-    seen = _observation({one: named[f"{name}/seen/{one}"] for one in _SEEN}, _below(named, f"{name}/extents/"))
-    return Link(_STATES[method](parts), seen, float(named[f"{name}/work"]), float(named[f"{name}/rubbed"]))
+def _packed(value: Any, arrays: list[Array]) -> Any:
+    """Return a value for JSON; arrays are numbers of those that it appends."""
+    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
+        return value.item()
+    if isinstance(value, np.ndarray):
+        if value.ndim == 1 and 0 < value.size <= _SHORT and value.dtype == float:
+            return value.tolist()
+        arrays.append(value)
+        return len(arrays) - 1
+    if isinstance(value, Mapping):
+        return {name: _packed(one, arrays) for name, one in value.items()}
+    if parts := _parts(type(value)):
+        return _packed({name: getattr(value, name) for name in parts}, arrays)
+    if isinstance(value, (tuple, list)):
+        return [_packed(one, arrays) for one in value]
+    return value
 
 
-def _state(kind: Any, parts: Mapping[str, Any]) -> Any:
-    """Return a state whose parts are numbers, arrays and tuples."""
-    values: dict[str, Any] = {}
-    for part in dataclasses.fields(kind):
-        value = parts.get(part.name)
-        if value is None and part.default is dataclasses.MISSING:
-            raise KeyError(part.name)
-        if value is not None:
-            values[part.name] = tuple(value.tolist()) if str(part.type).startswith("tuple") else value
-            if part.type == "float":
-                values[part.name] = float(value)
-    return kind(**values)
+@cache
+def _hints(kind: Any) -> dict[str, Any]:
+    return get_type_hints(kind)
 
 
-#: Method -> what makes a state of its parts; parts of the basis that are required.
-_STATES: dict[str, Callable[[Mapping[str, Any]], Any]] = {
-    "springs": partial(_state, SpringState),
-    "waves": partial(_state, PeriodicState),
-    "grid": unpacked,
-}
-_BASES = {
-    "springs": {"s"},
-    "waves": {"C", "tau", *NUMBERS},
-    "grid": {"scale", "toward", "level", "known", "grid", "numbers"},
-}
+@dataclass(frozen=True)
+class _Reader:
+    """Makes values of given kinds, those of `State` being states of one method."""
 
+    arrays: Mapping[str, Array]
+    state: Any
 
-def _observation(values: Mapping[str, Any], extents: Mapping[str, Any]) -> Observation:
-    seen: dict[str, Any] = {one: tuple(values[one].tolist()) if one in _FORCES else float(values[one]) for one in _SEEN}
-    return Observation(**seen, extents={one: float(value) for one, value in extents.items()})
+    def of(self, kind: Any, found: Any) -> Any:
+        """Return a value of a kind; KeyError, TypeError or ValueError if it is none."""
+        kind = self.state if kind is State else kind
+        origin, inner = get_origin(kind), get_args(kind)
+        if type(None) in inner:
+            return None if found is None else self.of(inner[0], found)
+        if origin is np.ndarray:
+            return self.array(found)
+        if origin is Mapping or origin is dict:
+            return {name: self.of(inner[1], one) for name, one in dict(found).items()}
+        if origin in (tuple, list):
+            return origin(self.of(inner[0], one) for one in found)
+        if parts := _parts(origin or kind):
+            hints, record = _hints(origin or kind), dict(found)
+            return (origin or kind)(**{name: self.of(hints[name], record[name]) for name in parts})
+        return Reading(found, 0.0) if kind is Reading else kind(found)
 
-
-def _moments(named: Mapping[str, Any]) -> list[Moment[Any]]:
-    columns, extents = {one: named[f"moments/{one}"] for one in _SEEN}, _below(named, "moments/extents/")
-    rubbed, slopes, left_out = (named[f"moments/{one}"] for one in ("rubbed", "slopes", "left_out"))
-    moments: list[Moment[Any]] = []
-    for place, time in enumerate(named["moments/time"].tolist()):
-        axes, field = _below(named, f"field/{place}/axes/"), None
-        if f"field/{place}/pressure" in named:
-            field = Field(axes, named[f"field/{place}/pressure"], float(named[f"field/{place}/error"]))
-        instant = Instant(time, Reading(float(named["moments/clock"][place]), 0.0), named["moments/position"][place])
-        seen = _observation(
-            {one: value[place] for one, value in columns.items()},
-            {one: value[place] for one, value in extents.items()},
-        )
-        seen = seen._replace(left_out=Sizes(*left_out[place].tolist()))
-        errors = Sizes(*named["moments/errors"][place].tolist())
-        work = float(named["moments/work"][place])
-        moments.append(Moment(instant, seen, work, errors, field, float(rubbed[place]), float(slopes[place])))
-    return moments
+    def array(self, found: Any) -> Array:
+        """Return an array that is written out, or one by its number."""
+        return np.array(found, dtype=float) if isinstance(found, list) else self.arrays[str(found)]
