@@ -12,8 +12,8 @@ from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
 from viscofric.motion.free import mover, past, solve
 from viscofric.motion.free.box import Box
+from viscofric.motion.free.past import Wake
 from viscofric.motion.free.response import response_of
-from viscofric.motion.free.wake import Wake
 from viscofric.notes import codes
 
 TAU = 0.01

@@ -113,8 +113,7 @@ def _from_file(parameters: dict[str, Any], reference: float | None) -> History:
 
 def _from_stages(parameters: dict[str, Any], line: bool, reference: float | None) -> History:
     """Return a load put on at once or in some time, a dwell, and a slide forth and back."""
-    from viscofric.motion.history import CONTROLS
-    from viscofric.motion.stages import staged_history
+    from viscofric.motion.history import CONTROLS, staged_history
     from viscofric.units import positive, to_si
 
     given = {name: parameters[name] for name in _CONTROLS if parameters[name] is not None}

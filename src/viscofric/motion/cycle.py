@@ -24,15 +24,14 @@ from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.motion.chains import Link, Pair, Reached, Track
-from viscofric.motion.cycle_numbers import Found, Period
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.history import History
 from viscofric.motion.march import INSTANT, march
 from viscofric.motion.mover import Mover
+from viscofric.motion.period import Found, Period, Watch, Watched
 from viscofric.motion.schedule import Schedule
 from viscofric.motion.shear import with_coulomb
 from viscofric.motion.solve import assemble, checked_problem, checked_times, mover_or_grid
-from viscofric.motion.watch import Watch, Watched
 from viscofric.notes import Remedy
 from viscofric.rheology.material import Material
 from viscofric.threads import one_blas_thread

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from viscofric.datasets import Dataset
-from viscofric.motion.cycle_numbers import Estimate, Found
+from viscofric.motion.period import Estimate, Found
 from viscofric.motion.solution import TransientSolution
 from viscofric.notes import Warned
 from viscofric.showing import Plotted, Rows

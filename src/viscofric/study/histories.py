@@ -15,10 +15,9 @@ from viscofric.friction.cases.record import Failure
 from viscofric.friction.cases.solving import Task
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import unit_vector
-from viscofric.motion.history import History
+from viscofric.motion.history import History, staged_history
 from viscofric.motion.history_files import read_history
 from viscofric.motion.impact import LOOSEST
-from viscofric.motion.stages import staged_history
 from viscofric.notes import Note
 from viscofric.readers.one_table import history_columns
 from viscofric.rheology.material import Material

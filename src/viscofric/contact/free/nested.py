@@ -181,7 +181,7 @@ def find_window(problem: Problem, size: float) -> Stage:
 def _fitted_window(problem: Problem, size: float) -> Stage:
     window = problem.geometry.around(1.5 * size, 1.5 * size, 1.5 * size, _coarsest(problem))
     guess = np.sqrt(np.maximum(0.0, 1.0 - (window.x[:, None] ** 2 + window.y**2) / size**2))
-    stage = _solve_on(window, problem, guess)
+    stage = solve_on(window, problem, guess)
     for _ in range(_MOST_WINDOWS):
         old = stage.window
         if old.cuts(stage.result.pressure > 0.0):
@@ -219,10 +219,10 @@ def _around(stage: Stage) -> Grid:
 
 
 def _solve_in_window(window: Grid, before: Stage, *, last: bool = False) -> Stage:
-    return _solve_on(window, before.problem, before.window.resample(before.result.pressure, window), last=last)
+    return solve_on(window, before.problem, before.window.resample(before.result.pressure, window), last=last)
 
 
-def _solve_on(window: Grid, problem: Problem, guess: Array, *, last: bool = False) -> Stage:
+def solve_on(window: Grid, problem: Problem, guess: Array, *, last: bool = False) -> Stage:
     """Solve on one grid: by the active set, and where that makes no progress, by proximal points.
 
     `last` says whether it may be the last one.

@@ -58,6 +58,7 @@ class Problem:
     layer: ScaledLayer | None = None  # to which the geometry's operator belongs; None for a half-space
     coarsest: int = COARSEST  # cells along the longer edge of the window on the coarsest grid
     coarse_tolerance: float = 0.0  # likewise, of grids that are refined in any case, if it is larger
+    axis: tuple[float, float] = (0.0, 0.0)  # place of the indenter's axis on the grids
 
     @cached_property
     def first_size(self) -> float:
@@ -84,4 +85,5 @@ class Problem:
 
     def height_on(self, window: Grid, shift: float) -> Array:
         """Height of the indenter at the collocation points, `shift` cells behind the cell centres."""
-        return self.shape.height((window.x - shift * window.spacing)[:, None], window.y)
+        x, y = self.axis
+        return self.shape.height((window.x - x - shift * window.spacing)[:, None], window.y - y)

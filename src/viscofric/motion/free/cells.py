@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -18,8 +19,8 @@ from viscofric.motion.free.setting import Setting
 from viscofric.motion.free.state import Place
 from viscofric.motion.schedule import Instant
 
-# Space by which a window is widened where the contact comes so many cells near its edge, as a part.
-_WIDER, _LEAST_MARGIN = 0.2, 2
+# Space by which a window is widened where the contact comes so many cells near its edge, as a part; how many times.
+_WIDER, _LEAST_MARGIN, _MOST_WINDOWS = 0.2, 2, 30
 # Operators that are kept; limits of the solver.
 _KEPT, _PATIENCE, _MOST_PRODUCTS = 8, 40, 2000
 
@@ -96,6 +97,11 @@ class Cells:
                 self._operators.clear()
             self._operators[key] = step_operator(self.grid, self.response, self.facing, share)
         return self._operators[key]
+
+    def attempts(self) -> Iterator[int]:
+        """Count attempts to solve in windows that become wider; ConvergenceError after too many."""
+        yield from range(_MOST_WINDOWS)
+        raise ConvergenceError("no window was found that holds the contact.", code="no-window")
 
     def widened(self, loaded: Mask) -> bool:
         """Widen the window where the contact comes near its edges; return whether it did."""

@@ -6,20 +6,16 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.contact.free.geometry import LINE, POINT
+from viscofric.contact.free.nested import solve_on
 from viscofric.contact.free.problem import Control, Problem
-from viscofric.contact.free.proximal import proximal_points
-from viscofric.contact.operators.convolution import SteadyMaterial, collocation_shift
-from viscofric.errors import ConvergenceError
+from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.cells import Cells
+from viscofric.motion.free.past import Wake
 from viscofric.motion.free.state import FreeState, Place, Products
-from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import step_coefficients
 from viscofric.motion.schedule import Instant
 
-# Patience of the solver, as of the steady contact's.
-_PATIENCE = 4
-_MOST_WINDOWS = 30
 # Distance behind the contact up to which its memory is kept on cells: in memory lengths, and in windows.
 _FADED, _WINDOWS = 20.0, 12.0
 
@@ -35,13 +31,11 @@ def rested(cells: Cells, instant: Instant) -> FreeState:
     body, place = cells.setting.body, cells.placed(instant)
     load, depth = cells.setting.control(instant)
     relaxed = body.instant + float(body.compliances.sum())
-    for _ in range(_MOST_WINDOWS):
+    for _ in cells.attempts():
         guess = np.sqrt(np.maximum(0.0, 1.0 - cells.grid.x[:, None] ** 2 - cells.grid.y**2))
         (pressure, _, reached), found = cells.solved(relaxed, cells.height(place), load, depth, guess)
         if found is None or not cells.widened(found.pressure > 0.0):
             break
-    else:
-        raise ConvergenceError("no window was found that holds the contact.", code="no-window")
     return _resting(cells, place, pressure, reached)
 
 
@@ -126,26 +120,14 @@ def _steady_pressure(cells: Cells, instant: Instant, speed: float) -> Array:
     geometry = LINE if setting.is_line else POINT
     if setting.layer is not None:
         geometry = setting.layer.geometry(geometry, setting.body.counterface)
-    control = Control(load, depth)
-    tolerance = 0.1 * cells.tolerance
-    problem = Problem(geometry, solid, setting.shape, control, tolerance, layer=setting.layer)
-    for _ in range(_MOST_WINDOWS):
-        window = cells.grid
-        place = cells.placed(instant)
-        shift = collocation_shift(solid, window.spacing)
-        operator = problem.geometry.operator(window, solid, shift, problem.backend)
-        x = window.x[:, None] - place.x - shift * window.spacing
-        height = setting.shape.height(x, window.y - place.y)
-        guess = np.sqrt(np.maximum(0.0, 1.0 - window.x[:, None] ** 2 - window.y**2))
-        found = control.solve(operator, height, np.where(np.isfinite(height), guess, 0.0), tolerance, _PATIENCE)
-        if not found.converged:
-            found = proximal_points(control, operator, height, found, tolerance)
-        if not found.converged:
-            raise ConvergenceError(
-                "the sliding contact before the start did not converge on "
-                f"{window.shape[0]} x {window.shape[1]} cells.",
-                code="not-converged",
-            )
-        if not cells.widened(found.pressure > 0.0):
-            return np.asarray(found.pressure)
-    raise ConvergenceError("no window was found that holds the contact.", code="no-window")
+    place = cells.placed(instant)
+    problem = Problem(
+        geometry, solid, setting.shape, Control(load, depth), 0.1 * cells.tolerance, layer=setting.layer,
+        axis=(place.x, place.y),
+    )  # fmt: skip
+    for _ in cells.attempts():
+        guess = np.sqrt(np.maximum(0.0, 1.0 - cells.grid.x[:, None] ** 2 - cells.grid.y**2))
+        found = solve_on(cells.grid, problem, guess, last=True).result.pressure
+        if not cells.widened(found > 0.0):
+            break
+    return np.asarray(found)

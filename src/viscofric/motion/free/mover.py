@@ -20,16 +20,14 @@ from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box, Lattice
 from viscofric.motion.free.cells import Cells
 from viscofric.motion.free.first_states import rested, slid, untouched
-from viscofric.motion.free.past import NO_PAST, Far, Past, parted
+from viscofric.motion.free.past import NO_PAST, Far, Past, Wake, parted
 from viscofric.motion.free.state import FreeState, Place, Products
-from viscofric.motion.free.wake import Wake
 from viscofric.motion.memory import Modes, StepCoefficients, recovery_at_depth
 from viscofric.motion.mover import Field, Mover, Observation, Sizes
 from viscofric.motion.schedule import Instant
 
 # Space by which the box of the memory is wider than it must be, as a part of it.
 _SPARE = 0.3
-MOST_WINDOWS = 30
 MOST_BYTES = 2**32  # of the memory of one state; a few states are held at a time
 _TICK = 1.0  # distance between times at which steps may end, in cells
 
@@ -94,7 +92,7 @@ class FreeMover(Cells, Mover[FreeState]):
         place = self.placed(end)
         load, depth = setting.control(end)
         compliance = body.compliance(coefficients) - lagging
-        for _ in range(MOST_WINDOWS):
+        for _ in self.attempts():
             window = self.window(place)
             box, memory, past = self._near(state, window)
             held = state.window.carried(state.pressure, box)
@@ -110,8 +108,6 @@ class FreeMover(Cells, Mover[FreeState]):
             solved, found = self.solved(compliance, shape, load, depth, self._guess(state, window, place, duration))
             if found is None or not self.widened(found.pressure > 0.0):
                 break
-        else:
-            raise ConvergenceError("no window was found that holds the contact.", code="no-window")
         force = self.force(solved[0], known)
         after = self._after(state, coefficients, duration, place, window, box, held, memory, past, far, solved, force)
         change = state.products.pressure - after.products.pressure

@@ -14,8 +14,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.motion.free.box import Box
-from viscofric.motion.free.past import NO_PAST, Past
-from viscofric.motion.free.wake import Wake
+from viscofric.motion.free.past import NO_PAST, Past, Wake
 from viscofric.motion.memory import StepCoefficients, step_parts
 
 
