@@ -374,6 +374,6 @@ def _master_and_rubber(tree: DataTree) -> list[Table | None]:
         ),
         friction_shift_table(tree),
         shift_factor_table(tree),
-        law_table(tree),
+        None if (laws := group(tree, "laws")) is None else law_table(laws),
         spectrum_table(tree),
     ]

@@ -93,11 +93,8 @@ def shift_factor_table(tree: DataTree) -> Table | None:
     return made_table("shift-factors", "Shift factors of the isotherms.", full, columns, is_open=False)
 
 
-def law_table(tree: DataTree) -> Table | None:
+def law_table(laws: Dataset) -> Table:
     """Shift laws with their constants, compared by AIC."""
-    laws = group(tree, "laws")
-    if laws is None:
-        return None
     columns = [
         Column("law", "law", str),
         Column("constants", "constants", str),

@@ -265,26 +265,3 @@ def _limits_in_words(material: dict[str, Any]) -> str:
         else "at every temperature"
     )
     return f"Used: {material['words']}. Valid {inside}."
-
-
-def law_table(laws: list[dict[str, Any]]) -> spec.Spec:
-    """Return the laws that were compared."""
-    head = ["law", "constants", "AIC", "weight", "scatter (decades)", "valid", ""]
-    return spec.table("Comparison of laws: a lower AIC is better", head, [_law_row(row) for row in laws])
-
-
-def _law_row(row: dict[str, Any]) -> list[Any]:
-    refused, limits = row["refusal"], row.get("limits")
-    same = f"same curve as {row['same_as'].upper()}" if row["same_as"] else ""
-    valid = "–"
-    if limits:
-        valid = " to ".join("∞" if end is None else spec.quantity(end, "temperature") for end in limits["valid"])
-    return [
-        row["title"],
-        refused or row["words"],
-        None if row["aic"] is None else shown_number(row["aic"], "z.1f"),
-        None if refused or row["kind"] == "polynomial" else shown_number(row["weight"], "z.2f"),
-        None if refused else "exact" if row["exact"] else shown_number(row["scatter"], "z.3f"),
-        valid,
-        "used" if row["used"] else "best" if row["chosen"] else same,
-    ]

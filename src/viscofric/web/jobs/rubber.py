@@ -6,14 +6,16 @@ from typing import Any
 
 from viscofric.datasets import plain, record
 from viscofric.notes import listed, note_of
+from viscofric.report.texts.tables import law_table
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.kramers_kronig import LARGEST_RMS
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.study.rubber import Rubber
-from viscofric.web.figures.shift import law_table, shift_figures, verdict_numbers
+from viscofric.web.figures.shift import shift_figures, verdict_numbers
 from viscofric.web.figures.spectrum import modes_table, spectrum_figures, spectrum_numbers_shown
 from viscofric.web.figures.sweeps import moduli_of_material
 from viscofric.web.jobs.context import Context, JobOptions
+from viscofric.web.jobs.friction_data import table_record
 from viscofric.web.jobs.rubbers import checked_tables, friction_bands, made_rubber
 from viscofric.web.jobs.shift_numbers import shift_numbers
 from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, spectrum_numbers
@@ -55,7 +57,6 @@ def _view(found: dict[str, Any]) -> dict[str, Any]:
     shift, check, spectrum = found["shift"], found["check"], found["spectrum"]
     modes, causal = spectrum["modes"], (check or {}).get("kramers_kronig")
     alone = causal and {name: entry for name, entry in causal.items() if not isinstance(entry, (list, dict))}
-    laws = {"laws": law_table(shift["laws"])} if shift and shift["laws"] else {}
     return {
         "shift": shift and _without_lines(shift),
         "check": check and {**check, "kramers_kronig": alone},
@@ -64,7 +65,7 @@ def _view(found: dict[str, Any]) -> dict[str, Any]:
             **(shift_figures(found) if shift else {}),
             **moduli_of_material(spectrum),
         },
-        "tables": laws | ({"modes": modes_table(spectrum)} if modes else {}),
+        "tables": found["tables"] | ({"modes": modes_table(spectrum)} if modes else {}),
         "key_numbers": spectrum_numbers_shown(found),
         "verdict_numbers": verdict_numbers(found) if shift and check else [],
         "summary": {
@@ -101,6 +102,7 @@ def _without_bands(rubber: Rubber, held: dict[float, float]) -> dict[str, Any]:
         "shift": shift_numbers(rubber, held),
         "check": _check(rubber),
         "spectrum": spectrum_numbers(rubber),
+        "tables": {} if rubber.laws is None else {"laws": table_record(law_table(rubber.laws.to_dataset()))},
     }
     return dict(plain(found)) | listed("notes", [one for one in rubber.notes if one not in read], "page")
 

@@ -54,7 +54,6 @@ def shift_numbers(rubber: Rubber, held: Mapping[float, float]) -> dict[str, Any]
         if factors is None
         else with_bars(factors.to_dataset()) | {"held": places_held(factors.temperatures, held)},
         "laws": [] if factors is None else [_law(row, rubber, factors) for row in laws],
-        "explanation": "" if rubber.laws is None else rubber.laws.explanation,
         "material": {
             "words": str(law) if isinstance(law, ParametricLaw) else "as measured, interpolated between the isotherms",
             **_drawn(law, measured),
@@ -106,7 +105,7 @@ def places_held(temperatures: Array, held: Mapping[float, float]) -> list[bool]:
     return [place in nearest for place in range(len(temperatures))]
 
 
-_OF_A_LAW = ("kind", "title", "constants", "scatter", "aic", "weight", "exact", "refusal", "same_as")
+_OF_A_LAW = ("kind", "title", "aic", "refusal", "same_as")
 
 
 def _law(row: LawRow[ParametricLaw], rubber: Rubber, factors: ShiftFactors) -> dict[str, Any]:
@@ -114,9 +113,9 @@ def _law(row: LawRow[ParametricLaw], rubber: Rubber, factors: ShiftFactors) -> d
     found: dict[str, Any] = {name: getattr(row, name) for name in _OF_A_LAW}
     found |= {"chosen": chosen, "used": rubber.shift_used == row.kind or (rubber.shift_used == "best" and chosen)}
     if row.law is None:
-        return found | {"words": ""}
+        return found
     residual = record(law_residuals(row.law, shift_table(factors)), _DIGITS)
-    return found | {"words": row.law.described, **_drawn(row.law, factors.temperatures), "residual": residual}
+    return found | {**_drawn(row.law, factors.temperatures), "residual": residual}
 
 
 def _drawn(law: ShiftLaw, measured: Array | None) -> dict[str, Any]:

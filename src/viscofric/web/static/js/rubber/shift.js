@@ -15,17 +15,17 @@ const diagram = signal("diagram-van_gurp_palmen");
 
 /** The laws that were compared, each with a button where shift factors are those of the sweeps. */
 const Laws = view(({ of }) => {
-  const { explanation, laws } = of.shift;
-  const { head, rows, caption } = of.tables.laws;
+  const { head, rows, caption, note } = of.tables.laws;
+  const fitted = of.shift.laws.filter(({ refusal }) => !refusal);
   const measured = TESTS.some((key) => state.get(`material.${key}`) !== undefined);
   const free = measured || state.get("material.shift_factors") !== undefined;
-  const use = ({ title, kind, refusal, used }) =>
-    !free || refusal || used
+  const use = ({ title, kind, used }) =>
+    !free || used
       ? ""
       : html`<${Button} kind="small" onClick=${() => state.set("material.shift", kind)}>Use ${title}<//>`;
-  const withButtons = rows.map((row, at) => [...row, use(laws[at])]);
+  const withButtons = rows.map((row, at) => [...row, use(fitted[at])]);
   return html`<${Card} title="Laws">
-    <p class="help">${explanation}</p>
+    <p class="help">${note}</p>
     <div class="words"><${Table} of=${of} head=${[...head, ""]} rows=${withButtons} caption=${caption} /></div>
   <//>`;
 });
