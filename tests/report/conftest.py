@@ -275,12 +275,20 @@ def unrendered(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(saving, "_encoded", words)
 
 
+#: Of lines and points, of colours, and of moduli: the figures whose images are looked at.
+RENDERED = ("friction_against_speed", "friction_map", "isotherms")
+
+
 @pytest.fixture(scope="session")
 def rendered(
     make_tree: Callable[..., xr.DataTree], tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[list[Path], Path]:
-    """Return the files of all figures of the usual results, and their report, as users get them; drawn once for all."""
-    return report.write_figures_and_report(make_tree(), tmp_path_factory.mktemp("rendered") / "new")
+    """Return the files of three figures of the usual results, and their report, as users get them; drawn once."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ("FRICTION_FIGURES", "RUBBER_FIGURES"):
+            figures = getattr(drawing, name)
+            patch.setattr(drawing, name, {one: figures[one] for one in RENDERED if one in figures})
+        return report.write_figures_and_report(make_tree(), tmp_path_factory.mktemp("rendered") / "new")
 
 
 @pytest.fixture
