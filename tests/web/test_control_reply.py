@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from web.served_page import Server
 
 
-@pytest.mark.slow
+@pytest.mark.apart
 def test_server_answers_at_once_while_three_studies_are_solved(server: Server) -> None:
     connections = [connect(server, workers=1, workspace=f"workspace-reply-{number}") for number in range(3)]
     try:
