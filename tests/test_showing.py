@@ -150,9 +150,11 @@ def test_a_result_draws_itself(objects, name):
         assert isinstance(axes, Axes)
         assert axes.has_data()
         assert axes.get_xlabel()
+        # measures all texts, as drawing does: alone, or where something beside the axes could leave them no room
         if len(axes.figure.axes) == 1 and axes.get_legend() is None:
-            axes.figure.set_layout_engine("none")  # nothing stands beside the axes that could leave them no room
-        axes.figure.draw_without_rendering()  # measures all texts, and turns nothing into dots
+            axes.figure.get_tightbbox(axes.figure.canvas.get_renderer())
+        else:
+            axes.figure.get_layout_engine().execute(axes.figure)
     finally:
         pyplot.close("all")
 
