@@ -66,7 +66,8 @@ def test_no_figure_of_other_inputs_is_left(browser: Browser, server: Server, hid
             # what the user has solved by hand waits, in grey, for the user
             assert hidden == "motion" or not any(one["stale"] for one in now.values()), path
             tab.value(f"{STATE}.undo()")
-            assert at_rest(tab) == before, path
+            assert wrong_figures(tab) == [], path
+        assert at_rest(tab) == before
 
 
 def test_inputs_of_other_studies_leave_no_figure_of_theirs(browser: Browser, server: Server) -> None:
