@@ -184,11 +184,13 @@ def warming(period: float) -> tuple[vf.Material, np.ndarray, np.ndarray]:
     return vf.Material(SLS.spectrum, shift=shift), period * phase / (2.0 * np.pi), kelvin
 
 
-@pytest.mark.apart
 @pytest.mark.parametrize(
     ("indenter", "load", "warm"),
-    [(BALL, 1.0, False), (BALL, 1.0, True), (vf.Cylinder("10 mm"), 500.0, True)],
-    ids=["ball", "ball at changing temperature", "cylinder at changing temperature"],
+    [
+        *apart((BALL, 1.0, False), (vf.Cylinder("10 mm"), 500.0, True)),
+        pytest.param(BALL, 1.0, True, marks=pytest.mark.exhaustive),
+    ],
+    ids=["ball", "cylinder at changing temperature", "ball at changing temperature"],
 )
 def test_reciprocation_on_cells_is_reached_by_waiting_too(indenter, load, warm) -> None:
     material, time, kelvin = warming(0.06)
