@@ -257,7 +257,7 @@ def test_a_fifth_of_points_far_off_does_not_enlarge_the_errors_of_the_others() -
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("closed_form")
-@pytest.mark.parametrize("off", [1.035, 1.06])
+@pytest.mark.parametrize("off", [*apart(1.035), 1.06])
 def test_a_point_off_by_few_errors_counts_less(off: float) -> None:
     """With its whole weight the point moves E'' by 1 %, as 18 points have errors of 1 %."""
     curves = closed_form_curves(*WARM)
