@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 import viscofric as vf
 from contact.made_surfaces import self_affine
+from marks import apart
 from refusals import refused
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.complementarity import solve_complementarity
@@ -375,7 +376,7 @@ def test_so_many_threads_hold_within_only(monkeypatch: pytest.MonkeyPatch) -> No
     assert usable_threads() == 5
 
 
-@pytest.mark.parametrize("given", [{"pressure": "200 kPa"}, {"gap": "3 cm"}], ids=["pressure", "gap"])
+@pytest.mark.parametrize("given", [{"pressure": "200 kPa"}, *apart({"gap": "3 cm"})], ids=["pressure", "gap"])
 def test_threads_change_no_contact(given: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
     # Fewer than 724 points a side have one thread.
     surface = vf.contact.PeriodicSurface(self_affine(768), 1.0 / 768)

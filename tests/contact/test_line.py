@@ -163,7 +163,7 @@ def exact(problem: CylinderProblem) -> HunterContact:
     )
 
 
-@pytest.mark.parametrize("modulus_ratio", [2.0, *apart(10.0), 100.0, *slow(1000.0)])
+@pytest.mark.parametrize("modulus_ratio", [2.0, 100.0, *apart(10.0, 1000.0)])
 @pytest.mark.parametrize("memory_length", [*slow(1e-3), *apart(1e-2), 0.1, 1.0, 10.0, *apart(100.0), 1000.0])
 def test_line_contact_is_hunters(modulus_ratio: float, memory_length: float) -> None:
     problem = cylinder_on_standard_linear_solid(modulus_ratio, memory_length)

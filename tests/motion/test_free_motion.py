@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import viscofric as vf
+from marks import apart
 from refusals import refused
 from viscofric.contact.free.grids import Grid
 from viscofric.contact.operators.convolution import SteadyMaterial
@@ -104,7 +105,7 @@ def test_the_load_after_a_glassy_start_is_as_accurate_as_asked():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("ratio", "peak", "place"), [(10.0, 4.0, 0.27), (1.0, 1.08, 0.34)])
+@pytest.mark.parametrize(("ratio", "peak", "place"), [(10.0, 4.0, 0.27), *apart((1.0, 1.08, 0.34))])
 def test_friction_overshoots_after_a_start_from_rest(ratio, peak, place):
     """Peak over the steady friction and its place in a0, of an independent solution, to the digits given."""
     speed = ratio * SPEED

@@ -187,11 +187,12 @@ SEEN_BY: dict[str, Callable[[pytest.MonkeyPatch], None]] = {
     "orders": stiff_half_space,
     "large-windows": relaxation_for_retardation_time,
 }
+SLOW = ("lee-radok", "orders")
 
 
 @pytest.mark.slow
-# the defect that lee-radok finds after some seconds, impact finds at once
-@pytest.mark.parametrize("name", [*(name for name in NAMES if name != "lee-radok"), *apart("lee-radok")])
+# the defects that these find after some seconds, impact and hertz-ball find at once
+@pytest.mark.parametrize("name", [*(name for name in NAMES if name not in SLOW), *apart(*SLOW)])
 def test_check_fails_where_the_engine_is_wrong(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     SEEN_BY[name](monkeypatch)
     (check,) = select(CHECKS, [name])
