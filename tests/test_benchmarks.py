@@ -324,7 +324,6 @@ def test_benchmark_of_the_interface_counts_planted_laws_within_bands(
         assert row["points"] > 0.5  # below a half in 1 of 70 such sets of four bands, which move as one
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_benchmark_of_total_friction_compares_it_with_that_of_the_planted_interface(
     benchmarks: Benchmarks, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -97,7 +97,6 @@ def test_example_is_short_and_says_what_it_shows(script: Path) -> None:
     assert len(code) <= MOST_LINES
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
 def test_example_meets_its_number(script: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -120,7 +119,6 @@ def test_example_meets_its_number(script: Path, tmp_path: Path, monkeypatch: pyt
     assert sorted(EXAMPLES.iterdir()) == before
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_example_runs_by_hand_without_a_screen(tmp_path: Path) -> None:
     """`python examples/plot_….py` ends, silent but for its own lines; nothing is shown or written."""

@@ -153,7 +153,6 @@ def tracked() -> set[str]:
     return {path.relative_to(ROOT).as_posix() for path in found if not any(one in str(path) for one in unwanted)}
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_source_distribution_holds_the_whole_project(built: tuple[Path, Path]) -> None:
     found = members(built[0])
@@ -163,7 +162,6 @@ def test_source_distribution_holds_the_whole_project(built: tuple[Path, Path]) -
     assert not strange
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_wheel_carries_every_file_of_the_package_and_nothing_else(built: tuple[Path, Path]) -> None:
     with zipfile.ZipFile(built[1]) as archive:
@@ -205,7 +203,6 @@ def _pips() -> list[Path]:
     return [*([installed] if installed.is_dir() else []), *bundled]
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_installed_elsewhere_it_works(built: tuple[Path, Path], tmp_path: Path) -> None:
     """Dependencies are those of this environment; viscofric itself comes from the wheel."""

@@ -29,7 +29,6 @@ def test_bibliography_has_what_is_cited_as_the_package_cites_it() -> None:
         assert entries[key] == REFERENCES[key].bibtex()
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_table_has_the_numbers_of_its_command() -> None:
     rows = [tuple(map(float, row)) for row in re.findall(r"(?m)^\| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", TEXT)]

@@ -312,7 +312,6 @@ def test_output_to_a_full_disk_is_one_sentence() -> None:
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = write(tmp_path, study=STUDY.replace('"100 mm/s"', '["100 mm/s", "200 mm/s"]'))
     from viscofric.study.running import executors
@@ -338,7 +337,6 @@ def test_interruption_keeps_finished_cases(tmp_path: Path, monkeypatch: pytest.M
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_programs_are_reported_a_run_line_by_line(once: Path, tmp_path: Path) -> None:
     """Nothing else on standard output, and on standard error nothing but warnings."""
     study = write(tmp_path)

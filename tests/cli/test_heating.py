@@ -56,7 +56,6 @@ def test_a_heated_curve_has_both_frictions_and_a_picture(tmp_path: Path) -> None
     assert min(points["temperature_rise_error"]) > 0.0
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_a_contact_over_time_is_heated() -> None:
     options = ["--slide", "1 mm", "--speed", "0.1 m/s", "--times", "5 ms, 10 ms", "--heating", "PTFE", *HEAT[2:]]

@@ -67,7 +67,6 @@ def test_a_scan_without_a_unit_is_noted_with_its_steps(tmp_path: Path) -> None:
     assert {"unit-assumed", "implausible-heights", "filled"} <= {one["code"] for one in found["note_records"]}
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("template", TEMPLATES)

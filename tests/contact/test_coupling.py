@@ -154,7 +154,6 @@ HEATING = vf.Heating(
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_contacts_that_coulomb_friction_heats_have_the_note_of_their_shear() -> None:
     """Steady, in a curve and over time, the same change: 0.477 μ_c β a/R of Hertz's ball, to the factor stated."""
     ball = vf.Ball("9.525 mm")

@@ -68,7 +68,6 @@ def test_resistances_between_knots_are_those_of_the_contacts(monkeypatch: pytest
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 @pytest.mark.parametrize("slip", [None, "0.1 m/s"])
 def test_resistances_between_knots_are_those_of_rough_contacts(
     slip: str | None, monkeypatch: pytest.MonkeyPatch

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from scipy.fft import dst
 from scipy.integrate import quad
 
@@ -30,8 +29,6 @@ from viscofric.contact.reference import (
     winkler_line,
 )
 from viscofric.errors import InputError
-
-Array = NDArray[np.float64]
 
 E, NU, R = 2e6, 0.45, 8e-3  # Pa, –, m
 

@@ -106,7 +106,6 @@ def test_friction_changes_on_a_layer_as_estimated(case: Case) -> None:
     holds(case)
 
 
-@pytest.mark.slow
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("case", MANY)
 def test_friction_changes_as_estimated_for_many_spectra(case: Case) -> None:

@@ -22,7 +22,6 @@ RUBBER = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau=TAU)
 CYLINDER, LOAD = vf.Cylinder("10 mm"), 500.0
 A0 = 0.0021850968611841584  # of the cylinder under the load, at E0
 SPEED = A0 / TAU
-SLOPE = A0 / 0.01
 
 
 def test_start_of_a_cylinder_from_rest():

@@ -291,7 +291,6 @@ def test_tables_have_mean_and_interval_over_seeds(make_study: Callable[..., xr.D
     assert all("±" in cell for row in glance.rows for cell in row[1:])
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_no_table_is_wider_than_the_page_and_the_pdf_is_a4(tree: xr.DataTree, tmp_path: Path) -> None:
     from web.browser_tab import chromium_path, launched

@@ -148,7 +148,6 @@ def test_isotherms_that_drift_to_one_side_make_superposition_doubtful():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_loss_tangents_beside_a_free_vertical_shift_lie_in_the_band_without_it():
     """Bands from the same sweeps, without b and with it, do not exclude each other: friction follows tan δ."""
     measured = planted_sweeps(

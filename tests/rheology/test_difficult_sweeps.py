@@ -175,7 +175,6 @@ def test_what_neighbours_miss_alike_is_distinguished_from_noise():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_a_band_holds_the_measurement_where_superposition_fails():
     made = planted_sweeps(0, 0.003)
     # Every other sweep 20 % stiffer, as a sample clamped anew each time may be.

@@ -28,7 +28,6 @@ def planted(seed, noise=0.01):
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_planted_constants_lie_within_their_errors():
     scores, ranges = [], []
     for seed in range(60):

@@ -36,7 +36,6 @@ def test_a_planted_law_comes_back_within_its_errors(fit):
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 @pytest.mark.parametrize("alike", [*apart(0.0), 0.7])
 def test_intervals_hold_what_they_promise(alike):
     constants, shifts = [], []

@@ -60,7 +60,6 @@ def from_points_alone(sweeps):
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_few_points_leave_as_many_degrees_of_freedom_as_there_are_beyond_shifts_and_curves():
     """Eight sweeps of three points: 48 values less 6 coefficients less 7 shifts are 35, not 42."""
     isotherms = 8
@@ -89,7 +88,6 @@ def along_sweeps(random, size, points, alike):
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_errors_alike_along_a_sweep_widen_the_standard_errors():
     """Points whose errors are 0.7 alike count for (1 − 0.7)/(1 + 0.7) of as many independent ones.
 
@@ -139,7 +137,6 @@ def test_offsets_of_whole_isotherms_are_found_and_carried_into_the_errors(shared
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_offsets_beside_a_free_vertical_shift_keep_errors_where_they_are_found_too_small():
     """Sweeps fix the size of offsets badly there: where 1 % is found to be less, errors must not follow all the way."""
     found, scores = [], []
@@ -338,7 +335,6 @@ def test_a_law_fitted_to_bare_values_has_the_errors_of_a_regression_line(count, 
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_scatter_added_to_a_law_counts_its_two_constants():
     """WLF to six values: χ² is brought to 6 − 1 − 2 = 3, and the errors hold what they promise over many tables."""
     random = np.random.default_rng(1)

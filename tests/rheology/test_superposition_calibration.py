@@ -18,7 +18,6 @@ POLYMER = {
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 @pytest.mark.parametrize("seeds", SEEDS)
 @pytest.mark.parametrize(
     ("reference", "noise", "programme", "isotherms"),
@@ -51,7 +50,6 @@ def test_bands_hold_what_they_promise(reference, noise, programme, isotherms, se
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 @pytest.mark.parametrize("seeds", SEEDS)
 def test_bands_with_a_vertical_shift_hold_what_they_promise(seeds):
     horizontal, vertical = [], []

@@ -70,7 +70,6 @@ def test_bands_hold_the_truth_and_are_narrower_than_the_noise():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_bands_grow_with_the_noise():
     widths = []
     for noise in (0.005, 0.01, 0.02):
@@ -82,7 +81,6 @@ def test_bands_grow_with_the_noise():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_fewer_per_cent_are_narrower():
     samples = sample_materials(known_superposition())
     omega = np.geomspace(*samples.frequency_range, 20)
@@ -97,7 +95,6 @@ def coldest_uncertain(error):
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_an_uncertain_shift_widens_the_band_where_its_isotherm_stands_alone():
     sure = sample_materials(known_superposition())
     unsure = sample_materials(known_superposition(covariance=coldest_uncertain(0.1)))
@@ -116,7 +113,6 @@ def test_an_uncertain_shift_widens_the_band_where_its_isotherm_stands_alone():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_an_uncertain_shift_does_not_matter_where_its_isotherm_was_measured():
     # E at −10 °C and 0.1 to 10 Hz was measured there: what α is, and at what reduced frequency it was put, cancel.
     omega = 2.0 * np.pi * np.logspace(-1.2, 1.2, 12)
@@ -129,7 +125,6 @@ def test_an_uncertain_shift_does_not_matter_where_its_isotherm_was_measured():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_shifts_are_drawn_from_their_covariance():
     root = np.tril(np.random.default_rng(0).standard_normal((KELVIN.size, KELVIN.size))) * 0.01
     covariance = root @ root.T
@@ -146,7 +141,6 @@ def test_shifts_are_drawn_from_their_covariance():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_vertical_shifts_are_drawn_with_the_spectrum_they_belong_to():
     covariance = coldest_uncertain(0.02)
     sure, unsure = (
@@ -180,7 +174,6 @@ class ErringTogether(Superposition):
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_horizontal_and_vertical_shifts_are_drawn_together():
     sizes = coldest_uncertain(0.05), coldest_uncertain(0.02)
     alone = known_superposition(covariance=sizes[0], vertical_covariance=sizes[1])
@@ -195,7 +188,6 @@ def test_horizontal_and_vertical_shifts_are_drawn_together():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 @pytest.mark.parametrize("law", ["wlf", "wlf+arrhenius", "polynomial"])
 def test_laws_are_drawn_as_uncertain_as_they_were_fitted(law):
     fit = vf.superpose(planted_sweeps(0).sweeps, "30 degC")
@@ -214,7 +206,6 @@ def test_laws_are_drawn_as_uncertain_as_they_were_fitted(law):
 
 @pytest.mark.apart
 @pytest.mark.parametrize("method", ["non-negative", "regularised", "sparse"])
-@pytest.mark.slow
 def test_every_method_is_refitted_its_own_way(method):
     fit = known_superposition()
     chosen = {"regularised": {"regularisation": 1e-3}, "sparse": {"modes": 14}}.get(method, {})
@@ -340,7 +331,6 @@ def test_what_a_fit_follows_is_missing_from_its_residuals():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
     sweeps = vf.read_dma(real_data / "dma" / "acrylic_468mp.csv", deformation="shear")
     samples = sample_materials(vf.superpose(sweeps, "20 degC"))
@@ -396,7 +386,6 @@ def test_draws_change_by_rounding_only_where_the_covariance_does():
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_bands_hold_near_the_ends_of_what_was_measured(family):
     """E' and E'' of 12 random rubbers of each family, in the half decade within either end.

@@ -230,7 +230,6 @@ speed = "1 m/s"
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_samples_of_the_material_are_solved_over_time_and_fall(tmp_path: Path) -> None:
     sweeps = files("viscofric") / "example" / "dma.csv"
     source = f'dma = "{sweeps}"\nreference_temperature = "30 degC"'

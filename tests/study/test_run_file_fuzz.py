@@ -37,7 +37,6 @@ def refusal(data: bytes) -> str | None:
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 @pytest.mark.timeout(600)
 def test_mutated_run_files_are_refused_in_sentences_or_taken() -> None:
     taken = 0

@@ -32,8 +32,6 @@ spacing = "10 um"
 points = 32
 seed = { from = 3, to = 5 }
 """
-SCAN = '[surface]\nfile = "scan.csv"\nunit = "um"\nspacing = "5 um"\n'
-INDENTER = '[indenter]\nradius = "5 mm"\n'
 SURFACE = (
     _MATERIAL
     + GENERATED

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from web.browser_tab import Tab
     from web.served_page import Server
 
-pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser, and axe on every step
+pytestmark = pytest.mark.apart  # a browser, and axe on every step
 LOOKS: dict[str, dict[str, Any]] = {
     "light": {"color_scheme": "light"},
     "dark": {"color_scheme": "dark"},

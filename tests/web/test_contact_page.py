@@ -64,7 +64,6 @@ SMALL = {
 CONTACT = "page.jobs.result('contact')"
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_page_opens_with_a_friction_curve_and_a_contact_that_follows_sliders(browser: Browser, server: Server) -> None:
     with opened_tab(browser, server) as tab:
@@ -190,7 +189,6 @@ def _follow_all(tab: Tab) -> None:
     assert found["shown"][-1] == ["sharp", 1]
 
 
-@pytest.mark.slow
 @pytest.mark.exhaustive
 def test_what_is_changed_is_solved_again(browser: Browser, server: Server) -> None:
     with opened_tab(browser, server, "#export", viewport={"width": 390, "height": 850}, color_scheme="dark") as tab:
@@ -257,7 +255,6 @@ def _make_a_mistake(tab: Tab) -> None:
     finished(tab)
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_a_cancelled_curve_keeps_its_points_and_is_resumed(browser: Browser, server: Server) -> None:
     speeds = {"from": "1 mm/s", "to": "10 m/s", "points": 60, "spacing": "log"}
@@ -287,7 +284,6 @@ def test_a_cancelled_curve_keeps_its_points_and_is_resumed(browser: Browser, ser
         tab.until(f"{shown}.length > 3 && {shown}.every((one) => one.closest('.stale'))")
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_a_drag_of_the_load_is_followed_and_is_one_step_of_undo(browser: Browser, server: Server) -> None:
     with opened_tab(browser, server, "#export") as tab:
@@ -316,7 +312,6 @@ def test_a_drag_of_the_load_is_followed_and_is_one_step_of_undo(browser: Browser
         assert tab.value(speed) == before
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_heated_friction_is_drawn_beside_the_isothermal_one(browser: Browser, server: Server) -> None:
     """Of a cylinder, which is soon solved; the heat is that of an interface, whose law is chosen on the page."""

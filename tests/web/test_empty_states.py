@@ -12,7 +12,7 @@ from web.every_input import STATE, STEPS, at_rest
 if TYPE_CHECKING:
     from web.browser_tab import Tab
 
-pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser
+pytestmark = pytest.mark.apart  # a browser
 #: The words of a figure that is seen and has no data, by the id of the figure.
 _EMPTY = """Object.fromEntries([...document.querySelectorAll('.step:not([hidden]) .figure')]
   .filter((one) => one.checkVisibility() && !one.querySelector('.plot-empty').hidden)

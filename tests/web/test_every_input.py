@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from web.browser_tab import Tab
     from web.served_page import Server
 
-pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser
+pytestmark = pytest.mark.apart  # a browser
 _MORE = [pytest.param(first, marks=pytest.mark.exhaustive) for first in range(10, 100, 10)]
 
 

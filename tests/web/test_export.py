@@ -161,7 +161,6 @@ def test_a_file_that_is_gone_is_named(desk: Desk) -> None:
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_whole_study_has_the_numbers_of_page_and_command_line_and_takes_up_where_it_was(
     desk: Desk, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

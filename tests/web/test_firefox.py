@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from web.served_page import Server
 
-pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser
+pytestmark = pytest.mark.apart  # a browser
 _SEEN = ".step:not([hidden])"
 _AT_REST = "[...document.querySelectorAll('.progress:not([hidden])')].every((one) => one.classList.contains('done'))"
 _STATUS = "document.querySelector('.live-status').textContent"

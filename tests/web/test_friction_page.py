@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from web.browser_tab import Tab
     from web.served_page import Server
 
-pytestmark = [pytest.mark.slow, pytest.mark.apart]
+pytestmark = pytest.mark.apart
 _SECONDS = 60.0  # at most, on a machine that does other work too
 _STEP = "#step-measurement"
 

@@ -96,7 +96,6 @@ def test_results_of_earlier_inputs_are_grey_until_the_inputs_are_theirs_again(ta
     assert grey(f"{STATE}.renew(['rubber.json'])")  # other contents under the same name
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 @pytest.mark.parametrize("hidden", ALL)
 def test_figures_hidden_while_inputs_change_are_those_of_a_fresh_page(
@@ -123,7 +122,6 @@ def test_figures_hidden_while_inputs_change_are_those_of_a_fresh_page(
         assert figures_of(fresh, hidden) == last
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 def test_a_file_with_other_contents_under_the_same_name_is_read_again(tab: Tab) -> None:
     upload = """await (await import('/static/js/api.js')).uploadFiles(

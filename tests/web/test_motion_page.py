@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from web.browser_tab import Tab
     from web.served_page import Server
 
-pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser
+pytestmark = pytest.mark.apart  # a browser
 _STEP = "#step-motion"
 _HISTORY = "page.state.state.view('motion')"
 

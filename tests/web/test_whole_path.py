@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from web.browser_tab import Tab
     from web.served_page import Server
 
-pytestmark = [pytest.mark.slow, pytest.mark.apart]  # a browser, a study, and the study again
+pytestmark = pytest.mark.apart  # a browser, a study, and the study again
 _SECONDS = 90.0  # at most for each thing that is computed, on a machine that does other work too
 _ACCURACY = 0.02  # asked of both, relative
 

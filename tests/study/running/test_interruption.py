@@ -108,7 +108,6 @@ def test_what_is_removed_in_mid_run_is_an_error(tmp_path: Path, what: str) -> No
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_a_changed_case_is_solved_again_and_said(tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
     study.write_text(STUDY.format(points=2, cases="each"))

@@ -12,7 +12,6 @@ from study.running.kills import STUDY, Runs, killed_and_resumed
 from viscofric import open_results
 
 
-@pytest.mark.slow
 @pytest.mark.apart
 @pytest.mark.timeout(600)
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="runs are forked, which Windows cannot do")

@@ -38,7 +38,6 @@ def pair() -> Iterator[Processes]:
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_processes_find_the_same_bits_and_one_may_be_killed(
     alone: tuple[TwoWaves, CaseStore], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -101,7 +100,6 @@ def test_failed_cases_leave_the_others_alone(request: pytest.FixtureRequest, pro
 
 
 @pytest.mark.apart
-@pytest.mark.slow
 def test_case_that_ends_one_process_after_the_other_is_lost_alone(pair: Processes, tmp_path: Path) -> None:
     plan, store = TwoWaves(), CaseStore(tmp_path)
     run_plan(plan, store, pair, solve=solve_or_end)
