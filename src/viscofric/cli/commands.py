@@ -48,7 +48,12 @@ class Command(click.Command):
                 if single and (times := order.count(one)) > 1:
                     said = f"{' / '.join(one.opts)} is given {times} times; give it once"
                     raise click.UsageError(f"{said} (several values as one list, where --help says so).", ctx)
-        return super().parse_args(ctx, args)
+        try:
+            return super().parse_args(ctx, args)
+        except click.MissingParameter as error:
+            if isinstance(error.param, click.Option) and not error.message:
+                error.message = error.param.help or ""  # what it is, with an example
+            raise
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; what viscofric raises on purpose becomes a message, and exit status 1 or `NOT_ACCURATE`."""
