@@ -321,6 +321,8 @@ def test_curves_of_a_workbook_are_read(tmp_path: Path) -> None:
     [
         ("T (°C),Sliding Velocity (mm/s),COF,Fz (N)", False),
         ("Temperature (°C),Gleitgeschwindigkeit (mm/s),Reibungszahl,Normalkraft (N)", False),
+        ("Temperatur (°C),Geschwindigkeit (mm/s),Reibwert,Last (N)", False),
+        ("Température (°C),Vitesse (mm/s),Coefficient de frottement,Force normale (N)", False),
         ("Temperature (°C),log v (mm/s),µ,load (N)", True),
     ],
 )

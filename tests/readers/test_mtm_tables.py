@@ -51,6 +51,19 @@ def test_several_files_follow_each_other(tmp_path):
     assert "two.csv" in runs.source
 
 
+@pytest.mark.parametrize(
+    "header",
+    [
+        "Temperatur (°C),Scheibengeschwindigkeit (mm/s),Kugelgeschwindigkeit (mm/s),Last (N),Reibkraft (N)",
+        "Température (°C),Vitesse du disque (mm/s),Vitesse de la bille (mm/s),Charge (N),Force de frottement (N)",
+    ],
+)
+def test_headings_in_other_languages(tmp_path, header):
+    runs = read_mtm(write(tmp_path, header, "30,100,90,25,0.4"))
+    assert (runs.disc_speed[0], runs.ball_speed[0]) == pytest.approx((0.1, 0.09), rel=1e-12)
+    assert (runs.traction_force[0], runs.load[0]) == (0.4, 25.0)
+
+
 def test_files_that_are_each_numbered_from_one_are_different_repetitions(tmp_path):
     days = ("0.40", "0.41", "0.39")
     files = [

@@ -9,13 +9,14 @@ from viscofric.readers.mtm.delimited import COEFFICIENT, LOAD
 _SPEEDS = (
     *("v", "velocity", "sliding speed", "sliding velocity", "disc speed", "disk speed", "linear speed", "lin. speed"),
     *("track speed", "rotational speed", "gleitgeschwindigkeit", "geschwindigkeit", "vitesse", "vitesse de glissement"),
-    *("velocidad", "velocità", "速度", "滑动速度", "すべり速度"),
+    *("velocidad", "velocidad de deslizamiento", "velocità", "velocità di strisciamento", "snelheid", "glijsnelheid"),
+    *("速度", "滑动速度", "すべり速度"),
 )
 #: field -> (SI unit, empty for a pure number; the heading written; other headings accepted)
 COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "speed": ("m/s", "speed", _SPEEDS),
     "temperature": ("K", "temperature", ("T", "temp", "temp.")),
-    "load": ("N", "load", ("F", "Fz", "fz", *LOAD)),
+    "load": ("N", "load", ("F", "Fz", "fz", *sorted(LOAD))),
     "viscoelastic": (
         "",
         "viscoelastic friction",

@@ -33,20 +33,12 @@ COEFFICIENT = frozenset(
     | {"reibbeiwert", "coeficiente de rozamiento", "coeficiente de atrito", "wrijvingscoëfficiënt", "|cof|"}
     | {"коэффициент трения", "współczynnik tarcia", "součinitel tření", "動摩擦係数", "动摩擦系数", "마찰계수"}
 )
+#: Names of a normal load.
 LOAD = frozenset(
-    {
-        "load",
-        "normal load",
-        "applied load",
-        "normal force",
-        "Fn",
-        "fn",
-        "normalkraft",
-        "last",
-        "force normale",
-        "charge",
-    }
-    | {"fuerza normal", "carga", "forza normale", "carico", "荷重", "垂直荷重", "载荷", "法向力"}
+    {"load", "normal load", "applied load", "normal force", "Fn", "fn", "F_N", "f_n"}
+    | {"last", "normallast", "normalkraft", "anpresskraft"}
+    | {"charge", "charge normale", "force normale", "carga", "carga normal", "fuerza normal", "carico", "forza normale"}
+    | {"belasting", "normaalkracht", "荷重", "垂直荷重", "载荷", "荷载", "法向力"}
 )
 #: What to do with traction runs in place of friction curves or sweeps.
 AS_RUNS = Remedy(
@@ -67,30 +59,21 @@ TRACTION = Vocabulary(
             | {"u disc", "u disk", "v disc", "v disk", "scheibengeschwindigkeit", "vitesse du disque", "ディスク速度"}
         ),
         "ball speed": frozenset(
-            {
-                "ball speed",
-                "ball velocity",
-                "u ball",
-                "v ball",
-                "kugelgeschwindigkeit",
-                "vitesse de la bille",
-                "ボール速度",
-            }
+            {"ball speed", "ball velocity", "u ball", "v ball"}
+            | {"kugelgeschwindigkeit", "vitesse de la bille", "ボール速度"}
         ),
         "load": LOAD | {"ball load"},
         "traction force": frozenset(
-            {
-                "traction force",
-                "traction",
-                "friction force",
-                "reibkraft",
-                "reibungskraft",
-                "force de frottement",
-                "摩擦力",
-            }
+            {"traction force", "traction", "friction force", "reibkraft", "reibungskraft", "traktionskraft"}
+            | {"force de frottement", "forza di attrito", "fuerza de fricción", "摩擦力"}
         ),
-        "rolling speed": frozenset({"rolling speed", "entrainment speed", "entrainment velocity", "mean speed"}),
-        "sliding speed": frozenset({"sliding speed", "slip speed", "sliding velocity"}),
+        "rolling speed": frozenset(
+            {"rolling speed", "entrainment speed", "entrainment velocity", "mean speed"}
+            | {"rollgeschwindigkeit", "vitesse de roulement"}
+        ),
+        "sliding speed": frozenset(
+            {"sliding speed", "slip speed", "sliding velocity"} | {"gleitgeschwindigkeit", "vitesse de glissement"}
+        ),
         "slide to roll ratio": frozenset(
             {
                 "srr",
@@ -105,7 +88,7 @@ TRACTION = Vocabulary(
         "zero force": frozenset({"zero force", "zero traction force"}),
         "time": frozenset({"t", "time", "step time"}),
         "track radius": frozenset({"track radius", "disc track radius"}),
-        "replicate": frozenset({"replicate", "repetition", "repeat"}),
+        "replicate": frozenset({"replicate", "repetition", "repeat", "wiederholung", "répétition"}),
         "step": frozenset({"step", "step number"}),
     },
     needed=(("disc speed", "ball speed", "rolling speed"), ("traction force", "traction coefficient")),
