@@ -20,6 +20,8 @@ _COSH = np.arange(0.0, 14.0, 0.01)
 #: Newton's steps for the contact radius; each squares an error that is below one at the start.
 _NEWTON = 8
 _SETTLED = 1e-6
+#: Largest change of ln C of a neighbouring material.
+_FARTHEST = 300.0
 #: Range of ln(load × compliance) that the radii are tabulated over, on both sides of the first guess.
 _REACH = 16.0
 
@@ -161,9 +163,10 @@ class CorrectedFriction:
     """ln μ at any speed and compliances, exact with its derivatives at the nodes of the solved material.
 
     The error of the closed form in ln μ and in its derivatives varies so slowly with ln v that a cubic spline through a
-    few nodes per decade represents it; for other materials it is extrapolated linearly.  This is space mapping: J. W.
-    Bandler et al., IEEE Trans. Microw. Theory Tech. 42 (1994) 2536.  Without `solved`, the first-order form is not
-    corrected.
+    few nodes per decade represents it.  For other materials it is extrapolated linearly in the level (ln) of the
+    compliances that the contact sees and in the share of each mode in them: what a mode contributes vanishes with it,
+    and is bounded where it dominates.  This is space mapping: J. W. Bandler et al., IEEE Trans. Microw. Theory Tech. 42
+    (1994) 2536.  Without `solved`, the first-order form is not corrected.
     """
 
     def __init__(self, first: FirstOrder, solved: Solved | None = None) -> None:
@@ -172,8 +175,10 @@ class CorrectedFriction:
         self.first, self.solved = first, solved
         if solved is not None:
             crude = first(solved.compliances, solved.log_speed)
-            missing = [solved.log_friction - crude.log_friction, solved.change - crude.change, solved.load_slope]
-            self._missing = CubicSpline(solved.log_speed, np.column_stack(missing))
+            shares = crude.radius_change / crude.radius_change.sum(axis=1, keepdims=True)
+            missing = np.column_stack([solved.log_friction - crude.log_friction, solved.load_slope])
+            self._missing = CubicSpline(solved.log_speed, np.stack([solved.change - crude.change, shares], axis=-1))
+            self._alone = CubicSpline(solved.log_speed, missing)
 
     def __call__(self, compliances: Array, log_speed: Array, log_load: Array) -> tuple[Array, Array, Array]:
         """Return ln μ (n,), its derivatives by the compliances (n, 1 + m) and by ln v (n,)."""
@@ -184,11 +189,19 @@ class CorrectedFriction:
             return crude.log_friction, crude.change, crude.slope
         nodes = self.solved.log_speed
         inside = np.clip(log_speed, nodes[0], nodes[-1])
-        missing = self._missing(inside)
-        rising = np.where(inside == log_speed, 1.0, 0.0)[:, None] * self._missing(inside, 1)
-        moved = compliances - self.solved.compliances
+        within = np.where(inside == log_speed, 1.0, 0.0)
+        missing, shares = np.moveaxis(self._missing(inside), -1, 0)
+        rising, growing = np.moveaxis(self._missing(inside, 1), -1, 0)
+        alone, alone_rising = self._alone(inside), self._alone(inside, 1)
+        shares = np.maximum(shares, 0.0)  # which a spline does not observe
+        grown = np.exp(np.minimum(compliances - self.solved.compliances, _FARTHEST))
+        level = shares @ grown
+        relative = grown / level[:, None]
+        moved = np.log(level)[:, None] + relative - 1.0
+        by_level = np.sum(missing * (1.0 - relative), axis=1)
+        slope = alone_rising[:, 0] + alone_rising[:, 1] * log_load + np.sum(rising * moved, axis=1)
         return (
-            crude.log_friction + missing[:, 0] + missing[:, 1:-1] @ moved + missing[:, -1] * log_load,
-            crude.change + missing[:, 1:-1],
-            crude.slope + rising[:, 0] + rising[:, 1:-1] @ moved + rising[:, -1] * log_load,
+            crude.log_friction + alone[:, 0] + alone[:, 1] * log_load + np.sum(missing * moved, axis=1),
+            crude.change + missing * relative + shares * relative * by_level[:, None],
+            crude.slope + within * (slope + np.sum(growing * relative, axis=1) * by_level),
         )
