@@ -53,6 +53,24 @@ def test_a_creep_strain_lacks_its_stress_which_may_be_one_value(tmp_path):
     np.testing.assert_allclose(tests.tests[0].response, 1e-7 * TIME**0.2, rtol=1e-6)  # 1/Pa
 
 
+@pytest.mark.parametrize(
+    ("header", "scale", "code"),
+    [
+        ("T (°C),t (s),J (1/MPa)", 1.0, None),
+        ("T (K),t (s),J (1/MPa)", 1.0, "implausible-temperature"),  # 25 K
+        ("T (°C),t (s),J (1/Pa)", 20.0, "implausible-modulus"),  # half a pascal
+        ("T (°C),t (s),E (Pa)", -1.0, "implausible-modulus"),  # a tenth of one
+    ],
+)
+def test_what_looks_like_a_wrong_unit_is_noted(tmp_path, header, scale, code):
+    response = [0.1, 0.12, 0.15, 0.19] if scale > 0.0 else [0.19, 0.15, 0.12, 0.1]
+    rows = [f"25,{time},{abs(scale) * one}" for time, one in zip((1, 10, 100, 1000), response, strict=True)]
+    path = tmp_path / "steps.csv"
+    path.write_text("\n".join([header, *rows]), encoding="utf-8")
+    found = {one for one in codes(vf.read_step_tests(path, deformation="tension")) if "implausible" in one}
+    assert found == ({code} if code else set())
+
+
 def test_one_file_for_each_temperature(tmp_path):
     """Temperatures from names or arguments; E(t) states tension."""
     for celsius in (20, 40):

@@ -155,7 +155,7 @@ def doubts(table: Table, places: dict[str, int], temperature: Array, storage_mod
         notes.append(
             Note(
                 "implausible-modulus",
-                f"No solid has a storage modulus of {storage_modulus[row]:.3g} Pa (line {table.lines[row]}); "
+                f"No solid has a modulus of {storage_modulus[row]:.3g} Pa (line {table.lines[row]}); "
                 f"the unit in column {table.columns[place].heading!r} is probably wrong.",
             )
         )

@@ -20,9 +20,17 @@ from viscofric.arrays import Array
 from viscofric.data import DEFORMATIONS, Deformation
 from viscofric.errors import DataFileError, check_choice, wrong_argument
 from viscofric.notes import Note
+from viscofric.readers.dma.checks import doubts
 from viscofric.readers.dma.instruments import trios_text
 from viscofric.readers.dma.instruments.ta_steps import StepText
-from viscofric.readers.dma.names import decided, insist_on_one_specimen, joined_tables, said_by_columns, tools_in
+from viscofric.readers.dma.names import (
+    MODULI,
+    decided,
+    insist_on_one_specimen,
+    joined_tables,
+    said_by_columns,
+    tools_in,
+)
 from viscofric.readers.dma.tables import reptate
 from viscofric.readers.source import Source, insist_on_content, sources_of
 from viscofric.readers.steps.columns import STEPS, kind_in_name, kind_of, response_of, temperature_of, time_of
@@ -33,6 +41,8 @@ from viscofric.units import Quantity, shown_celsius
 
 #: Temperatures closer than this belong to one test.
 ONE_TEST = 1.0  # K
+#: Decades that points may lie off the median to be judged by their size.
+LIKE_THE_OTHERS = 3.0
 #: Fewest points of a test.
 LEAST_POINTS = 4
 
@@ -218,6 +228,15 @@ def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: 
     symbol = plain.rpartition(" ")[2]  # of "relaxation modulus G(t)"
     deformation, said_by = said_by_columns([plain, symbol], [table.filled], tools_in(table.above))
     kelvin = temperature_of(table, source, name, notes)
+    # the first points, of an instrument that rings, may have any size
+    with np.errstate(divide="ignore", invalid="ignore"):
+        modulus = 1.0 / response if known == "creep" else response
+        above = modulus[(modulus > 0.0) & np.isfinite(modulus)]
+        usual = np.median(above) if above.size else np.nan
+        modulus = np.where(np.abs(np.log10(modulus / usual)) < LIKE_THE_OTHERS, modulus, np.nan)
+    headings = [column.heading for column in table.columns]
+    places = {"temperature": table.place("temperature"), MODULI[0]: headings.index(heading)}
+    notes += doubts(table, {one: place for one, place in places.items() if place is not None}, kelvin, modulus)
     insist_on_one_specimen(table, np.round(kelvin)[:, None], "temperature")
     return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit, said_by)
 
