@@ -51,9 +51,9 @@ class Command(click.Command):
         try:
             return super().parse_args(ctx, args)
         except click.MissingParameter as error:
-            if isinstance(error.param, click.Option) and not error.message:
-                error.message = error.param.help or ""  # what it is, with an example
-            raise
+            if not isinstance(error.param, click.Option):
+                raise
+            raise click.MissingParameter(error.param.help, ctx, error.param) from None  # what it is, with an example
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; what viscofric raises on purpose becomes a message, and exit status 1 or `NOT_ACCURATE`."""
