@@ -17,6 +17,7 @@ from viscofric.friction.shifting import master_curve
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.notes import codes, note_of
 from viscofric.rheology.shifts.laws import WLF, Arrhenius
+from viscofric.rheology.shifts.shift_factors import ShiftFactors
 
 LAW = WLF(C1=8.86, C2=101.6, reference="50 degC")
 # 20 to 200 mm/s in 10 steps; at 44, 50 and 56 °C neighbours overlap by half a decade.
@@ -503,3 +504,17 @@ def test_data_set_holds_the_points_along_the_reduced_speed() -> None:
     np.testing.assert_array_equal(data["temperature"], curves.temperature[order])
     np.testing.assert_array_equal(data["viscoelastic"], curves.viscoelastic[order])
     np.testing.assert_array_equal(data["viscoelastic_error"], curves.viscoelastic_error[order])
+
+
+def test_errors_of_shift_factors_move_points_of_other_temperatures_along_the_curve():
+    speed, kelvin = np.tile(np.geomspace(0.01, 1.0, 21), 2), np.repeat([293.15, 333.15], 21)
+    law = ShiftFactors([293.15, 333.15], [0.0, -2.5], 293.15, [[0.0, 0.0], [0.0, 0.04**2]])
+    friction = 0.05 * (law(kelvin) * speed) ** 0.2
+    small = 1e-6 * friction
+    curves = FrictionCurves(speed, kelvin, np.full(42, 25.0), friction, small, small, np.ones(42))
+    master = shift_friction(curves, shift=law)
+    own, other = master.standard_error(0.1), master.standard_error(10.0**-3.5)  # points at 60 °C, seen from 20 °C
+    assert own < 1e-5 * master(0.1)
+    # 0.04 decades along a power of 0.2; the parabola and the difference for the slope are exact to a per cent.
+    assert other == pytest.approx(0.2 * 0.04 * np.log(10.0) * master(10.0**-3.5), rel=0.01)
+    assert master.standard_error(0.1, 333.15) < 1e-5 * master(0.1, 333.15)  # both move together

@@ -83,15 +83,31 @@ class SmoothedPoints:
             value[places] = weights @ self.friction[window]
         return value
 
-    def standard_error(self, decades: Array) -> Array:
-        """Return standard errors (m,) at places (m,) that lie in a stretch."""
+    def standard_error(self, decades: Array, moved: Array | None = None, points_moved: Array | None = None) -> Array:
+        """Return standard errors (m,) at places (m,) that lie in a stretch.
+
+        `moved` (m, k) and `points_moved` (n, k) are k independent standard errors of the places and of the points.
+        """
         square = np.empty(decades.shape)
+        slope = np.zeros(decades.shape) if moved is None else self._slope(decades)
         unknown = np.isinf(self._judged.variance)
         variance = np.where(unknown, 0.0, self._judged.variance)
         for places, window, weights in self._smoothers(decades, self._judged.weight):
             square[places] = weights**2 @ variance[window] + self._shared(window, weights)
+            if moved is not None and points_moved is not None:
+                apart = moved[places] - weights @ points_moved[window]
+                square[places] += slope[places] ** 2 * np.sum(apart**2, axis=1)
             square[places[np.any(weights[:, unknown[window]] != 0.0, axis=1)]] = np.inf
         return np.sqrt(square)
+
+    def _slope(self, decades: Array) -> Array:
+        """Return the change of the value per decade at places (m,) that lie in a stretch."""
+        low, high = np.transpose(
+            [next(ends for ends in self.stretches if one <= ends[1] + _ROUNDING) for one in decades]
+        )
+        first, last = np.maximum(decades - 0.5 * BANDWIDTH, low), np.minimum(decades + 0.5 * BANDWIDTH, high)
+        rise = self.read(last) - self.read(first)
+        return np.asarray(np.divide(rise, last - first, out=np.zeros(decades.shape), where=last > first))
 
     @property
     def stated(self) -> bool:
@@ -481,13 +497,24 @@ class FrictionMasterCurve(Plotted):
     def standard_error(
         self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None
     ) -> Any:
-        """Return the standard error of μ(v, T), without those of the shift factors; arguments as of a call.
+        """Return the standard error of μ(v, T), arguments as of a call.
 
         It is that of the points' errors, enlarged by one factor where the points scatter about the curve by more than
         these and the `level_error` of each temperature explain, with this level error; that of the scatter alone where
-        all stated errors are zero.  Near points of unknown (infinite) error it is infinite.
+        all stated errors are zero.  Errors of the shift factors add to it, as far as they are known: they move the
+        points of other temperatures along the curve.  Near points of unknown (infinite) error it is infinite.
         """
-        return self._read(self._smoothed.standard_error, speed, temperature, load)
+        _, kelvin, _ = self._arguments(speed, temperature)
+        return self._read(lambda decades: self._error(decades, kelvin.ravel()), speed, temperature, load)
+
+    def _error(self, decades: Array, kelvin: Array) -> Array:
+        """Return standard errors (m,) at places (m,), read at temperatures (m,), with those of the shift factors."""
+        every, number = np.unique([*nominal_temperatures(self.temperature), *kelvin], return_inverse=True)
+        values, axes = np.linalg.eigh(self.shift.covariance_at(every))
+        if not np.any(values > 0.0):
+            return self._smoothed.standard_error(decades)
+        moves = (axes * np.sqrt(np.maximum(values, 0.0)))[number]
+        return self._smoothed.standard_error(decades, moves[len(self) :], moves[: len(self)])
 
     def covers(self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None) -> Any:
         """Return whether μ(v, T) is known: the reduced speed lies where there are points, and α is known at T.
