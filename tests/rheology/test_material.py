@@ -7,6 +7,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
+from viscofric.notes import codes
 from viscofric.rheology.shifts.vertical_shift import DensityShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 
@@ -119,3 +120,11 @@ def test_a_material_of_a_relaxation_spectrum_is_that_of_its_retardation_spectrum
     found, omega = vf.Material(series), np.geomspace(1.0, 1e6, 20)
     assert isinstance(found.spectrum, vf.RetardationSpectrum)
     np.testing.assert_allclose(found.complex_modulus(omega), series.complex_modulus(omega), rtol=1e-9)
+
+
+@pytest.mark.parametrize("fitted_range", [None, (253.15, 373.15)])
+def test_wlf_law_far_above_its_reference_is_noted_whether_or_not_its_range_is_known(fitted_range):
+    law = vf.WLF(9.0, 100.0, 293.15, fitted_range=fitted_range)
+    material = vf.Material(vf.synthetic_fluoroelastomer().spectrum, shift=law.unbounded())
+    assert "extrapolated" not in codes(material.notes_at([263.15, 353.15]))
+    assert "extrapolated" in codes(material.notes_at([353.15, 423.15]))

@@ -14,7 +14,7 @@ from viscofric.arrays import Array, ComplexArray
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.notes import Note, Remedy, without
-from viscofric.rheology.shifts.laws import OneTemperature, ShiftLaw
+from viscofric.rheology.shifts.laws import VFT, WLF, OneTemperature, ShiftLaw, WLFArrhenius
 from viscofric.rheology.shifts.shift_law import NOMINAL, in_kelvin
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable, modes_of_table, what_was_fitted
@@ -24,6 +24,8 @@ from viscofric.units import Quantities, Quantity, checked_poisson_ratio, positiv
 
 #: Code of the note on shift factors that are extrapolated.
 EXTRAPOLATED = "extrapolated"
+#: WLF is a law of the hundred kelvin above Tg (Williams, Landel & Ferry 1955), and its reference is not below that.
+FREE_VOLUME_RANGE = 100.0  # K
 _MOST_SHOWN = 10
 Spectrum = TypeVar("Spectrum", RetardationSpectrum, ModulusTable)
 
@@ -282,7 +284,8 @@ class Material(Plotted):
         tuple of Note
             Where the sweeps do not superpose (codes from ``superposition-``), E' and E'' contradict each other
             (``kramers-kronig-fails``) or the spectrum does not follow them (``spectrum-misfit``), and where the shift
-            law extrapolates beyond the temperatures that it was fitted to (``extrapolated``).
+            law extrapolates beyond the temperatures that it was fitted to, or more than 100 K above the reference of a
+            WLF law for which they are not known (``extrapolated``).
         """
         fit = getattr(self.spectrum, "fit", None)
         return (*(() if fit is None else fit.doubts), *self._extrapolated(temperature))
@@ -292,12 +295,18 @@ class Material(Plotted):
             return ()
         every = np.unique(in_kelvin(temperature))
         beyond = every[np.asarray(self.shift.extrapolates(every))]
+        said = "At {} the law extrapolates the shift factor beyond the temperatures that it was fitted to."
+        if isinstance(self.shift, (WLF, VFT, WLFArrhenius)) and self.shift.fitted_range is None:
+            beyond = every[every > self.shift.reference + FREE_VOLUME_RANGE]
+            said = (
+                f"At {{}}, more than {FREE_VOLUME_RANGE:g} K above its reference, the {self.shift.title} law may not "
+                "hold; the temperatures that it was fitted to are not known."
+            )
         if not beyond.size:
             return ()
         at = ", ".join(shown_celsius(float(one), "z.4g") for one in beyond[:_MOST_SHOWN]) + " °C"
         at += f" and {beyond.size - _MOST_SHOWN} more temperatures" if beyond.size > _MOST_SHOWN else ""
-        said = f"At {at} the law extrapolates the shift factor beyond the temperatures that it was fitted to."
-        return (Note(EXTRAPOLATED, said, values={"lowest": float(beyond[0]), "highest": float(beyond[-1])}),)
+        return (Note(EXTRAPOLATED, said.format(at), values={"lowest": float(beyond[0]), "highest": float(beyond[-1])}),)
 
 
 #: Temperature of a material without shift factors where none is given.
