@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -34,29 +34,33 @@ _PER_HOUR = 3600.0
 
 
 class Rate(NamedTuple):
-    """A change that is linear in time; zero where it is not significant."""
+    """A change that is linear in time."""
 
     value: float = 0.0
     error: float = 0.0  # its standard error; the root of its expected square where it is not significant
     freedom: float = np.inf
     part: float = 1.0  # what is subtracted of it, the rest is in the errors
 
-    @classmethod
-    def found(cls, value: float, error: float, freedom: float, part: float = 1.0) -> Rate:
-        """Return a rate, zero where it is within what chance makes."""
-        if not math.isfinite(error):
-            return _NONE
-        if abs(value) >= threshold(freedom, CHANCE) * error:
-            return cls(value, error, freedom, part)
-        # Where it exceeds its error, it is expected to be more than that: normal with the variance by which its square
-        # does so.
-        sure = 1.0 - (error / value) ** 2 if abs(value) > error else 0.0
-        return cls(0.0, math.hypot(sure * value, math.sqrt(sure) * error), freedom)
-
     @property
     def left(self) -> float:
         """Standard error of what is left of it."""
         return math.hypot(self.error, (1.0 - self.part) * self.value)
+
+    @property
+    def significant(self) -> bool:
+        """Whether it is more than chance makes."""
+        return abs(self.value) > threshold(self.freedom, CHANCE) * self.error
+
+    def judged(self) -> Rate:
+        """Return the rate, or zero where it is not significant."""
+        if not math.isfinite(self.error):
+            return _NONE
+        if self.significant:
+            return self
+        # Where it exceeds its error, it is expected to be more than that: normal with the variance by which its square
+        # does so.
+        sure = 1.0 - (self.error / self.value) ** 2 if abs(self.value) > self.error else 0.0
+        return Rate(0.0, math.hypot(sure * self.value, math.sqrt(sure) * self.error), self.freedom)
 
 
 _NONE = Rate()
@@ -74,6 +78,13 @@ class Drift:
     timed: bool = True  # whether the times were recorded
     hidden: float = 0.0  # change of Coulomb friction that could remain unnoticed, over its mean; zero where it is small
 
+    @classmethod
+    def of(cls, fits: list[Fit]) -> Drift:
+        """Estimate the drift from the fitted zeros and Coulomb coefficients."""
+        drift, zero_error = _of_zeros(fits)
+        coulomb, hidden = _of_coulomb(fits, drift.weights, zero_error)
+        return replace(drift, coulomb=coulomb, hidden=hidden)
+
     @property
     def weights(self) -> Array:
         """Of the force and its corrections."""
@@ -81,44 +92,6 @@ class Drift:
         weights[FORCE], weights[DRIFT], weights[ZERO_CHANGES] = 1.0, self.zero.value, float(self.follows)
         weights[WEAR] = self.coulomb.part * self.coulomb.value
         return weights
-
-    @classmethod
-    def of(cls, fits: list[Fit]) -> Drift:
-        """Estimate the drift from the fitted zeros and Coulomb coefficients."""
-        drift, error = cls._of_zeros(fits)
-        rate, hidden = _of_coulomb(fits, drift.weights, error)
-        return replace(drift, coulomb=rate, hidden=hidden)
-
-    @classmethod
-    def _of_zeros(cls, fits: list[Fit]) -> tuple[Drift, float]:
-        # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
-        # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
-        # Where they were repeated at once, it is known far better from lines for each temperature and load, between
-        # which zeros may differ without any drift.
-        fitted = [fit for fit in fits if fit.fits_offset]
-        follows = _follows(fitted)
-        fitted = [fit for fit in fitted if np.isfinite(fit.recorded)] if follows else fitted
-        uncorrected = cls(follows=follows).weights
-        timed = [fit for fit in fitted if np.isfinite(fit.time)]
-        repeated = [fit for fit in timed if len(fit.each) > 1]
-        if not timed:
-            return cls(follows=follows, wandering=_in_order_of_rows(fitted, uncorrected), timed=False), 0.0
-
-        def line(some: list[Fit], of: Integers) -> _Line:
-            # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
-            return _Line.of([(fit.offset(uncorrected), fit.time - fit.each[:, 0, DRIFT]) for fit in some], of)
-
-        rounding = ROUNDING * max(fit.group.load for fit in timed)
-        if not repeated:
-            found = line(timed, np.zeros(len(timed), dtype=np.intp))
-        else:
-            found = line(repeated, np.arange(len(repeated)))
-            together = line(timed, _alike(timed))
-            if together.tells_far_better(found) and not together.wanders(rounding):
-                found = together
-        if found.wanders(rounding):
-            return cls(follows=follows, wandering=float(np.std(found.value, ddof=1))), 0.0
-        return cls(found.rate(rounding), follows=follows), found.error
 
     def entry(self, fit: Fit, zeros: Zeros, error: Array, freedom: Array) -> Entry:
         """Return the result of a condition, with the error of the drift in its standard errors (4,)."""
@@ -198,78 +171,138 @@ class Drift:
             )
 
 
-class _Slope(NamedTuple):
-    """A rate whose corrections bring values (n,) nearest to zero, or to their means."""
+@dataclass(frozen=True, eq=False)
+class _Trend:
+    """A rate whose corrections bring values (n,) nearest to zero: least squares of one unknown."""
 
     value: float
     left: Array  # (n,), values with the corrections
     freedom: int
-    sensitivity: float  # sum of squares of the corrections
+    corrections: float  # sum of their squares, per unit of the rate
 
     @classmethod
-    def of(cls, values: Array, corrections: Array, fitted: int) -> _Slope:
+    def of(cls, values: Array, corrections: Array, fitted: int) -> Self:
         """Fit values (n,) from which `fitted` others are found; `corrections` (n,) are those per unit of the rate."""
-        sensitivity = float(corrections @ corrections)
-        rate = -float(values @ corrections) / sensitivity if sensitivity > 0.0 else 0.0
-        freedom = max(values.size - fitted - (sensitivity > 0.0), 0)
-        return cls(rate, values + rate * corrections, freedom, sensitivity)
+        squares = float(corrections @ corrections)
+        value = -float(values @ corrections) / squares if squares > 0.0 else 0.0
+        freedom = max(values.size - fitted - (squares > 0.0), 0)
+        return cls(value, values + value * corrections, freedom, squares)
 
     @property
     def squares(self) -> float:
         """Sum of squares of what is left."""
         return float(self.left @ self.left)
 
-    def error(self, squares: float, freedom: int) -> tuple[float, float]:
-        """Return the standard error of the rate and its degrees of freedom; those of all values where its own are few.
+    def rate(self, squares: float, freedom: int) -> Rate:
+        """Return the rate with its error, by the scatter of all values where its own degrees of freedom are few.
 
         `squares` and `freedom` are those of all; the error is infinite where they are few as well.
         """
         own = self.squares / self.freedom if self.freedom else 0.0
-        variance, freedom = (max(own, squares / freedom), freedom) if self.freedom < _ENOUGH else (own, self.freedom)
-        if self.sensitivity <= 0.0 or freedom < _FEWEST:
-            return np.inf, 1.0
-        return math.sqrt(variance / self.sensitivity), freedom
+        few = self.freedom < _ENOUGH
+        variance, freedom = (max(own, squares / freedom), freedom) if few else (own, self.freedom)
+        if self.corrections <= 0.0 or freedom < _FEWEST:
+            return Rate(self.value, np.inf, 1.0)
+        return Rate(self.value, math.sqrt(variance / self.corrections), freedom)
 
 
-class _Line(NamedTuple):
-    """Straight lines of one slope through values (n,) at times (n,), s."""
+# --- drift of the zero ---------------------------------------------------------------------------------------
 
-    value: Array
-    time: Array
-    slope: _Slope
-    error: float  # its standard error, infinite where it has too few degrees of freedom
+
+def _of_zeros(fits: list[Fit]) -> tuple[Drift, float]:
+    """Return the drift of the zero, and the standard error of its rate, N/s."""
+    # Each replicate's zero is fitted at the mean time of its readings. The rate is that of one straight line for
+    # each condition, all of one slope, where conditions were repeated; of one line for the whole test where not.
+    # Where they were repeated at once, it is known far better from lines for each temperature and load, between
+    # which zeros may differ without any drift.
+    fitted = [fit for fit in fits if fit.fits_offset]
+    follows = _follows(fitted)
+    fitted = [fit for fit in fitted if not follows or np.isfinite(fit.recorded)]
+    uncorrected = Drift(follows=follows).weights
+    timed = [fit for fit in fitted if np.isfinite(fit.time)]
+    if not timed:
+        return Drift(follows=follows, wandering=_in_order_of_rows(fitted, uncorrected), timed=False), 0.0
+    rounding = ROUNDING * max(fit.group.load for fit in timed)
+    repeated = [fit for fit in timed if fit.paired]
+    lines = _Lines.through(repeated or timed, range(len(repeated)) if repeated else [0] * len(timed), uncorrected)
+    if repeated:
+        together = _Lines.through(timed, _alike(timed), uncorrected)
+        if together.far_better_known(lines) and not together.wander(rounding):
+            lines = together
+    if lines.wander(rounding):
+        return Drift(follows=follows, wandering=float(np.std(lines.zeros, ddof=1))), 0.0
+    negligible = abs(lines.rate.value) * lines.length <= rounding
+    return Drift(_NONE if negligible else lines.rate.judged(), follows=follows), lines.rate.error
+
+
+@dataclass(frozen=True, eq=False)
+class _Lines:
+    """Straight lines of one slope through zeros (n,), in the order of time."""
+
+    zeros: Array
+    left: Array  # (n,), deviations from the lines
+    rate: Rate
+    length: float  # from the first to the last, s
 
     @classmethod
-    def of(cls, points: list[tuple[Array, Array]], line: Integers) -> _Line:
-        """Fit values and times of several conditions; `line` (k,) is the number of the line of each."""
-        value, time = (np.concatenate(column) for column in zip(*points, strict=True))
-        line = np.repeat(line, [len(values) for values, _ in points])
-        slope = _Slope.of(_centred(value, line), -_centred(time, line), int(line.max()) + 1)
-        return cls(value, time, slope, slope.error(slope.squares, max(slope.freedom, 1))[0])
+    def through(cls, fits: list[Fit], line: Sequence[int], weights: Array) -> Self:
+        """Fit the zeros of the replicates of conditions (k,); `line` (k,) are the numbers of the lines."""
+        # Where readings of a replicate have unequal weights, its zero is that at their weighted mean time.
+        time = np.concatenate([fit.time - fit.each[:, 0, DRIFT] for fit in fits])
+        order = np.argsort(time, kind="stable")
+        time, zeros = time[order], np.concatenate([fit.offset(weights) for fit in fits])[order]
+        lines = np.repeat(line, [len(fit.each) for fit in fits])[order]
+        trend = _Trend.of(_centred(zeros, lines), -_centred(time, lines), max(line) + 1)
+        return cls(zeros, trend.left, trend.rate(trend.squares, max(trend.freedom, 1)), float(np.ptp(time)))
 
-    def wanders(self, rounding: float) -> bool:
-        """Whether the values move otherwise than along the lines."""
-        unexplained = float(np.sqrt(np.mean(self.slope.left**2)))
-        return unexplained > rounding and wanders(self.slope.left[np.argsort(self.time, kind="stable")])
+    def wander(self, rounding: float) -> bool:
+        """Whether the zeros move otherwise than along the lines."""
+        return float(np.sqrt(np.mean(self.left**2))) > rounding and wanders(self.left)
 
-    def tells_far_better(self, other: _Line) -> bool:
+    def far_better_known(self, other: _Lines) -> bool:
         """Whether the error of the slope is far smaller than that of another one, which it does not contradict."""
-        apart = abs(self.slope.value - other.slope.value)
-        agree = apart <= threshold(other.slope.freedom, CHANCE) * other.error
-        return agree and _FAR_BETTER * self.error <= other.error
-
-    def rate(self, rounding: float) -> Rate:
-        """Return the slope, zero where it is within what chance makes."""
-        if abs(self.slope.value) * float(np.ptp(self.time)) <= rounding:
-            return _NONE
-        return Rate.found(self.slope.value, self.error, self.slope.freedom)
+        apart = abs(self.rate.value - other.rate.value)
+        agree = apart <= threshold(other.rate.freedom, CHANCE) * other.rate.error
+        return agree and _FAR_BETTER * self.rate.error <= other.rate.error
 
 
-def _alike(fits: list[Fit]) -> Integers:
+def _alike(fits: list[Fit]) -> list[int]:
     """Return numbers of the temperature and load of conditions (k,)."""
     temperature, load = np.array([(fit.group.temperature, fit.group.load) for fit in fits]).T
     pairs = np.column_stack([temperature, numbered(load, SAME_LOAD * load)])
-    return np.asarray(np.unique(pairs, axis=0, return_inverse=True)[1]).reshape(-1)
+    return np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1).tolist()
+
+
+def _centred(values: Array, line: Integers) -> Array:
+    return np.asarray(values - (np.bincount(line, values) / np.bincount(line))[line])
+
+
+def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:
+    """Return the standard deviation of zeros that vary smoothly with the row, N; zero where they do not."""
+    if not fits:
+        return 0.0
+    row = np.concatenate([fit.first_rows for fit in fits])
+    zero = np.concatenate([fit.offset(weights) for fit in fits])[np.argsort(row, kind="stable")]
+    deviation = float(np.std(zero, ddof=1)) if zero.size > 1 else 0.0
+    return deviation if deviation > ROUNDING * max(fit.group.load for fit in fits) and wanders(zero) else 0.0
+
+
+def _follows(fits: list[Fit]) -> bool:
+    """Whether the forces follow the changes of the recorded zero, by their residuals."""
+    left, force = np.zeros(2), 0.0
+    for follows in (0, 1):
+        weights = np.array([1.0, 0.0, float(follows), 0.0])
+        for fit in fits:
+            force = max(force, fit.group.load)
+            if len(fit.each) > 1:
+                each = fit.each[:, 1:] @ weights * fit.group.load
+                left[follows] += np.sum((each - each.mean(axis=0)) ** 2) + np.sum(each[:, -1] ** 2)
+            else:
+                left[follows] += np.sum((fit.residual @ weights) ** 2)
+    return bool(left[1] < _WORTH * left[0] and left[0] > (ROUNDING * force) ** 2)
+
+
+# --- change of Coulomb friction ------------------------------------------------------------------------------
 
 
 def _of_coulomb(fits: list[Fit], weights: Array, zero_error: float) -> tuple[Rate, float]:
@@ -286,43 +319,58 @@ def _of_coulomb(fits: list[Fit], weights: Array, zero_error: float) -> tuple[Rat
         return _NONE, 0.0
     times = np.concatenate([fit.times for fit in fits])
     length = float(np.nanmax(times) - np.nanmin(times))
-    moved = np.concatenate([one - one.mean(axis=2, keepdims=True) for one in points], axis=2)
-    course = _Slope.of(moved[1, 0], moved[1, 1], len(points))
-    values, by_wear, by_drift = np.concatenate([np.zeros((3, 0)), *(one[2] for one in checked)], axis=1)
-    residual = _Slope.of(values, by_wear, 0)
-    rest = moved[0, 0] + course.value * moved[0, 1]
-    squares = float(rest @ rest) + course.squares + residual.squares
-    every = rest.size - len(points) + course.freedom + residual.freedom
-    error, freedom = course.error(squares, every)
-    other_error, other_freedom = residual.error(squares, every)
-    if drifts := float(by_drift @ by_wear):
-        other_error = math.hypot(other_error, zero_error * drifts / residual.sensitivity)
+    by_replicates, by_residual, poor = _two_rates(points, checked, zero_error)
     hidden = length * min(
-        (threshold(some, CHANCE) + _SURELY) * one for some, one in ((freedom, error), (other_freedom, other_error))
+        (threshold(one.freedom, CHANCE) + _SURELY) * one.error for one in (by_replicates, by_residual)
     )
-    # Without degrees of freedom of its own, the course is used where it matters to viscoelastic friction; the residual
-    # alone where it would show a change that is noted: of some orders it has hardly any.
+    # Without degrees of freedom of its own, the rate by replicates is used where it matters to viscoelastic friction;
+    # that by the residual alone where it would show a change that is noted: of some orders it has hardly any.
     least = _least_change(fits, weights)
-    if course.freedom < _ENOUGH and abs(course.value) <= least:
-        error, other_error = np.inf, other_error if length * other_error <= _WORN else np.inf
-    apart = threshold(min(freedom, other_freedom), CHANCE) * math.hypot(error, other_error)
-    if abs(course.value - residual.value) > apart + ROUNDING * abs(course.value):
+    if poor and abs(by_replicates.value) <= least:
+        by_replicates = by_replicates._replace(error=np.inf)
+        if length * by_residual.error > _WORN:
+            by_residual = by_residual._replace(error=np.inf)
+    freedom = min(by_replicates.freedom, by_residual.freedom)
+    apart = threshold(freedom, CHANCE) * math.hypot(by_replicates.error, by_residual.error)
+    if abs(by_replicates.value - by_residual.value) > apart + ROUNDING * abs(by_replicates.value):
         return _NONE, 0.0
-    found = Rate.found(course.value, error, freedom)
-    if found.value:
-        if abs(residual.value) <= threshold(other_freedom, CHANCE) * other_error:
-            found = found._replace(part=_HALF)
-    else:
-        total = error**2 + other_error**2
-        weight = other_error**2 / total if 0.0 < total < np.inf else float(np.isinf(other_error))
-        mean = weight * course.value + (1.0 - weight) * residual.value
-        error = min(error, other_error) if np.isinf(total) else error * math.sqrt(weight)
-        freedom = freedom if weight > _HALF else other_freedom
-        found = Rate.found(mean, error, freedom, _HALF)
+    found = by_replicates.judged()
+    if not found.value:
+        found = _weighted_mean(by_replicates, by_residual).judged()
+        found = found._replace(part=_HALF if found.value else 1.0)
+    elif not by_residual.significant:
+        found = found._replace(part=_HALF)
     if not ROUNDING < abs(found.value) * length <= _ALL:
         found = found._replace(value=0.0)
-    shown = found.value or hidden <= _WORN or not least * length < _WORN
-    return found, 0.0 if shown else min(hidden, _ALL)
+    noted = not found.value and hidden > _WORN and least * length < _WORN
+    return found, min(hidden, _ALL) if noted else 0.0
+
+
+def _two_rates(points: list[Array], checked: list[Array], zero_error: float) -> tuple[Rate, Rate, bool]:
+    """Return the rates by replicates and by the residual, and whether the first has few degrees of freedom."""
+    viscoelastic, coulomb, _ = np.concatenate([one - one.mean(axis=2, keepdims=True) for one in points], axis=2)
+    residual, by_wear, by_drift = np.concatenate([np.zeros((3, 0)), *(one[2] for one in checked)], axis=1)
+    course = _Trend.of(coulomb[0], coulomb[1], len(points))
+    other = _Trend.of(residual, by_wear, 0)
+    rest = viscoelastic[0] + course.value * viscoelastic[1]
+    squares = float(rest @ rest) + course.squares + other.squares
+    freedom = rest.size - len(points) + course.freedom + other.freedom
+    by_replicates, by_residual = (one.rate(squares, freedom) for one in (course, other))
+    if drifts := float(by_drift @ by_wear):
+        error = math.hypot(by_residual.error, zero_error * drifts / other.corrections)
+        by_residual = by_residual._replace(error=error)
+    return by_replicates, by_residual, course.freedom < _ENOUGH
+
+
+def _weighted_mean(first: Rate, second: Rate) -> Rate:
+    """Return the mean of two rates by their errors, of which one may be infinite."""
+    total = first.error**2 + second.error**2
+    if np.isinf(total):
+        finite = first if np.isinf(second.error) else second
+        return finite._replace(error=min(first.error, second.error))
+    weight = second.error**2 / total if total > 0.0 else 0.0
+    mean = weight * first.value + (1.0 - weight) * second.value
+    return Rate(mean, first.error * math.sqrt(weight), first.freedom if weight > _HALF else second.freedom)
 
 
 def _least_change(fits: list[Fit], weights: Array) -> float:
@@ -353,32 +401,3 @@ def _courses(fits: list[Fit], weights: Array) -> tuple[list[Array], list[Array]]
         points += some
         checked += some if checks else []
     return points, checked
-
-
-def _in_order_of_rows(fits: list[Fit], weights: Array) -> float:
-    """Return the standard deviation of zeros that vary smoothly with the row, N; zero where they do not."""
-    if not fits:
-        return 0.0
-    row = np.concatenate([fit.first_rows for fit in fits])
-    zero = np.concatenate([fit.offset(weights) for fit in fits])[np.argsort(row, kind="stable")]
-    deviation = float(np.std(zero, ddof=1)) if zero.size > 1 else 0.0
-    return deviation if deviation > ROUNDING * max(fit.group.load for fit in fits) and wanders(zero) else 0.0
-
-
-def _centred(values: Array, line: Integers) -> Array:
-    return np.asarray(values - (np.bincount(line, values) / np.bincount(line))[line])
-
-
-def _follows(fits: list[Fit]) -> bool:
-    """Whether the forces follow the changes of the recorded zero, by their residuals."""
-    left, force = np.zeros(2), 0.0
-    for follows in (0, 1):
-        weights = np.array([1.0, 0.0, float(follows), 0.0])
-        for fit in fits:
-            force = max(force, fit.group.load)
-            if len(fit.each) > 1:
-                each = fit.each[:, 1:] @ weights * fit.group.load
-                left[follows] += np.sum((each - each.mean(axis=0)) ** 2) + np.sum(each[:, -1] ** 2)
-            else:
-                left[follows] += np.sum((fit.residual @ weights) ** 2)
-    return bool(left[1] < _WORTH * left[0] and left[0] > (ROUNDING * force) ** 2)
