@@ -59,6 +59,7 @@ def test_words_show_the_end_and_the_energies() -> None:
         found[name].split() for name in ("stored energy", "dissipated energy", "work on the material")
     )
     assert {stored[-1], dissipated[-1], work[-1]} == {"µJ"}
+    assert float(dissipated[2]) < 1e-2 * float(dissipated[0])  # ± the error of the energy
     assert float(stored[0]) + float(dissipated[0]) == pytest.approx(float(work[0]), rel=1e-3)
 
 

@@ -150,6 +150,7 @@ class ContactHeating(Shown):
             ("mean rise of the face", self.face_rise, "K"),
             ("isothermal friction", self.isothermal_friction),
             ("rise of the other state", self.other_rise, "K"),
+            ("friction of the other state", self.other_friction),
         )
 
     def to_dataset(self) -> Dataset:

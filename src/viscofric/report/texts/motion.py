@@ -63,13 +63,10 @@ def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, s
     data = run.to_dataset().isel(time=-1)
     slides = bool(np.any(run.position != run.position[0]))
     last: dict[str, Any] = {str(name): one for name, one in data.data_vars.items() if name not in _NOT_SHOWN}
+    errors = {name: one.item() for name, one in last.items() if name.endswith("_error")}
+    errors |= {"friction_coefficient_error": run.friction_error[-1], "dissipated_error": run.errors.energy[-1]}
     rows = [
-        (
-            one.attrs["long_name"],
-            one.item(),
-            one.attrs["units"],
-            last[f"{name}_error"].item() if f"{name}_error" in last else None,
-        )
+        (one.attrs["long_name"], one.item(), one.attrs["units"], errors.get(f"{name}_error"))
         for name, one in last.items()
         if not name.endswith("_error") and (slides or not name.startswith(_OF_SLIDING))
     ]
