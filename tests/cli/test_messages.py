@@ -68,17 +68,7 @@ def test_a_refusal_says(
     ("command", "phrases"),
     [
         ("", ["143 terminated"]),
-        (SOLVE, ["friction coefficient", "centre of pressure", "ahead of the axis", "not resolved"]),
-        (SOLVE.replace("1 m/s", "inf"), ["0 (elastic: no dissipation)", "on the axis"]),
-        (
-            f"{ELLIPSOID} --direction '30 deg'",
-            ["(a force to the right is needed to keep the direction)"],
-        ),
-        (
-            f"{ELLIPSOID} --direction '-30 deg'",
-            ["force to the left"],
-        ),
-        (SOLVE + " --direction 1,1", ["lateral friction      0 (no lateral force)"]),
+        (SOLVE, ["viscoelastic friction coefficient", "centre of pressure ahead of", "not resolved: at least"]),
         (
             f"solve {RUBBER} --ball '9 mm' --speed '0.1 m/s' --load '60 N' --temperature '60 degC' --accuracy 0.05",
             ["SYNTHETIC", "60 °C", "Warning: The contact extends"],

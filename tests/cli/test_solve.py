@@ -101,7 +101,7 @@ def test_words_show_the_numbers_and_their_errors() -> None:
     assert lines["indentation"].strip().startswith("298.")
     assert lines["indentation"].endswith("µm")
     assert lines["normal load"].strip() == "1 N"
-    assert lines["force across the motion over the load"].strip() == "0"
+    assert not any(line.startswith("force across the motion") for line in lines)
     assert lines["contact area"].strip().startswith("7.0")
     assert lines["contact area"].endswith("mm²")
     assert "largest contact pressure, not resolved: at least" in lines

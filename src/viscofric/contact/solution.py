@@ -27,8 +27,7 @@ SHARED_NUMBERS: dict[str, Meaning] = {
     "friction_coefficient": ("1", "viscoelastic friction coefficient"),
     "friction_error": ("1", "numerical error estimate of the friction coefficient"),
     "pressure_friction_coefficient": ("1", "friction coefficient from the pressure on the slopes"),
-    "lateral_friction_coefficient": ("1", "force across the motion over the load"),
-    "max_pressure": ("Pa", "largest contact pressure"),
+    "lateral_friction_coefficient": ("1", "force across the motion over the load, to the left of the direction"),
     "energy_balance": ("1", "friction from the pressure minus friction from the dissipation, relative"),
 }
 #: Numbers of an indenter's contact.
@@ -48,6 +47,7 @@ NUMBERS: dict[str, Meaning] = SHARED_NUMBERS | {
     "rear": ("m", "distance from the axis to the trailing edge"),
     "half_width": ("m", "half-width of the contact across the motion"),
     "edge_error": ("m", "error estimate of front, rear and half-width"),
+    "max_pressure": ("Pa", "largest contact pressure"),
     "max_pressure_error": ("Pa", "error estimate of the largest contact pressure"),
     "mean_pressure": ("Pa", "mean contact pressure"),
     "centre_of_pressure": ("m", "distance of the centre of pressure ahead of the indenter's axis"),

@@ -25,6 +25,7 @@ NUMBERS: dict[str, Meaning] = SHARED_NUMBERS | {
     "indentation": ("m", "distance that the surface has moved since the first touch"),
     "contact_area_fraction": ("1", "contact area fraction, real over nominal: points under pressure over all"),
     "mean_contact_pressure": ("Pa", "mean pressure on the points in contact"),
+    "max_pressure": ("Pa", "largest contact pressure"),
     "power": ("W/m**2", "dissipated power per area"),
     "complementarity": ("1", "largest violation of the contact conditions over the rms height"),
     "cells": ("1", "points along the longer period"),

@@ -18,7 +18,7 @@ _NOT_SHOWN = ("speed", "temperature", "energy_balance", "complementarity", "cell
 
 
 def contact_rows(solution: ContactSolution | PeriodicSolution) -> dict[str, Row]:
-    """Return the numbers of a contact that are shown, by name; rounding is shown as zero."""
+    """Return the numbers of a contact that are shown, by name; rounding is zero, and no lateral force is not shown."""
     spacing = abs(solution.x[-1] - solution.x[0]) / len(solution.x)
     rounding = {"1": max(1e-12, 1e-5 * abs(solution.friction_coefficient)), "m": 1e-6 * spacing}
     rows: dict[str, Row] = {}
@@ -27,7 +27,8 @@ def contact_rows(solution: ContactSolution | PeriodicSolution) -> dict[str, Row]
             rows[name] = (f"{label}, not resolved: at least", value, unit, None)
         elif name not in _NOT_SHOWN and math.isfinite(value):
             rounded = abs(value) < rounding.get(unit, 0.0)
-            rows[name] = (label, 0.0, unit, None) if rounded else (label, value, unit, error)
+            if not rounded or name != "lateral_friction_coefficient":
+                rows[name] = (label, 0.0, unit, None) if rounded else (label, value, unit, error)
     return rows
 
 

@@ -270,10 +270,12 @@ class FactorTable(Table):
             turned = FactorTable.of(self.temperatures, left, self.covariance, self.reference, scaled[-1])
             weight = 1.0 / (turned.variance + size[:, None] ** 2)
             X, r = turned.turn @ own, turned.turn @ left
-            normal = np.einsum("mi,sm,mj->sij", X, weight, X)
-            pull = weight * r @ X
-            chi2 = weight @ r**2 - np.sum(pull * np.linalg.solve(normal, pull[..., None])[..., 0], axis=1)
-            log_det = np.linalg.slogdet(normal)[1] - np.sum(np.log(weight), axis=1) + turned.log_volume
+            # Not by the normal equations, which are singular where one factor is known exactly.
+            Q, R = np.linalg.qr(np.sqrt(weight)[..., None] * X)
+            whitened = np.sqrt(weight) * r
+            chi2 = np.sum(whitened**2, axis=1) - np.sum(np.einsum("smi,sm->si", Q, whitened) ** 2, axis=1)
+            log_det = 2.0 * np.sum(np.log(np.abs(np.diagonal(R, axis1=1, axis2=2))), axis=1)
+            log_det += turned.log_volume - np.sum(np.log(weight), axis=1)
             logarithms.append(-0.5 * (chi2 + log_det))
         weight = np.exp(logarithms - np.max(logarithms)) * size / (1.0 + (size / USUAL_MISFIT) ** 2)
         weight[0] *= len(scaled) - 1.0  # independent scatter is as likely as all other shapes together
