@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from viscofric.arrays import Array
-    from viscofric.contact.arrays.backend import Backend
+    from viscofric.contact.arrays.backend import AnyArray, Backend
     from viscofric.contact.complementarity import ComplementaritySolution
     from viscofric.contact.periodic.one_grid import Stage
 
@@ -73,9 +73,8 @@ def solve_on_levels(
     complementarity on the finest grid, relative to the rms height; `most_products` applies to each grid.  Arguments and
     results are NumPy's on any backend.
     """
-    pressure: Array | None = None
-    displacement: NDArray[Any] | None = None
     coarser: Array | None = None
+    gap: Array | None = None
     grids: list[tuple[int, int, int]] = []
     stage = next(stages)
     while True:
@@ -85,16 +84,18 @@ def solve_on_levels(
         else:
             wanted, most = tolerance, most_products
         level = OneGrid(stage, mean_pressure, offset, wanted, most, backend)
-        start = [None if one is None else backend.asarray(one) for one in (pressure, displacement)]
-        pressure = displacement = None  # large, and overwritten
+        start: list[AnyArray] = [None, None]
+        if coarser is not None and gap is not None:
+            start = [backend.asarray(one) for one in _refined(coarser, gap, level)]
+            gap = None  # large, and no longer needed
         result = level.solve(start.pop(0), start.pop()).on_numpy(backend)
         ffts = level.exact.ffts + level.single.ffts
         grids.append((*level.shape, ffts))
         logger.debug("%s points: %s FFTs, residual %.1e", level.shape, ffts, result.complementarity)
         if finer is not None:
             coarser = result.pressure
-            pressure = interpolated(coarser, finer.height.shape)
-            displacement = interpolated(result.displacement.astype(level.single.precision), finer.height.shape)
+            gap = np.maximum(result.displacement + stage.height - result.indentation, 0.0)
+            gap[coarser > 0.0] = 0.0
             stage = finer
             continue
         if not result.converged:
@@ -115,3 +116,12 @@ def solve_on_levels(
             grids=tuple(grids),
             coarser_pressure=coarser,
         )
+
+
+def _refined(pressure: Array, gap: Array, level: OneGrid) -> tuple[Array, NDArray[Any]]:
+    """Interpolate pressure and gap of a coarser grid; the gap in the precision of corrections.
+
+    Each has a kink at the edges of the contact; p − gap/ρ is smooth there, and its sign says which of them is not zero.
+    """
+    signed = interpolated((pressure - gap / level.quick_rho).astype(level.single.precision), level.shape)
+    return np.maximum(signed, 0.0, dtype=np.float64), np.maximum(-level.quick_rho * signed, 0.0)

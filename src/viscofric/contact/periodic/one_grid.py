@@ -92,20 +92,20 @@ class OneGrid:
         self.most_products = most_products
         self.splitting_steps = self.set_changes = self.linear_iterations = 0
 
-    def solve(self, pressure: AnyArray | None, displacement: AnyArray | None = None) -> ComplementaritySolution:
-        """Solve from the coarser grid's pressure, or from nothing.
+    def solve(self, pressure: AnyArray | None, gap: AnyArray | None = None) -> ComplementaritySolution:
+        """Solve from the pressure and the gap of the coarser grid, from another pressure, or from nothing.
 
-        `displacement` is about that of the pressure, in the precision of corrections; it is overwritten.
+        `gap` is zero where the pressure is not, and in the precision of corrections; it is overwritten.
         """
         full = self._full_contact() if pressure is None or self._nearly_full(pressure) else None
         if full is not None:
             return full
         if pressure is None or not self._loaded(pressure):
-            pressure, displacement = self._first_guess(), None
+            pressure, gap = self._first_guess(), None
         # These find most of the contact set, and cost half of a step of the next method each.
         kind = 0 if self.elastic else 1
-        pressure = self._split(self.single, pressure, _FIRST_STEPS, self.quick_rho, displacement)
-        del displacement
+        pressure = self._split(self.single, pressure, _FIRST_STEPS, self.quick_rho, gap)
+        del gap
         start, result, few = pressure, None, _FEW_DIRECTIONS[kind]
         if self._loaded(pressure) <= _SPARSE * self.cells:
             result = self._many_spots(pressure, few)
@@ -220,12 +220,12 @@ class OneGrid:
 
     def _split(
         self, operator: PeriodicOperator, pressure: AnyArray, steps: int, rho: float,
-        displacement: AnyArray | None = None, *, accelerated: bool = False,
+        gap: AnyArray | None = None, *, accelerated: bool = False,
     ) -> AnyArray:  # fmt: skip
         self.splitting_steps += steps
         found = split_steps(
             operator, self.height, pressure, load=self.load, indentation=self.indentation, steps=steps,
-            rho=rho, accelerated=accelerated, displacement=displacement,
+            rho=rho, accelerated=accelerated, gap=gap,
         )  # fmt: skip
         return found if self._loaded(found) else pressure
 

@@ -42,15 +42,15 @@ def split_steps(
     steps: int,
     rho: float,
     accelerated: bool = False,
-    displacement: AnyArray | None = None,
+    gap: AnyArray | None = None,
 ) -> AnyArray:
     """Take steps of the splitting from a guess, and return pressures that are not negative, in double precision.
 
     Steps are in the operator's precision.  `height` (nx, ny) is above the indenter's lowest point; `guess` (nx, ny) are
     pressures, not negative, some above zero; the load, the sum of the pressures, or the indentation δ is given.  `rho`
     is ρ, a compliance: much more compliant waves converge at once, those of about ρ in a few steps.  `accelerated`
-    extrapolates from earlier steps (Anderson), which pays where many are needed.  `displacement` (nx, ny) is that under
-    the guess, about, in the operator's precision; it is overwritten.
+    extrapolates from earlier steps (Anderson), which pays where many are needed.  `gap` (nx, ny) is about that
+    of the guess, not negative, in the operator's precision; it is overwritten.
     """
     backend, xp = operator.backend, operator.backend.xp
     height, guess = backend.asarray(height), backend.asarray(guess)
@@ -67,8 +67,9 @@ def split_steps(
         pressure[...] = xp.astype(guess, operator.dtype)
 
     def begin(state: AnyArray, pressure: AnyArray, shifted: AnyArray, surface: AnyArray) -> None:
-        state += surface - level
-        backend.positive_part(state)
+        if gap is None:
+            state += surface - level
+            backend.positive_part(state)
         pressure *= rho
         state += pressure
         shifted[...] = state - surface
@@ -85,8 +86,8 @@ def split_steps(
 
     backend.in_parts(resolve, resolvent, operator.transfer)
     backend.in_parts(prepare, surface, pressure, height, guess)
-    state, level = operator(pressure) if displacement is None else displacement, 0.0
-    if indentation is None:
+    state, level = operator(pressure) if gap is None else gap, 0.0
+    if gap is None and indentation is None:
         loaded = pressure > 0.0
         level = float(xp.mean(state[loaded] + surface[loaded]))
     flat, shifted = pressure, xp.empty_like(surface)

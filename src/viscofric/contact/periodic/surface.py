@@ -158,7 +158,7 @@ class PeriodicSurface(Shown):
 
 
 def interpolated(values: Array, shape: tuple[int, int]) -> Array:
-    """Interpolate values on a grid of other points in the same period, linearly along each axis."""
+    """Interpolate values on a grid of other points in the same period, cubically along each axis."""
     for axis, points in enumerate(shape):
         given = values.shape[axis]
         if given == points:
@@ -168,28 +168,28 @@ def interpolated(values: Array, shape: tuple[int, int]) -> Array:
             continue
         place = np.arange(points) * (given / points)
         before = np.floor(place).astype(int)
-        part = (place - before).reshape((-1, 1) if axis == 0 else (1, -1))
-        after = np.take(values, (before + 1) % given, axis)
-        values = (1.0 - part) * np.take(values, before, axis) + part * after
+        t = (place - before).reshape((-1, 1) if axis == 0 else (1, -1)).astype(values.dtype)
+        weights = t * (t - 1) * (2 - t) / 6, (t * t - 1) * (t - 2) / 2, t * (t + 1) * (2 - t) / 2, t * (t * t - 1) / 6
+        around = (np.take(values, (before + step) % given, axis) for step in (-1, 0, 1, 2))
+        values = np.sum([weight * each for weight, each in zip(weights, around, strict=True)], axis=0)
     return values
 
 
 def _doubled(values: Array, axis: int) -> Array:
-    """Insert the mean of each two neighbours between them, along one axis."""
+    """Insert the value of the cubic through four neighbours between the middle two, along one axis."""
     nx, ny = values.shape
     found = np.empty((nx, 2, ny) if axis == 0 else (nx, ny, 2), values.dtype)
 
-    def insert(found: Array, values: Array, after: Array) -> None:
-        if axis == 0:
-            found[:, 0] = values
-            found[:, 1] = 0.5 * (values + after)
-        else:
-            found[:, :, 0] = values
-            np.add(values[:, :-1], values[:, 1:], out=found[:, :-1, 1])
-            np.add(values[:, -1], values[:, 0], out=found[:, -1, 1])
-            found[:, :, 1] *= 0.5
+    def around(values: Array) -> list[Array]:
+        return [np.roll(values, -step, axis) for step in (-1, 1, 2)]
 
-    in_parts(insert, found, values, np.roll(values, -1, axis=0) if axis == 0 else values)
+    def insert(found: Array, values: Array, *others: Array) -> None:
+        before, after, behind = others or around(values)
+        given, between = np.moveaxis(found, axis + 1, 0)
+        given[...] = values
+        between[...] = 0.5625 * (values + after) - 0.0625 * (before + behind)
+
+    in_parts(insert, found, values, *(around(values) if axis == 0 else ()))
     return found.reshape((2 * nx, ny) if axis == 0 else (nx, 2 * ny))
 
 
