@@ -146,6 +146,19 @@ def test_constants_of_a_law_that_the_residuals_bend_about_hold_those_of_other_te
         assert np.all(np.abs(whole.parameters - part.parameters) < 2.0 * np.array(whole.standard_errors))
 
 
+@pytest.mark.parametrize("steps", [[-40.0, -39.0, 30.0, 60.0], [0.0, 1.0, 60.0]])
+def test_errors_of_a_law_are_finite_for_few_uneven_temperatures(steps):
+    """Residuals of one or two degrees of freedom hardly show any correlation along temperature."""
+    kelvin = np.array(steps) + 273.15
+    for covariance in (None, np.ones((len(steps), len(steps)))):
+        table = ShiftFactors(
+            kelvin, Arrhenius(1e5, kelvin[0]).log10(kelvin) + 1e-3 * np.sin(kelvin), kelvin[0], covariance
+        )
+        law = table.law("arrhenius")
+        assert np.all(np.isfinite(law.covariance))
+        assert np.all(law.covariance == law.covariance.T)
+
+
 def test_misfit_of_a_law_widens_its_standard_errors():
     temperatures = np.arange(-60.0, 121.0, 10.0) + 273.15
     table = ShiftFactors(temperatures, LAWS[2].log10(temperatures), LAWS[2].reference, np.eye(19) * 1e-8)

@@ -278,7 +278,7 @@ class FactorTable(Table):
             log_det += turned.log_volume - np.sum(np.log(weight), axis=1)
             logarithms.append(-0.5 * (chi2 + log_det))
         weight = np.exp(logarithms - np.max(logarithms)) * size / (1.0 + (size / USUAL_MISFIT) ** 2)
-        weight[0] *= len(scaled) - 1.0  # independent scatter is as likely as all other shapes together
+        weight[0] *= max(len(scaled) - 1.0, 1.0)  # independent scatter is as likely as all other shapes together
         return np.asarray(np.tensordot(weight @ size**2 / np.sum(weight), scaled, axes=1))
 
 
@@ -318,8 +318,9 @@ def fitted(kind: str, table: FactorTable, degree: int | None = None) -> Fitted:
     gradient = family.gradient(constants)
     gain = table.gain(constants, gradient, scatter)
     misfit = table.misfit(gradient, table.values - family.values(constants))
-    errors = table.covariance + misfit + SMALLEST_ERROR**2 * np.eye(len(misfit))
-    return Fitted(family.law(constants, gain @ errors @ gain.T), chi2, scatter, misfit)
+    variance, axes = np.linalg.eigh(table.covariance + misfit + SMALLEST_ERROR**2 * np.eye(len(misfit)))
+    errors = gain @ (axes * np.sqrt(np.maximum(variance, 0.0)))  # (k, n), independent
+    return Fitted(family.law(constants, errors @ errors.T), chi2, scatter, misfit)
 
 
 def solved(family: Model, table: Table, otherwise: InputError) -> tuple[Solution, float, float]:
