@@ -183,10 +183,10 @@ class Vocabulary:
         lower = plain.lower()
         spellings = (plain, *(one for one in (lower, _MARKS.sub("", lower)) if len(one) > 1))
         found = next((what for one in spellings if (what := self._meaning.get(one))), "")
-        both = None if found else _WITH_SYMBOL.fullmatch(plain)
-        if both is None:
+        both = None if found or len(plain) > _LONGEST_HEADING else _WITH_SYMBOL.fullmatch(plain)
+        what = self.quantity(both["symbol"]) if both else ""  # "modulus E'", or "storage modulus E'"
+        if both is None or not what:
             return found
-        what = self.quantity(both["symbol"])  # "modulus E'", or "storage modulus E'", where both say the same
         return what if _A_MODULUS.fullmatch(both["words"]) or what == self.quantity(both["words"]) else ""
 
     def column(self, text: str) -> Column:

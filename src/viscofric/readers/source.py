@@ -139,12 +139,13 @@ _POWER = re.compile(
     r"[x×]?\s*(?:10(?:\s*(?:\^|\*\*)\s*|(?=[+−-]))(?P<plain>[+−-]?\d{1,2})|10(?P<raised>[⁺⁻]?[⁰¹²³⁴-⁹]{1,2})"
     r"|1?[eE](?P<printed>[+-]?\d{1,2}))\s*[·*.×]?\s*(?P<of>(?!\d\d|[.,]).*)"
 )
+_LONGEST_UNIT = 40
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻−", "0123456789+--")
 
 
 def _power_of_ten(text: str) -> tuple[int, str]:
     """Return the exponent of a power of ten before a unit, 0 without one, and the unit."""
-    found = _POWER.fullmatch(text.strip())
+    found = _POWER.fullmatch(text.strip()) if len(text) < _LONGEST_UNIT else None
     if found is None:
         return 0, text
     exponent = found["plain"] or found["raised"] or found["printed"]

@@ -26,7 +26,7 @@ _SAME_REFERENCE = 0.01  # K
 #: Relative difference of frequencies that are printed alike, K that span several isotherms, and relative difference of
 #: moduli that exceeds the scatter of isotherms on one curve.
 _SAME_FREQUENCY, _OTHER_TEMPERATURE, _OTHER_MODULUS = 1e-4, 1.0, 0.2
-_REMARKS = 20  # lines
+_REMARKS, _LONGEST_REMARK = 20, 200  # lines, characters
 #: As `viscofric material fit` writes it above a master curve, and as others do.
 _REFERENCE = re.compile(
     r"[\W_]*(master ?curve\W+)?((reference|ref\.?) ?temp(erature|\.)?|t[_ ]?ref|t_?0|referenztemperatur"
@@ -169,7 +169,7 @@ def _are_sweeps(frequency: Array, storage: Array, temperature: Array) -> bool:
 def _stated_reference(source: Source) -> float:
     """Return the reference temperature that a remark of a text table states, K, NaN without one."""
     for line in (source.text or "").splitlines()[:_REMARKS]:
-        found = _REFERENCE.fullmatch(line)
+        found = _REFERENCE.fullmatch(line) if len(line) < _LONGEST_REMARK else None
         kelvin = found and converted(found["number"], found["unit"] or found["before"] or "", "K")
         if kelvin:
             return kelvin

@@ -337,7 +337,7 @@ def _without_temperature(cells: Sequence[str]) -> str:
     if filled and DMA.quantity(heading(filled[0].rstrip(":= ")).name) in ("temperature", "set temperature"):
         return ""
     left = _COUNTED.sub(" ", TEMPERATURE_IN_NAME.sub(r"\g<mark> ", " ".join(filled)))
-    left = re.sub(r"[(\[]\W*[)\]]", " ", left)  # "(20 °C, up)"
+    left = re.sub(r"[(\[][^\w()\[\]]*[)\]]", " ", left)  # "(20 °C, up)"
     return " ".join(left.split()).strip(" :;,=@-–") if re.search(r"[^\W\d_]", left) else ""
 
 
@@ -349,8 +349,9 @@ def temperature_of_title(cells: Sequence[str]) -> float | None:
 def _as_one_cell(filled: list[str]) -> list[str]:
     """Return ``25 °C`` for the cells ``Temperature (°C)`` and ``25``, also in one cell, other cells as they are."""
     filled = list(dict.fromkeys(map(plain_value, filled)))  # merged cells
-    if len(filled) == 1 and (label := re.fullmatch(r"(.*?)\s*[:=]\s*(\S+)", filled[0])) and is_number(label[2]):
-        return one[:1] if len(one := _as_one_cell([label[1], label[2]])) == 1 else filled
+    label, mark, number = filled[0].replace("=", ":").rpartition(":") if len(filled) == 1 else ("", "", "")
+    if mark and is_number(number):
+        return one if len(one := _as_one_cell([label.strip(), number.strip()])) == 1 else filled
     if len(filled) == 2 and is_number(filled[1]):
         name = heading(filled[0].rstrip(":= "))
         if DMA.quantity(name.name) == "temperature" and name.unit:
