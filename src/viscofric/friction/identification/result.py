@@ -332,7 +332,7 @@ class IdentifiedMaterial(Identified):
             return super()._band_words()
         return (
             f"{super()._band_words()} All bands assume a smooth spectrum: one mode per decade makes E'' oscillate by "
-            "about 6 %, which friction averages and no band has."
+            "about 6 % and changes friction by a few per cent, which no band has."
         )
 
     def _shift_words(self) -> tuple[str, ...]:
