@@ -114,6 +114,14 @@ def test_the_note_that_is_shown_of_many_is_the_most_severe() -> None:
     assert (note.values["severity"], note.values["contacts"], note.values["of"]) == (0.9, 3, 4)
 
 
+def test_the_widest_of_several_impacts_is_shown() -> None:
+    elastic = vf.Material.standard_linear_solid("1 MPa", "2 MPa", "1 ms")
+    hits = vf.motion.restitution_curve(elastic, vf.Ball("1 mm"), mass="1 mg", speeds=[1.0, 3.0], accuracy=1e-2)
+    (note,) = map(note_of, hits.notes)
+    fast = vf.motion.solve_impact(elastic, vf.Ball("1 mm"), mass="1 mg", speed=3.0, accuracy=1e-2)
+    assert note.values["radii"] == pytest.approx(note_of(fast.notes[0]).values["radii"])
+
+
 def test_warnings_of_contacts_are_their_notes() -> None:
     elastic, ball = vf.Material.standard_linear_solid("1 MPa", "2 MPa", "1 ms"), vf.Ball("10 mm")
     contact = vf.solve_steady(elastic, ball, speed=0.0, load="0.1 mN", accuracy=0.1)

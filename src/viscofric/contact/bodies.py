@@ -168,6 +168,7 @@ class Layer(Shown):
             "deep-in-layer",
             f"The indenter is pressed {strain:.2f} of the layer's thickness deep; above {LARGE_COMPRESSION} the "
             "assumption of small strain is doubtful.",
+            values={"strain": strain, "limit": LARGE_COMPRESSION, "severity": strain},
         )
 
 

@@ -160,5 +160,5 @@ def too_steep(slope: float) -> Note | None:
         "large-strain",
         f"The indenter's surface rises by {slope:.2f} within the contact; above {SMALL_STRAIN} the assumption of small "
         "strain is doubtful.",
-        values={"slope": float(slope), "limit": SMALL_STRAIN},
+        values={"slope": float(slope), "limit": SMALL_STRAIN, "severity": float(slope)},
     )

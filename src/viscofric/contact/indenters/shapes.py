@@ -80,7 +80,7 @@ class _Round(_Paraboloid):
             "large-strain",
             f"The contact extends to {ratio:.2f} {self.noun} radii from the axis; above {SMALL_STRAIN} the assumptions "
             f"of small strain and of a parabolic {self.noun} are doubtful.",
-            values={"radii": float(ratio), "limit": SMALL_STRAIN},
+            values={"radii": float(ratio), "limit": SMALL_STRAIN, "severity": float(ratio)},
         )
 
 
