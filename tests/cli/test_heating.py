@@ -63,6 +63,7 @@ def test_a_contact_over_time_is_heated() -> None:
     rises = found["results"]["face_rise"]
     assert rises[1] > rises[0] > 0.0
     assert found["results"]["temperature_rise"] == found["results"]["loss_weighted_rise"]
+    assert "largest rise of temperature" in run("transient", *LINE, *options)
 
 
 @pytest.mark.parametrize(

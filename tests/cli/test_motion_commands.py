@@ -257,10 +257,18 @@ def test_one_impact_is_reported_with_its_rebounds(tmp_path: Path) -> None:
     assert (found["inputs"]["mass"], found["inputs"]["gravity"]) == (0.033, 9.81)
     done = succeed(*words, "--picture", tmp_path / "hit.svg", "--out", tmp_path / "hit.nc")
     assert done.stdout.count("\nrestitution") == len(hit.contacts)
+    assert lines(done)["contact time"] == "without end (stays)"
     assert float(lines(done)["largest indentation"].split()[0]) > 0.0
     assert (tmp_path / "hit.svg").stat().st_size > 0
     with xarray.open_dataset(tmp_path / "hit.nc", engine="netcdf4") as data:
         assert data.attrs["contacts"] == len(hit.contacts)
+
+
+def test_contacts_of_one_impact_are_told_apart() -> None:
+    ball = ("--ball", "5 mm", "--mass", "10 g", "--speed", "0.1 m/s", "--gravity", "9.81 m/s^2", "--rebounds", 2)
+    found = lines(succeed("impact", "--material", "synthetic fluoroelastomer", *ball, "--accuracy", 1e-2))
+    assert found["contact 1"].startswith("0 s")
+    assert found["contact 2"].endswith("ms after the first touch")
 
 
 def test_several_impacts_are_a_curve(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -49,7 +50,7 @@ class ImpactContact(NamedTuple):
         return (
             ("speed", self.speed, "m/s"),
             ("restitution", self.restitution, "", self.restitution_error),
-            ("contact time", self.contact_time, "s"),
+            ("contact time", self.contact_time if math.isfinite(self.contact_time) else "without end (stays)", "s"),
             ("largest force", self.peak_force, "N"),
             ("largest indentation", self.largest_indentation, "m"),
         )

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from viscofric.arrays import Array
+from viscofric.contact.solution import LINE_NUMBERS, NUMBERS
 from viscofric.datasets import DataArray, Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.heat.result import TransientHeating
@@ -21,6 +22,11 @@ from viscofric.units import Quantity, to_si
 
 #: Geometry -> units of forces, energies and areas.
 _UNITS = {"point": ("N", "J", "m2"), "line": ("N/m", "J/m", "m"), "periodic": ("Pa", "J/m2", "1")}
+_AREAS = {
+    "point": NUMBERS["contact_area"][1],
+    "line": LINE_NUMBERS["contact_area"][1],
+    "periodic": "contact area fraction",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,14 +281,15 @@ class TransientSolution(Warned, Plotted):
             "friction_force": (self.friction_force, force, "friction force"),
             "lateral_force": (self.lateral_force, force, "lateral force"),
             "friction_coefficient": (self.friction_coefficient, "1", "friction coefficient"),
-            "contact_area": (self.contact_area, area, "contact area"),
+            "contact_area": (self.contact_area, area, _AREAS[self.geometry]),
         }
         if self.interface_friction is not None:
             columns["interface_friction"] = self.interface_friction, "1", "friction coefficient of the interface"
             columns["total_friction"] = self.total, "1", "friction coefficient of hysteresis and interface together"
         for name in ("contact_radius", "front", "rear", "half_width"):
             values = getattr(self, name)
-            columns[name] = None if values is None else (values, "m", name.replace("_", " "))
+            words = NUMBERS[name][1] if name in NUMBERS else "contact radius"
+            columns[name] = None if values is None else (values, "m", words)
         columns["dent"] = None if self.dent is None else (self.dent, "m", "depth of the surface on the axis")
         columns |= {
             "work": (self.work, energy, "work on the material"),

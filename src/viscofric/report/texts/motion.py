@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from viscofric.heat.result import TransientHeating
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.history import History
 from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
@@ -74,6 +75,7 @@ def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, s
         ("at the end", f"after {prefixed(float(run.time[-1] - run.time[0]), None, 's')}"),
         *texts(rows),
         *([("largest friction", _largest(run))] if slides else []),
+        *([] if run.heating is None else [("largest rise of temperature", _hottest(run, run.heating))]),
         ("energy balance", f"{100.0 * run.energy_imbalance:.1g} % at most"),
         ("steps", f"{run.steps}, {run.rejected_steps} rejected; {len(run.time)} times returned"),
         ("time", f"{seconds:.2f} s"),
@@ -100,9 +102,20 @@ def _largest(run: TransientSolution) -> str:
     return f"{friction} after {after} and {length(float(steps.sum()))}"
 
 
+def _hottest(run: TransientSolution, heat: TransientHeating) -> str:
+    """Return the largest rise of temperature with its time."""
+    most = int(heat.temperature_rise.argmax())
+    rise = with_error(float(heat.temperature_rise[most]), float(heat.error[most] + heat.residual[most]))
+    return f"{rise} K after {prefixed(float(run.time[most] - run.time[0]), None, 's')}"
+
+
 def impact_lines(hit: ImpactSolution, seconds: float) -> list[tuple[str, str]]:
     """Return each contact of an impact, as pairs of name and value."""
-    contacts = [pair for one in hit.contacts for pair in texts((("start", one.start, "s"), *one._shown()))]
+    contacts: list[tuple[str, str]] = []
+    for number, one in enumerate(hit.contacts, 1):
+        if len(hit.contacts) > 1:
+            contacts.append((f"contact {number}", f"{prefixed(one.start, None, 's')} after the first touch"))
+        contacts += texts(one._shown())
     balance = f"{100.0 * hit.run.energy_imbalance:.1g} % at most"
     return [*contacts, ("energy balance", balance), ("time", f"{seconds:.2f} s")]
 
