@@ -68,7 +68,7 @@ def test_a_refusal_says(
     ("command", "phrases"),
     [
         ("", ["143 terminated"]),
-        (SOLVE, ["viscoelastic friction coefficient", "centre of pressure ahead of", "not resolved: at least"]),
+        (SOLVE, ["viscoelastic friction coefficient", "centre of pressure along", "not resolved: at least"]),
         (
             f"solve {RUBBER} --ball '9 mm' --speed '0.1 m/s' --load '60 N' --temperature '60 degC' --accuracy 0.05",
             ["SYNTHETIC", "60 °C", "Warning: The contact extends"],

@@ -84,7 +84,7 @@ def test_json_holds_what_python_gives() -> None:
 def test_every_number_has_a_unit() -> None:
     found = record(*RUBBER, *BALL)
     units = found["results"]["units"]
-    assert set(found["results"]) - {"direction", "coulomb", "units"} == set(units)
+    assert set(found["results"]) - {"geometry", "direction", "coulomb", "units"} == set(units)
     assert (units["contact_area"], units["power"], units["friction_error"]) == ("m**2", "W", "1")
     line = record(*RUBBER, "--cylinder", "10 mm", "--speed", "1 m/s", "--load", "100 N/m")
     assert line["results"]["units"]["load"] == "N/m"
@@ -101,22 +101,31 @@ def test_words_show_the_numbers_and_their_errors() -> None:
     assert lines["indentation"].strip().startswith("298.")
     assert lines["indentation"].endswith("µm")
     assert lines["normal load"].strip() == "1 N"
-    assert not any(line.startswith("force across the motion") for line in lines)
+    assert not any(line.startswith("lateral guiding force") for line in lines)
     assert lines["contact area"].strip().startswith("7.0")
     assert lines["contact area"].endswith("mm²")
     assert "largest contact pressure, not resolved: at least" in lines
-    assert lines["distance of the centre of pressure ahead of the indenter's axis"].strip().startswith("575.5")
+    assert lines["centre of pressure along the direction"].strip().startswith("575.5")
     assert lines["grid"].strip().startswith("128 × 128 cells")
 
 
 def test_a_contact_that_dissipates_nothing_has_no_friction() -> None:
-    succeed(*RUBBER, "--cone", "5 deg", "--speed", "inf", "--indentation", "50 um")
+    done = succeed(*RUBBER, "--cone", "5 deg", "--speed", "inf", "--indentation", "50 um")
+    assert "no dissipation: elastic" in done.stdout
     found = record(*RUBBER, "--cone", "5 deg", "--speed", "-inf", "--indentation", "50 um")
     assert found["inputs"]["speed"] == "infinite"
     assert found["inputs"]["held"] == "indentation"
     assert found["inputs"]["indentation"] == pytest.approx(5e-5, rel=1e-15)
     assert found["inputs"]["load"] is None
     assert found["results"]["load"] == pytest.approx(0.2426, rel=1e-3)
+
+
+def test_coulomb_friction_that_shears_a_contact_is_shown_beside_its_friction() -> None:
+    shear = (*RUBBER, "--cylinder", "10 mm", "--speed", "-1 m/s", "--load", "100 N/m", "--coulomb", 0.3)
+    lines = dict(line.split("  ", 1) for line in succeed(*shear).stdout.splitlines()[2:])
+    assert float(lines["Coulomb friction, only as shear"]) == 0.3
+    # The indenter moves against its direction, and the pressure lies ahead of it.
+    assert lines["centre of pressure along the direction"].strip().startswith("−")
 
 
 def test_the_catalogues_rubber_is_shifted_and_called_synthetic() -> None:

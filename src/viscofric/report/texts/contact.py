@@ -29,6 +29,8 @@ def contact_rows(solution: ContactSolution | PeriodicSolution) -> dict[str, Row]
             rounded = abs(value) < rounding.get(unit, 0.0)
             if not rounded or name != "lateral_friction_coefficient":
                 rows[name] = (label, 0.0, unit, None) if rounded else (label, value, unit, error)
+    if solution.coulomb:
+        rows["coulomb"] = ("Coulomb friction, only as shear", solution.coulomb, "1", None)
     return rows
 
 
@@ -36,11 +38,13 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
     """Return the numbers of a contact with their errors, and the work of the solver, as pairs of name and value."""
     diagnostics = solution.diagnostics
     cells = " × ".join(str(count) for count in diagnostics.shape if count > 1)
+    dissipates = solution.friction_coefficient != 0.0
+    balance = f"{shown_number(100.0 * diagnostics.energy, '+.2g')} %" if dissipates else "no dissipation: elastic"
     closed = f"gap closed to {diagnostics.complementarity:.0e} of the indentation"
     return [
         *texts(contact_rows(solution).values()),
         *(texts(solution.heating._shown()) if solution.heating else ()),
-        ("energy balance", f"{shown_number(100.0 * diagnostics.energy, '+.2g')} %"),
+        ("energy balance", balance),
         ("grid", f"{cells} cells of {length(diagnostics.spacing)}, {len(diagnostics.levels)} nested grids"),
         ("solver", f"{diagnostics.linear_iterations} iterations, {diagnostics.products} products, {closed}"),
         ("time", f"{seconds:.2f} s"),
