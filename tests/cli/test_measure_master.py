@@ -244,6 +244,12 @@ def test_runs_are_separated_before_they_are_shifted(tmp_path: Path) -> None:
     assert found["results"]["temperature"] == pytest.approx([303.15, 333.15])
 
 
+def test_given_factors_are_shown_in_decimals(tmp_path: Path) -> None:
+    path = runs(tmp_path / "runs.csv", noise=0.01)
+    printed = succeed("master", path, "--shift", "synthetic fluoroelastomer").stdout.split("\n\n")[0].splitlines()[1:]
+    assert [line.split() for line in printed] == [["30.0", "0.000"], ["60.0", "−2.091"]]
+
+
 def test_loads_are_reduced_to_one_with_the_ball(tmp_path: Path) -> None:
     one, other = curves(tmp_path / "one.csv"), curves(tmp_path / "other.csv", load=35.0)
     assert refusal("master", one, other)[:2] == (1, "several-loads")

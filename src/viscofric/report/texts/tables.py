@@ -134,7 +134,9 @@ def text_table(data: Dataset, *columns: tuple[str, str] | tuple[str, str, str]) 
             continue
         write, factor = _SHOWN.get(name) or _SHOWN_UNITS.get(data[name].attrs.get("units", "1"), (_four, 1.0))
         found, error = factor * values(data, name), other[0] if other else f"{name}_error"
-        texts = _pairs(found, factor * values(data, error)) if error in data else list(map(write, found.tolist()))
+        texts = (
+            _pairs(found, factor * values(data, error), write) if error in data else list(map(write, found.tolist()))
+        )
         cells.append([heading, *texts])
         if np.any(values(data, f"{name}_scatter") > 0.0):
             shares = zip(values(data, f"{name}_scatter"), found, strict=True)
@@ -149,12 +151,19 @@ def _four(value: float) -> str:
     return significant(value, 4)
 
 
+def _decimals(value: float) -> str:
+    return shown_number(value, "z.3f") if math.isfinite(value) else ABSENT
+
+
 #: How numbers of a name or a unit are written, with a factor.
 _SHOWN: dict[str, tuple[Callable[[float], str], float]] = {
     "temperature": (shown_celsius, 1.0),
     "replicates": (whole, 1.0),
     "slip": (significant, 1e3),
     "angular_frequency": (times(1.0, 1), 1.0),
+    "log10_shift_factor": (_decimals, 1.0),
+    "known": (_decimals, 1.0),
+    "difference": (_decimals, 1.0),
 }
 _SHOWN_UNITS = {"m/s": (_four, 1e3), "Pa": (_four, 1e-6)}
 
@@ -164,14 +173,13 @@ def _share(part: float, whole: float) -> str:
     return percent(part / abs(whole)) if whole != 0.0 and math.isfinite(part) else ABSENT
 
 
-def _pairs(values: Array, errors: Array | None) -> list[str]:
-    """Return values with their errors, all with the decimals that the usual error leaves."""
-    known = np.zeros(0) if errors is None else errors[np.isfinite(errors) & (errors > 0.0)]
-    if errors is None or not known.size:
-        open_ends = [False] * len(values) if errors is None else np.isinf(errors).tolist()
+def _pairs(values: Array, errors: Array, write: Callable[[float], str]) -> list[str]:
+    """Return values with their errors, all with the decimals that the usual error leaves; as `write` does without."""
+    known = errors[np.isfinite(errors) & (errors > 0.0)]
+    if not known.size:
         return [
-            (significant(float(value), 4) + (" ± ?" if unknown else "")) if value or not unknown else ABSENT
-            for value, unknown in zip(values, open_ends, strict=True)
+            (write(value) + (" ± ?" if unknown else "")) if value or not unknown else ABSENT
+            for value, unknown in zip(values.tolist(), np.isinf(errors).tolist(), strict=True)
         ]
     decimals = int(np.clip(1 - math.floor(math.log10(float(np.median(known)))), 0, 9))
     written = []
