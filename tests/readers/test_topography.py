@@ -68,6 +68,22 @@ def test_units_in_the_remarks_of_points_are_believed(tmp_path, names):
         vf.read_topography(write(tmp_path, remarks + points), unit="um")
 
 
+def test_headings_below_remarks_with_units_are_read(tmp_path):
+    remarks = "# Lateral units: um\n# Value units: nm\n"
+    points = "\n".join(f"{2 * x}\t{HEIGHTS[x, 0]}" for x in range(6))
+    found = vf.read_topography(write(tmp_path, remarks + "x (um)\tz (nm)\n" + points))
+    np.testing.assert_allclose(found.heights[:, 0], 1e-9 * HEIGHTS[:, 0], rtol=1e-15)
+
+
+@pytest.mark.parametrize("remark, lacking", [("Lateral units", "heights"), ("Value units", "positions")])
+def test_one_unit_of_two_in_remarks_is_refused(tmp_path, remark, lacking):
+    points = "\n".join(f"{2 * x}\t{3 * y}\t{HEIGHTS[x, y]}" for x in range(6) for y in range(4))
+    path = write(tmp_path, f"# {remark}: um\n{points}")
+    with refused("no-unit", None, lacking):
+        vf.read_topography(path)
+    assert vf.read_topography(path, unit="nm").heights.shape == (6, 4)
+
+
 @pytest.mark.parametrize("headings", ["Länge (mm);Profil (µm)", "Tastweg [mm];P-Profil [µm]", "距離(mm);高さ(μm)"])
 def test_positions_and_heights_are_known_in_the_users_language(tmp_path, headings):
     rows = [f"{0.002 * n:.3f};{height}".replace(".", ",") for n, height in enumerate(HEIGHTS[:, 0])]

@@ -225,11 +225,15 @@ def is_table(source: Source) -> bool:
     """Return whether a text is a table of numbers: columns with headings, or a matrix under remarks."""
     if source.text is None:
         return False
-    plain = (line.strip() for line in source.text.splitlines()[:200])
-    first = next((line for line in plain if line and not line.startswith("#")), "")
-    cells = _cells(first)
-    is_matrix = bool(first) and all(map(_is_number, cells[1:] or cells))
+    cells = _first_cells(source.text)
+    is_matrix = any(cells) and all(map(_is_number, cells[1:] or cells))
     return (is_matrix and (_is_number(cells[0]) or _has_corner(source.text))) or holds_table(source, HEIGHTS)
+
+
+def _first_cells(text: str) -> list[str]:
+    """Return the cells of the first line that is no remark."""
+    plain = (line.strip() for line in text.splitlines()[:200])
+    return _cells(next((line for line in plain if line and not line.startswith("#")), ""))
 
 
 def read_array(source: Source, options: ScanOptions) -> Scan:
@@ -244,7 +248,8 @@ def read_array(source: Source, options: ScanOptions) -> Scan:
 def read_text_table(source: Source, options: ScanOptions) -> Scan:
     """Read a text table: a matrix of heights, or columns x, z or x, y, z, recognised by headings or by their grid."""
     assert source.text is not None
-    if _LATERAL.search(source.text[:_HEAD]) is None and holds_table(source, HEIGHTS):
+    in_remarks = _LATERAL.search(source.text[:_HEAD]) and all(map(_is_number, _first_cells(source.text)))
+    if not in_remarks and holds_table(source, HEIGHTS):
         return _points(source, options)
     table = _parsed(source.path, source.text, are_points=options.spacing is None)
     are_points = options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3)
@@ -255,6 +260,10 @@ def read_text_table(source: Source, options: ScanOptions) -> Scan:
                 f"its remarks state the units {' and '.join(map(repr, stated))}; leave unit = {options.unit!r} out."
             )
             raise DataFileError(source.path, problem, code="unit-not-needed")
+        if any(stated) and not all(stated) and not options.unit:
+            what, other = ("heights", "positions") if stated[0] else ("positions", "heights")
+            problem = f"states the unit of its {other} and not that of its {what}; give it by "
+            raise DataFileError(source.path, problem, code="no-unit", remedy=UNIT + ".")
         across, up = (conversion(one or options.unit or "m", "m", "unit")[0] for one in stated)
         rows = np.column_stack([across * table.rows[:, :-1], up * _read(table.rows[:, -1], options)])
         assumed = Note("unit-assumed", "positions and heights assumed to be in m", values={"unit": "m"})
