@@ -18,7 +18,7 @@ from readers.test_dma_csv import ROWS, assert_is_the_table
 from readers.written import write
 from viscofric import read_dma, read_mtm
 from viscofric.errors import DataFileError
-from viscofric.notes import note_of
+from viscofric.notes import codes, note_of
 from viscofric.readers.headings import heading
 from viscofric.readers.source import fraction_of, to_rad_per_second, unit_conversion
 
@@ -396,3 +396,22 @@ def test_a_named_heading_may_not_state_another_temperature_than_the_one_given(tm
         read_dma(path, columns=named, temperature="25 degC")
     sweeps = read_dma(path, columns=named, temperature="60 degC")
     assert sweeps.isotherms[0].storage_modulus == pytest.approx([8e6, 9e6, 10e6])
+
+
+@pytest.mark.parametrize("other", ["Rotational speed (rpm)", "|COF|", "Applied load (N)", "Test temperature (degC)"])
+def test_columns_that_repeat_a_quantity_in_other_terms_are_not_read(tmp_path, other):
+    path = write(tmp_path, f"v (mm/s),T (degC),F (N),COF,{other}", "1,20,10,0.2,7", "10,20,10,0.3,8")
+    curves = vf.read_friction_curves(path)
+    found = (curves.speed[0], curves.temperature[0], curves.load[0], curves.viscoelastic[0])
+    assert found == pytest.approx((1e-3, 293.15, 10.0, 0.2))
+    assert "unused-columns" in codes(curves.notes)
+
+
+@pytest.mark.parametrize("text", ["Time min", "Duration, min", "时间 min", "Δt min", "Dauer min"])
+def test_times_in_minutes_without_brackets_are_read(text):
+    assert heading(text).unit == "min"
+
+
+@pytest.mark.parametrize("text", ["COF min", "E' min"])
+def test_minima_are_not_in_minutes(text):
+    assert heading(text).unit == ""

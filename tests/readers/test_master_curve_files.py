@@ -150,6 +150,12 @@ def test_a_reference_in_other_words_may_not_contradict_the_one_given(tmp_path, l
         read_master_curve(path, "25 degC")
 
 
+@pytest.mark.parametrize("minus", "-−–")
+def test_a_reference_below_zero_may_have_any_minus_sign(tmp_path, minus):
+    path = write(tmp_path, f"# Tref: {minus}10 °C", "f (Hz),E' (MPa),E'' (MPa)", *ROWS)
+    assert read_master_curve(path, "-10 degC").reference == pytest.approx(263.15)
+
+
 def test_logarithms_of_a_base_that_is_not_stated_are_refused(tmp_path):
     rows = ["-3,0.7,-0.3", "3,0.95,-0.15", "0,0.78,-0.05"]
     with refused("logarithm-unknown"):

@@ -53,6 +53,12 @@ def test_a_creep_strain_lacks_its_stress_which_may_be_one_value(tmp_path):
     np.testing.assert_allclose(tests.tests[0].response, 1e-7 * TIME**0.2, rtol=1e-6)  # 1/Pa
 
 
+def test_a_melt_that_flows_does_not_look_like_a_wrong_unit(tmp_path):
+    path = written(tmp_path / "melt.csv", ("T (degC)", "t (s)", "J (1/Pa)"), [0.0 * TIME + 180.0, TIME, 0.01 * TIME])
+    assert 1.0 / (0.01 * TIME.max()) < 1.0  # Pa
+    assert "implausible-modulus" not in codes(vf.read_step_tests(path, deformation="tension"))
+
+
 @pytest.mark.parametrize(
     ("header", "scale", "code"),
     [

@@ -68,6 +68,15 @@ def test_units_in_the_remarks_of_points_are_believed(tmp_path, names):
         vf.read_topography(write(tmp_path, remarks + points), unit="um")
 
 
+@pytest.mark.parametrize("words", ["Height map", "ncols 4\nnrows 6\ncellsize 1"])
+def test_a_matrix_below_other_words_is_read_in_the_units_that_the_user_gives(tmp_path, words):
+    path = write(tmp_path, f"{words}\n{matrix_text(' ')}")
+    found = vf.read_topography(path, unit="um", spacing="2 um")
+    np.testing.assert_allclose(np.sort(found.heights.ravel()), np.sort(1e-6 * HEIGHTS.ravel()), rtol=1e-12)
+    with refused("unknown-format"):
+        vf.read_topography(path, unit="um")
+
+
 def test_headings_below_remarks_with_units_are_read(tmp_path):
     remarks = "# Lateral units: um\n# Value units: nm\n"
     points = "\n".join(f"{2 * x}\t{HEIGHTS[x, 0]}" for x in range(6))
@@ -75,7 +84,7 @@ def test_headings_below_remarks_with_units_are_read(tmp_path):
     np.testing.assert_allclose(found.heights[:, 0], 1e-9 * HEIGHTS[:, 0], rtol=1e-15)
 
 
-@pytest.mark.parametrize("remark, lacking", [("Lateral units", "heights"), ("Value units", "positions")])
+@pytest.mark.parametrize(("remark", "lacking"), [("Lateral units", "heights"), ("Value units", "positions")])
 def test_one_unit_of_two_in_remarks_is_refused(tmp_path, remark, lacking):
     points = "\n".join(f"{2 * x}\t{3 * y}\t{HEIGHTS[x, y]}" for x in range(6) for y in range(4))
     path = write(tmp_path, f"# {remark}: um\n{points}")

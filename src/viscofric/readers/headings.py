@@ -25,8 +25,12 @@ _SEPARATED = re.compile(
     r"|(?:\s+in\s+|_in_|\s*,\s*|_)(?P<letter>[CKFNsm])"
     r"|(?:\s+in\s+|\s*,\s*)(?P<rarer>[ckd]N|daN|kgf|kp|gf|lbf|kg|g|mm?/min|km/h|°|deg|rad|-))$"
 )
-#: "COF min" is a minimum, "t min" a time.
-_LEAST = re.compile(r"(?!t |.*(time|zeit|temps|durée|tiempo|tempo|tijd)).* min", re.IGNORECASE)
+#: "COF min" is a minimum, "t min" and "duration, min" are times.
+_LEAST = re.compile(
+    r"(?!(Δ ?)?t |.*(time|zeit|dauer|temps|durée|tiempo|tempo|tijd|duration|czas|čas|время|时间|時間|시간))"
+    r".*[^\s,:] min",
+    re.IGNORECASE,
+)
 _LETTER = re.compile(r"^(?P<name>.*temp[^\s_]*|T)[\s_]+(?P<unit>[ckf])$", re.IGNORECASE)
 #: "log10(aT)", "tan(δ)", "a(T)", "compliance J(t)": brackets that hold an argument, not a unit.
 _FUNCTION = re.compile(
@@ -63,6 +67,10 @@ _FULL_WIDTH = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)}
 _LONGEST_HEADING = 200
 #: A column of means, such as "E' mean", is one of the quantity where there is no other.
 _MEAN = re.compile(r"\b(mean|average|avg)\b\.?", re.IGNORECASE)
+#: Names of columns that are read only where no other column holds their quantity.
+_RATHER_OTHERS = frozenset(
+    {"rotational speed", "applied load", "|cof|", "test temperature", "elastic modulus", "peak strain", "dyn. strain"}
+)
 # "foam_-25C", "T 25 °C": a number and its unit, separate from other letters and digits.  A minus sign follows no letter
 # or digit: in "foam-25C" it may be a dash.  Between blanks it is one ("NR - 25 °C"), except in "T = - 25 °C".
 _OF_A_RATE = r"(?![^\W_]|\s*/\s*(?i:min\w*|s|sec\w*|h|hr|hours?|steps?)\b)"
@@ -259,6 +267,9 @@ class Vocabulary:
             found.append(replace(column, quantity="" if given else column.quantity))
         plain = {column.quantity for column in found if not column.base} & {*(self.needed[0] if self.needed else ())}
         found = [replace(one, quantity="", base=0.0) if one.base and one.quantity in plain else one for one in found]
+        first = {column.quantity for column in found if column.name.lower() not in _RATHER_OTHERS}
+        doubled = [one.quantity in first and one.name.lower() in _RATHER_OTHERS for one in found]
+        found = [replace(one, quantity="") if other else one for one, other in zip(found, doubled, strict=True)]
         held = {column.quantity for column in found} | {*self.user_columns, *self.constants}
         for n, column in enumerate(found):
             what = "" if column.quantity else self.quantity(_MEAN.sub("", column.name).strip())

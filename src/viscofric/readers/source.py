@@ -257,7 +257,7 @@ def converted(number: str, unit: str, si: str) -> float | None:
     """Return a number as printed in an SI unit, None if its unit is of another kind."""
     try:
         factor, offset = unit_conversion(unit, si)
-        return factor * float(number.replace(",", ".").replace("−", "-")) + offset
+        return factor * float(plain_number(number).replace(",", ".")) + offset
     except (InputError, ValueError):
         return None
 

@@ -31,7 +31,7 @@ _REMARKS, _LONGEST_REMARK = 20, 200  # lines, characters
 _REFERENCE = re.compile(
     r"[\W_]*(master ?curve\W+)?((reference|ref\.?) ?temp(erature|\.)?|t[_ ]?ref|t_?0|referenztemperatur"
     r"|température de référence)(\W*\b(?P<before>degC|C|K|degF|F)\b)?"
-    r"\W*?(?P<number>[+−-]?\d+([.,]\d*)?)(\W*(?P<unit>degC|C|K|degF|F))?\W*",
+    r"\W*?(?P<number>[+−–-]?\d+([.,]\d*)?)(\W*(?P<unit>degC|C|K|degF|F))?\W*",
     re.IGNORECASE,
 )
 

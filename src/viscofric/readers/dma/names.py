@@ -42,7 +42,7 @@ SET_TEMPERATURE = frozenset(
 )
 FREQUENCY = frozenset(
     {"f", "F", "freq", "freq.", "frequency", "frequenz", "prüffrequenz", "messfrequenz", "fréquence", "frecuencia"}
-    | {"fréq", "fréq.", "fréquence d'essai"}
+    | {"fréq", "fréquence d'essai"}
     | {"frequenza", "frequência", "frequentie", "frekvens", "frekvence", "częstotliwość", "частота", "频率", "周波数"}
     | {"fréq.", "frekans", "测试频率", "測定周波数", "주파수"}
 )

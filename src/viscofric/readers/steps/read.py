@@ -228,12 +228,13 @@ def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: 
     symbol = plain.rpartition(" ")[2]  # of "relaxation modulus G(t)"
     deformation, said_by = said_by_columns([plain, symbol], [table.filled], tools_in(table.above))
     kelvin = temperature_of(table, source, name, notes)
-    # the first points, of an instrument that rings, may have any size
+    # The first points, of an instrument that rings, may have any size; the modulus of a melt falls without limit.
     with np.errstate(divide="ignore", invalid="ignore"):
         modulus = 1.0 / response if known == "creep" else response
         above = modulus[(modulus > 0.0) & np.isfinite(modulus)]
         usual = np.median(above) if above.size else np.nan
-        modulus = np.where(np.abs(np.log10(modulus / usual)) < LIKE_THE_OTHERS, modulus, np.nan)
+        near = np.abs(np.log10(modulus / usual)) < LIKE_THE_OTHERS
+        modulus = np.where(modulus == modulus[near].max(initial=0.0), modulus, np.nan)
     headings = [column.heading for column in table.columns]
     places = {"temperature": table.place("temperature"), MODULI[0]: headings.index(heading)}
     notes += doubts(table, {one: place for one, place in places.items() if place is not None}, kelvin, modulus)

@@ -38,7 +38,7 @@ _UNKNOWN = (
 )
 #: Elevations of the globe without a header: any file of a square's size would be recognised as such.
 _BY_SIZE = ("hgt",)
-#: Text whose words the package passes over, and with them the units of headings.
+#: Text whose words the package passes over, and with them the units of headings: read if the user states all units.
 _OF_TEXT = ("asc", "xyz")
 #: Of workbooks that a Mitutoyo SurfTest writes, of one line scan each.
 _CONTENTS, _LONGEST_CONTENTS = "xl/workbook.xml", 1_000_000  # bytes
@@ -126,7 +126,7 @@ def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
     if reader.format() in _BY_SIZE:
         raise DataFileError(source.path, _UNKNOWN, code="unknown-format")
     channel = _channel(source, reader, options.channel)
-    if channel.unit is None and reader.format() in _OF_TEXT:
+    if channel.unit is None and reader.format() in _OF_TEXT and not (options.unit and options.spacing):
         raise DataFileError(source.path, _UNKNOWN, code="unknown-format")
     given: dict[str, Any] = {}
     if channel.unit is None:
