@@ -119,12 +119,12 @@ def notes_on_friction(friction: ArrayLike, temperature: ArrayLike, speed: ArrayL
 
 
 def notes_on_copies(columns: Iterable[ArrayLike]) -> tuple[Note, ...]:
-    """Return a note on rows, (n,) of each column, of which at least half are exact copies of others."""
+    """Return a note on rows, (n,) of each column, of which at least half are equal to others."""
     rows = np.stack([np.asarray(column, dtype=float) for column in columns], axis=1)
     count = len(rows) - len(np.unique(rows, axis=0))
     if not count or 2 * count < len(rows):
         return ()
-    said = f"{count} of {len(rows)} rows are exact copies of others and count as measurements of their own"
+    said = f"{count} of {len(rows)} rows are equal to others in all columns and count as measurements of their own"
     remedy = "; if they are copies, leave them out: errors would be too small."
     return (Note("copied-rows", said + remedy, values={"rows": count, "of": len(rows)}),)
 

@@ -232,8 +232,8 @@ def _on_glass(sweeps: Sequence[Sorted]) -> list[Note]:
     if not elastic or stiff < TRANSITION * soft or GLASSY_MODULUS[0] <= stiff <= GLASSY_MODULUS[1]:
         return []
     said = f"E' rises from {soft:.3g} to {stiff:.3g} Pa, as through a glass transition, but a glass has some 10⁹ Pa"
-    found = Note("implausible-modulus", f"{said}; check the unit of the moduli.", values={"soft": soft, "stiff": stiff})
-    return [found]
+    said += ", unless it is a foam; check the unit of the moduli."
+    return [Note("implausible-modulus", said, values={"soft": soft, "stiff": stiff})]
 
 
 def _on_temperature(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
