@@ -17,7 +17,7 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShiftFactors
 from viscofric.rheology.superposition.overlap import OverlapQuality
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.rheology.uncertainty.material_samples import Residuals
-from viscofric.rheology.uncertainty.sampling import normal_deviates, sample_materials
+from viscofric.rheology.uncertainty.sampling import _laws, normal_deviates, sample_materials
 
 REFERENCE = 303.15
 KELVIN = np.arange(263.15, 364.0, 20.0)
@@ -202,6 +202,19 @@ def test_laws_are_drawn_as_uncertain_as_they_were_fitted(law):
     assert samples.materials[0].shift.extrapolation_limits[0] > 0.0
     with refused("outside-fitted"):
         samples.materials[0].at("600 degC")
+
+
+def test_samples_of_an_uncertain_vft_law_are_its_curve():
+    """T0 is uncertain by 25 K, and 60 K below the reference: drawn by itself, it is above that in some samples."""
+    kelvin = np.array([300.0, 330.0, 360.0])
+    shifts = ShiftFactors(kelvin, vf.WLF(9.0, 60.0, 300.0).log10(kelvin), 300.0, np.diag([0.0, 0.2**2, 0.1**2]))
+    law, random = shifts.law("vft"), np.random.default_rng(0)
+    assert law.standard_errors[1] > 20.0
+    drawn = _laws(random, shifts, normal_deviates(random, shifts.covariance, 500), law)
+    values = np.array([one.log10(kelvin) for one in drawn])
+    spread = 0.5 * np.ptp(np.quantile(values, [0.16, 0.84], axis=0), axis=0)
+    # 500 draws know it to 5 %; to first order it is that of the law, whose curve bends within errors of 40 % of C2.
+    assert spread == pytest.approx(law.standard_error(kelvin), rel=0.4)
 
 
 @pytest.mark.apart

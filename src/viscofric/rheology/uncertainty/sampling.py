@@ -17,7 +17,7 @@ from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts import law_fitting
-from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+from viscofric.rheology.shifts.laws import VFT, ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.spectra import mode_fits
@@ -285,7 +285,8 @@ def sample_materials(
     seed : int
         Of the random numbers: the same seed gives the same samples.
     law : str, optional
-        Kind of shift law (`ShiftFactors.law`) to be fitted in every sample; the table itself if not given.
+        Kind of shift law (`ShiftFactors.law`) to be fitted in every sample, VFT as WLF, the same curve; the table itself
+        if not given.
     poisson_ratio : float
         Of the materials.
     name : str
@@ -447,7 +448,9 @@ def _errors(random: np.random.Generator, fit: Fit, samples: int) -> tuple[Array,
 
 def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: ParametricLaw) -> list[ShiftLaw]:
     """Return the law of every sample: its constants follow linearly from the errors of the shift factors."""
-    # The misfit of the law is drawn too.
+    # The misfit of the law is drawn too. A sample of VFT is the same curve as WLF, whose C2 stays above zero, while T0
+    # could come out above the reference.
+    law = law.to_wlf() if isinstance(law, VFT) else law
     table = law_fitting.FactorTable.of(shifts.temperatures, shifts.log10_values, shifts.covariance, shifts.reference)
     degree = len(law.parameters) if law.kind == "polynomial" else None
     fitted, constants = law_fitting.fitted(law.kind, table, degree), law.parameters
