@@ -296,14 +296,16 @@ def test_sliding_before_a_jump_at_the_start_is_at_the_first_speed_and_temperatur
 
 
 @pytest.mark.parametrize(
-    ("indenter", "control", "last"), [(CYLINDER, "load", 100.0), (vf.Ball("10 mm"), "indentation", 1e-4)]
+    ("indenter", "control", "first", "last"),
+    [(CYLINDER, "load", 0.0, 100.0), (vf.Ball("10 mm"), "indentation", 0.0, 1e-4)]
+    + [(vf.Ball("10 mm"), "indentation", 1e-8, 1e-4)],  # narrower than a cell
 )
-def test_sliding_before_without_load_is_sliding_on_untouched_rubber(indenter, control, last):
+def test_sliding_before_without_load_is_sliding_on_untouched_rubber(indenter, control, first, last):
     one, two = (
         vf.motion.solve_transient(
             RUBBER,
             indenter,
-            vf.motion.History([0.0, 2e-3], **{control: [0.0, last]}, speed=0.05, before=before),
+            vf.motion.History([0.0, 2e-3], **{control: [first, last]}, speed=0.05, before=before),
             times=[0.0, 2e-3],
             accuracy=0.1,
         )
@@ -313,7 +315,7 @@ def test_sliding_before_without_load_is_sliding_on_untouched_rubber(indenter, co
         error = getattr(one.errors, name) + getattr(two.errors, name)
         assert np.all(np.abs(getattr(one, name) - getattr(two, name)) <= error)
     assert one.load[0] == 0.0 < one.friction_force[1]
-    assert control == "load" or one.indentation[0] == 0.0
+    assert control == "load" or one.indentation[0] == first
 
 
 def test_turning_back_at_the_start_after_sliding_is_turning_back_after_a_slide():

@@ -181,7 +181,7 @@ def find_window(problem: Problem, size: float) -> Stage:
 def _fitted_window(problem: Problem, size: float) -> Stage:
     window = problem.geometry.around(1.5 * size, 1.5 * size, 1.5 * size, _coarsest(problem))
     guess = np.sqrt(np.maximum(0.0, 1.0 - (window.x[:, None] ** 2 + window.y**2) / size**2))
-    stage = solve_on(window, problem, guess)
+    stage = _touching(solve_on(window, problem, guess))
     for _ in range(_MOST_WINDOWS):
         old = stage.window
         if old.cuts(stage.result.pressure > 0.0):
@@ -219,13 +219,25 @@ def _around(stage: Stage) -> Grid:
 
 
 def _solve_in_window(window: Grid, before: Stage, *, last: bool = False) -> Stage:
-    return solve_on(window, before.problem, before.window.resample(before.result.pressure, window), last=last)
+    guess = before.window.resample(before.result.pressure, window)
+    return _touching(solve_on(window, before.problem, guess, last=last))
+
+
+def _touching(stage: Stage) -> Stage:
+    if stage.result.pressure.any():
+        return stage
+    cells = " x ".join(map(str, stage.window.shape))
+    raise ConvergenceError(
+        f"the contact is narrower than a cell of a grid of {cells} cells; the indenter may be too slender, or the "
+        "window too large.",
+        code="no-window",
+    )
 
 
 def solve_on(window: Grid, problem: Problem, guess: Array, *, last: bool = False) -> Stage:
     """Solve on one grid: by the active set, and where that makes no progress, by proximal points.
 
-    `last` says whether it may be the last one.
+    `last` says whether it may be the last one.  A contact narrower than a cell may have no pressure.
     """
     tolerance = problem.tolerance if last else max(problem.tolerance, problem.coarse_tolerance)
     shift = collocation_shift(problem.solid, window.spacing)
@@ -235,14 +247,8 @@ def solve_on(window: Grid, problem: Problem, guess: Array, *, last: bool = False
     result = problem.control.solve(operator, height, start, tolerance, _PATIENCE)
     if not result.converged:
         result = proximal_points(problem.control, operator, height, result, tolerance)
-    if result.converged and result.pressure.any():
-        return Stage(problem, window, operator, result)
     if result.converged:
-        raise ConvergenceError(
-            f"the contact is narrower than a cell of a grid of {window.shape[0]} x {window.shape[1]} cells; the "
-            "indenter may be too slender, or the window too large.",
-            code="no-window",
-        )
+        return Stage(problem, window, operator, result)
     raise ConvergenceError(
         f"the contact did not converge on a grid of {window.shape[0]} x {window.shape[1]} cells: a gap of "
         f"{result.complementarity:.1e} of the indentation was left, with tolerance = {tolerance:.0e}.",
