@@ -231,6 +231,8 @@ def test_friction_and_heights_that_no_rubber_or_surface_has_are_noted(tmp_path: 
     assert codes(vf.read_friction_curves(path).notes) == implausible | {"errors-unknown"}
     path.write_text(path.read_text("utf-8") + "300,20,1,1e-5\n", encoding="utf-8")
     assert "copied-rows" in codes(vf.read_friction_curves(path).notes)
+    path.write_text(path.read_text("utf-8") + "301,20,1,1e-5\n", encoding="utf-8")
+    assert "copied-rows" not in codes(vf.read_friction_curves(path).notes)  # one of three
     scan = tmp_path / "scan.csv"
     scan.write_text("8e298,0\n0,1\n", encoding="utf-8")
     with refused("implausible-height", DataFileError, naming="8e+298"):

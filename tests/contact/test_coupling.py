@@ -55,7 +55,7 @@ BODIES = [
 
 
 def contacts() -> Iterator[Any]:
-    """Yield two contacts on each body, of a line at any speed or a ball; balls at any speed apart; others exhaustive."""
+    """Yield two contacts on each body, of a line at any speed or a ball; other balls apart, all others exhaustive."""
     for place, body in enumerate(BODIES):
         speed = (1.0, 0.0, 10.0)[place % 3]
         usual = {(True, speed), (place % 3 > 0, 1.0)}

@@ -443,31 +443,22 @@ FORCES = {"N": 1.0, "kN": 1e3, "daN": 10.0, "kgf": 9.80665, "kp": 9.80665, "gf":
 WEIGHTS = {"kg": 9.80665, "g": 9.80665e-3}
 
 
-@pytest.mark.parametrize(
-    ("unit", "heading"), zip((FORCES | WEIGHTS), cycle(("load ({})", "load [{}]", "load / {}", "load, {}", "load\n{}")))
-)
-def test_loads_in_older_units_and_masses_as_weights(tmp_path: Path, unit: str, heading: str) -> None:
-    load, _, below = heading.format(unit).partition("\n")
-    rows = [["speed (mm/s)", "T (°C)", load, "COF"], ["mm/s", "°C", below, "-"], [1.0, 20.0, 3.0, 0.1]]
-    curves = vf.read_friction_curves(saved(tmp_path, rows if below else [rows[0], rows[2]]))
-    assert curves.load == pytest.approx([3.0 * (FORCES | WEIGHTS)[unit]], rel=1e-12)
-    assert ("mass-as-load" in codes(curves.notes)) == (unit in WEIGHTS)
+@pytest.mark.parametrize("heading", ["load ({})", "load [{}]", "load / {}", "load, {}", "load\n{}"])
+def test_loads_in_older_units_and_masses_as_weights(tmp_path: Path, heading: str) -> None:
+    for unit, newton in (FORCES | WEIGHTS).items():
+        load, _, below = heading.format(unit).partition("\n")
+        rows = [["speed (mm/s)", "T (°C)", load, "COF"], ["mm/s", "°C", below, "-"], [1.0, 20.0, 3.0, 0.1]]
+        curves = vf.read_friction_curves(saved(tmp_path, rows if below else [rows[0], rows[2]]))
+        assert curves.load == pytest.approx([3.0 * newton], rel=1e-12), unit
+        assert ("mass-as-load" in codes(curves.notes)) == (unit in WEIGHTS), unit
 
 
-@pytest.mark.parametrize(
-    ("heading", "unit", "metres"),
-    [
-        ("v ({})", "µm/s", 1e-6),  # the micro sign
-        ("v [{}]", "μm/s", 1e-6),  # the Greek letter
-        ("v / {}", "mm/s", 1e-3),
-        ("v / ({})", "cm/s", 0.01),
-        ("v/[{}]", "m/min", 1 / 60),
-        ("v, {}", "µm/s", 1e-6),
-    ],
-)
-def test_units_of_speed_in_brackets_or_behind_a_mark(tmp_path: Path, unit: str, metres: float, heading: str) -> None:
-    rows = [[heading.format(unit), "T (K)", "load (N)", "COF"], [3.0, 293.15, 5.0, 0.1]]
-    assert vf.read_friction_curves(saved(tmp_path, rows)).speed == pytest.approx([3.0 * metres], rel=1e-12)
+@pytest.mark.parametrize("heading", ["v ({})", "v [{}]", "v / {}", "v / ({})", "v/[{}]", "v, {}"])
+def test_units_of_speed_in_brackets_or_behind_a_mark(tmp_path: Path, heading: str) -> None:
+    # the micro sign, and the Greek letter
+    for unit, metres in (("µm/s", 1e-6), ("μm/s", 1e-6), ("mm/s", 1e-3), ("cm/s", 0.01), ("m/min", 1 / 60)):
+        rows = [[heading.format(unit), "T (K)", "load (N)", "COF"], [3.0, 293.15, 5.0, 0.1]]
+        assert vf.read_friction_curves(saved(tmp_path, rows)).speed == pytest.approx([3.0 * metres], rel=1e-12), unit
 
 
 @pytest.mark.parametrize("unit", ["rpm", "1/min", "U/min", "min⁻¹"])
