@@ -119,7 +119,8 @@ def test_reciprocation_is_reached_by_waiting_too() -> None:
         waited.friction_force[-1], abs=3e-3 * np.abs(waited.friction_force).max()
     )
     assert cycle.run.work[-1] == pytest.approx(cycle.energy_per_cycle, rel=1e-3)
-    assert cycle.mean_friction_coefficient == pytest.approx(cycle.energy_per_cycle / (2.0 * there * pressure), rel=1e-3)
+    # both are extrapolated over steps, by which they would be 6e-5 off
+    assert cycle.mean_friction_coefficient == pytest.approx(cycle.energy_per_cycle / (2.0 * there * pressure), rel=1e-5)
     assert cycle.to_dataset().attrs["periods"] == cycle.periods
     assert cycle.to_dataset().attrs["mean_friction_coefficient_error"] == cycle.mean_friction_coefficient_error
 
