@@ -41,7 +41,8 @@ if TYPE_CHECKING:
     from viscofric.contact.arrays.backend import AnyArray, Backend
 
 
-_BLOCK = 8  # cells along an edge of a block at most
+#: Cells along an edge of a block at most.
+BLOCK = 8
 _REACH, _FAR = 2.5, 100.0  # s of the means over near and far cells, in cells
 # Part of the contact in the weights of near cells below which their mean passes into that of far cells, and how fast.
 _ENOUGH, _POWER = 0.2, 0.7
@@ -73,7 +74,7 @@ class Extension:
         lag: float = 0.0,
         *,
         inverse: AnyArray | None = None,
-        block: int = _BLOCK,
+        block: int = BLOCK,
         reach: float = _REACH,
         even: bool = False,
     ) -> None:
@@ -99,26 +100,34 @@ class Extension:
 
     def on(self, contact: Cells) -> Callable[[AnyArray], AnyArray]:
         """Return the extension of values on a contact: from (n,) at its cells to (nx, ny); the next overwrites it."""
-        xp = self.backend.xp
-        shares = self._smoothed(contact.scattered(xp.ones_like(contact.indices, dtype=self.dtype)))
-        near, far = (xp.clip(share, min=_LEAST) for share in shares)
-        part = xp.clip((near / _ENOUGH) ** _POWER, max=1.0)
-        near, far = part / near, (1.0 - part) / far
-        trail = self._trail(contact)
+        trail, beyond = self._trail(contact), self.beyond(contact)
         (nx, ny), bx, by = self.shape, *(lines.shape[0] for lines in self._lines)
         found = self.backend.empty((nx, bx, ny * by), self.dtype)
 
         def extended(values: AnyArray) -> AnyArray:
-            close, wide = self._smoothed(contact.scattered(values))
-            field = self._spread(close * near + wide * far, found)
+            field = self._spread(beyond(values), found)
             for cells, rest, sources in trail:
                 behind = rest * cells.gathered(field)
                 for source, weight in sources:
-                    behind += weight * xp.take(values, source)
+                    behind += weight * self.backend.xp.take(values, source)
                 field = cells.inserted(field, behind)
             return contact.inserted(field, values)
 
         return extended
+
+    def beyond(self, contact: Cells) -> Callable[[AnyArray], AnyArray]:
+        """Return what gives each block (mx, my) its value beyond a contact, from the values (n,) on its cells."""
+        xp = self.backend.xp
+        shares = self._smoothed(self.means(contact.scattered(xp.ones_like(contact.indices, dtype=self.dtype))))
+        near, far = (xp.clip(share, min=_LEAST) for share in shares)
+        part = xp.clip((near / _ENOUGH) ** _POWER, max=1.0)
+        near, far = part / near, (1.0 - part) / far
+
+        def mixed(values: AnyArray) -> AnyArray:
+            close, wide = self._smoothed(self.means(contact.scattered(values)))
+            return close * near + wide * far
+
+        return mixed
 
     def collecting(self, contact: Cells) -> Callable[[AnyArray], AnyArray]:
         """Return what brings pressures on the whole grid onto a contact: from (nx, ny) to (n,) at its cells."""
@@ -202,10 +211,9 @@ class Extension:
             found.append((Cells(self.backend, contact.chosen, xp.take(cells, free)), 1.0 - fading, [(sources, fading)]))
         return found
 
-    def _smoothed(self, field: AnyArray) -> list[AnyArray]:
-        """Weighted means of a field around each block, those over near cells and those over far ones."""
-        xp, transforms = self.backend.xp, self.backend.transforms
-        over_x, over_y = self._means
+    def means(self, field: AnyArray) -> AnyArray:
+        """Means of a field (nx, ny) over blocks (mx, my)."""
+        xp, (over_x, over_y) = self.backend.xp, self._means
         (nx, ny), bx, by = self.shape, over_x.shape[1], over_y.shape[1]
 
         def average(field: AnyArray, means: AnyArray) -> None:
@@ -213,6 +221,11 @@ class Extension:
 
         means = self.backend.empty(self.shape, self.dtype)
         self.backend.in_parts(average, xp.reshape(field, (nx, bx, ny * by)), means)
+        return means
+
+    def _smoothed(self, means: AnyArray) -> list[AnyArray]:
+        """Weighted means around each block, those over near cells and those over far ones, of means over blocks."""
+        transforms = self.backend.transforms
         if self._even:
             return [transforms.convolved_even(means, weights, self.shape) for weights in self._weights]
         waves = transforms.forward(means)
