@@ -297,8 +297,11 @@ def test_sliding_before_a_jump_at_the_start_is_at_the_first_speed_and_temperatur
 
 @pytest.mark.parametrize(
     ("indenter", "control", "first", "last"),
-    [(CYLINDER, "load", 0.0, 100.0), (vf.Ball("10 mm"), "indentation", 0.0, 1e-4)]
-    + [(vf.Ball("10 mm"), "indentation", 1e-8, 1e-4)],  # narrower than a cell
+    [
+        (CYLINDER, "load", 0.0, 100.0),
+        (vf.Ball("10 mm"), "indentation", 0.0, 1e-4),
+        (vf.Ball("10 mm"), "indentation", 1e-8, 1e-4),  # narrower than a cell
+    ],
 )
 def test_sliding_before_without_load_is_sliding_on_untouched_rubber(indenter, control, first, last):
     one, two = (

@@ -285,8 +285,8 @@ def sample_materials(
     seed : int
         Of the random numbers: the same seed gives the same samples.
     law : str, optional
-        Kind of shift law (`ShiftFactors.law`) to be fitted in every sample, VFT as WLF, the same curve; the table itself
-        if not given.
+        Kind of shift law (`ShiftFactors.law`) to be fitted in every sample, VFT as WLF, the same curve; the table
+        itself if not given.
     poisson_ratio : float
         Of the materials.
     name : str
