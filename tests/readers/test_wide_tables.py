@@ -228,6 +228,16 @@ def test_what_lines_above_a_table_state_alone_holds_for_all_rows(tmp_path: Path,
     assert caught.value.code in {"missing-columns", "values-contradict"}
 
 
+@pytest.mark.parametrize("first", ["# Load: 5 N\n", ""])
+@pytest.mark.parametrize("count", [3, 400])
+def test_a_remark_between_rows_does_not_state_the_load_of_all(tmp_path: Path, first: str, count: int) -> None:
+    rows = "".join(f"{v},20,0.{v}\n" for v in range(1, count))
+    path = tmp_path / "table.csv"
+    path.write_text(f"{first}v (mm/s),T (degC),COF\n{rows}# Load: 10 N\n{rows}")
+    with refused("missing-columns"):
+        vf.read_friction_curves(path)
+
+
 def test_a_line_above_a_table_states_its_speed(tmp_path: Path) -> None:
     rows = [["Linear speed : 1.00 [cm/s]"], ["T (°C)", "F (N)", "Reibbeiwert"], [20.0, 5.0, 0.3], [40.0, 5.0, 0.2]]
     assert vf.read_friction_curves(saved(tmp_path, rows)).speed == pytest.approx([0.01, 0.01])

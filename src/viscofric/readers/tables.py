@@ -83,8 +83,8 @@ def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
     if found is None:
         raise no_header(source, words)
     remarks = [
-        tuple(re.split(r"[\t;,]", line.lstrip("# ")))
-        for line in (source.text or "")[:_HEAD].splitlines()[:DEEPEST_HEADER]
+        (number, tuple(re.split(r"[\t;,]", line.lstrip("# "))))
+        for number, line in enumerate((source.text or "")[:_HEAD].splitlines(), start=1)
         if line.lstrip().startswith("#")
     ]
     return {"": _table_under(source.path, found, words, remarks)}
@@ -162,9 +162,10 @@ def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheet
     return DataFileError(path, Note("missing-columns", problem, remedy=name_columns(words.key, missing), values=values))
 
 
-def _table_under(path: str, found: Found, words: Vocabulary, remarks: Title | list[tuple[str, ...]] = ()) -> Table:
+def _table_under(path: str, found: Found, words: Vocabulary, remarks: Sequence[NumberedRow] = ()) -> Table:
     """Return the table under a header, from all rows that are not blank; remarks state what lines above it do."""
     rows, header = found.rows, found.header
+    above, below = ([cells for line, cells in remarks if (line < rows[header][0]) == one] for one in (True, False))
     _insist_on_text(path, rows[:header], words)
     names = list(rows[header][1])
     if any(len(cells) != len(names) for _, cells in rows[header + 1 :]):  # else remarks without a heading
@@ -194,14 +195,14 @@ def _table_under(path: str, found: Found, words: Vocabulary, remarks: Title | li
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
     if words.conditions and (block is None or any(column.stated for column in columns)):
         table = _below_each_other(table)
-        table = _with_stated_above(table, remarks) if block is None else table
+        table = _with_stated_above(table, above, below) if block is None else table
         _insist_on_no_other_column(table)
         read = {*table.lines.tolist()}
         _insist_on_nothing_between(table, [row for row in kept if row[0] not in read])
     _insist_on_words(table)
     table, given = table.with_constants(), words.constants.get("temperature")
     _insist_on_one_value(table)
-    table = replace(table, above=(*table.above, *remarks))
+    table = replace(table, above=(*table.above, *(tuple(cells) for line, cells in remarks if line <= DEEPEST_HEADER)))
     place = table.place("temperature") if given and table.rows else None
     if place is not None:
         kelvin = float(table.values(place, "K")[0])
@@ -280,9 +281,12 @@ def _may_be_thousands(
     return _unclear(path, columns, words, "ambiguous-decimals", problem + right)
 
 
-def _with_stated_above(table: Table, remarks: Title | list[tuple[str, ...]]) -> Table:
-    """Return the table with a column of each value that it needs and lacks and that one line above states alone."""
-    words, lines = table.vocabulary, [*table.above, *remarks]
+def _with_stated_above(table: Table, above: Sequence[Sequence[str]], below: Sequence[Sequence[str]]) -> Table:
+    """Return the table with a column of each value that it needs and lacks and that one line above states alone.
+
+    The remarks `above` its header count as lines; another value in one `below` it may hold for some of its rows.
+    """
+    words, lines = table.vocabulary, [*table.above, *above]
     for what in (one for one in words.conditions if one not in words.constants):
         place = next((n for n, one in enumerate(table.columns) if one.heading == OF_HEADINGS[what]), None)
         if place is not None:
@@ -293,7 +297,8 @@ def _with_stated_above(table: Table, remarks: Title | list[tuple[str, ...]]) -> 
                     raise table.refused("values-contradict", problem)
         elif what in words.from_above and not table.has(what):
             found = _stated_above(table, what, lines, alone=True)
-            if len(found) == 1:
+            others = [one for cells in below for one in words.stated_in(" ".join(cells))[1]] if found else []
+            if len(found) == 1 and {value for one, value in others if one == what} <= {*found}:
                 ((value, line),) = found.items()
                 number, unit = _value(value)
                 if LIKE_THOUSANDS.fullmatch(number):
