@@ -217,6 +217,16 @@ def test_samples_of_an_uncertain_vft_law_are_its_curve():
     assert spread == pytest.approx(law.standard_error(kelvin), rel=0.4)
 
 
+def test_samples_of_an_uncertain_polynomial_fall_with_temperature():
+    """Residuals of 0.2 decades make one of four polynomials within the errors rise somewhere."""
+    kelvin = np.arange(270.0, 371.0, 20.0)
+    residuals = 0.2 * np.array([0.0, 1.0, -1.0, 0.5, 1.0, -1.0])
+    shifts = ShiftFactors(kelvin, vf.WLF(9.0, 90.0, 270.0).log10(kelvin) + residuals, 270.0)
+    law, random = shifts.law("polynomial", degree=2), np.random.default_rng(0)
+    for one in _laws(random, shifts, np.zeros((100, kelvin.size)), law):
+        assert np.all(np.diff(one.log10(np.linspace(270.0, 370.0, 50))) < 0.0)
+
+
 @pytest.mark.apart
 @pytest.mark.parametrize("method", ["non-negative", "regularised", "sparse"])
 def test_every_method_is_refitted_its_own_way(method):

@@ -446,16 +446,32 @@ def _errors(random: np.random.Generator, fit: Fit, samples: int) -> tuple[Array,
     return moved, errors[:, size:count] if count > size else None, offsets
 
 
+#: Most draws of the misfit of a law, until it falls with temperature.
+_TRIES = 100
+
+
 def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: ParametricLaw) -> list[ShiftLaw]:
     """Return the law of every sample: its constants follow linearly from the errors of the shift factors."""
-    # The misfit of the law is drawn too. A sample of VFT is the same curve as WLF, whose C2 stays above zero, while T0
-    # could come out above the reference.
+    # The misfit of the law is drawn too, again where a polynomial rises with temperature. A sample of VFT is the same
+    # curve as WLF, whose C2 stays above zero, while T0 could come out above the reference.
     law = law.to_wlf() if isinstance(law, VFT) else law
     table = law_fitting.FactorTable.of(shifts.temperatures, shifts.log10_values, shifts.covariance, shifts.reference)
     degree = len(law.parameters) if law.kind == "polynomial" else None
     fitted, constants = law_fitting.fitted(law.kind, table, degree), law.parameters
     gain = table.gain(constants, law.gradient(shifts.temperatures), fitted.scatter)
-    errors = (moved + normal_deviates(random, fitted.misfit, len(moved))) @ gain.T
-    drawn = constants * np.exp(errors / constants) if np.all(constants > 0.0) else constants + errors
-    # A sample is valid at the same temperatures as the law.
-    return [replace(law.with_parameters(row), fitted_range=law.fitted_range, bounded=law.bounded) for row in drawn]
+    found: dict[int, ShiftLaw] = {}
+    for last in (*[False] * _TRIES, True):
+        left = [number for number in range(len(moved)) if number not in found]
+        errors = (moved[left] + normal_deviates(random, fitted.misfit, len(left))) @ gain.T
+        drawn = constants + errors if degree else constants * np.exp(errors / constants)
+        for number, row in zip(left, drawn, strict=True):
+            try:
+                one = law.with_parameters(row)
+            except InputError:
+                if last:
+                    raise
+                continue
+            found[number] = replace(one, fitted_range=law.fitted_range, bounded=law.bounded)
+        if len(found) == len(moved):
+            break
+    return [found[number] for number in range(len(moved))]
