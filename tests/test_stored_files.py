@@ -67,9 +67,11 @@ def test_changed_numbers_of_a_state_are_noticed(tmp_path: Path) -> None:
         arrays = {name: stored[name] for name in stored.files}
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="10 ms")
     history, path = vf.motion.History(time=[0.0, 0.1, 0.2], load=["1 N", "1 N", "3 N"]), tmp_path / "state.npz"
-    arrays["reached/told"] = arrays["reached/told"] + 1e-9
-    np.savez_compressed(path, **arrays)
+    np.savez_compressed(path, **arrays | {"1": arrays["1"] + 1e-9})
     with refused("not-a-state"):
+        vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=["0.2 s"], resume=path)
+    np.savez_compressed(path, **arrays | {"format": np.asarray("viscofric state 2")})
+    with refused("other-version"):
         vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=["0.2 s"], resume=path)
 
 

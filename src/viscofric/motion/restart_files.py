@@ -30,7 +30,8 @@ from viscofric.motion.periodic import PeriodicState
 from viscofric.motion.restart import Begun, Restart
 from viscofric.motion.schedule import Reading
 
-_FORMAT, _RECORDS, _DIGEST = "viscofric state 3", "records", "sha256"
+_STATE, _RECORDS, _DIGEST = "viscofric state ", "records", "sha256"
+_FORMAT = _STATE + "3"
 _DAMAGED = (
     *(KeyError, ValueError, TypeError, IndexError, OSError, EOFError, RecursionError),
     *(zipfile.BadZipFile, InputError),
@@ -82,18 +83,21 @@ def read_restart(path: str | PathLike[str]) -> Restart:
     """Return the state of a run in a file; `DataFileError` for any other file."""
     data = read_bytes(path, LARGEST_FILE)
     insist_on_size(data, path)
+    kind = ""
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as stored:
             named = {name: stored[name] for name in stored.files}
-        if str(named["format"]) != _FORMAT:
+        kind = str(named["format"])
+        if kind != _FORMAT:
             raise ValueError("of another kind")
         if str(named[_DIGEST]) != _digest(named):
             raise ValueError("other numbers than were stored")
         return _restart(json.loads(named[_RECORDS].tobytes()), named)
     except _DAMAGED:
-        raise DataFileError(
-            str(path), "is not the state of a run, as TransientSolution.save_state writes it.", code="not-a-state"
-        ) from None
+        problem, code = "is not the state of a run, as TransientSolution.save_state writes it.", "not-a-state"
+        if kind.startswith(_STATE) and kind != _FORMAT:
+            problem, code = "is the state of a run of another version; solve the history again.", "other-version"
+        raise DataFileError(str(path), problem, code=code) from None
 
 
 def _restart(records: Mapping[str, Any], arrays: Mapping[str, Array]) -> Restart:
