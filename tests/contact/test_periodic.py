@@ -490,6 +490,15 @@ def test_an_active_set_that_is_nearly_right_is_not_given_up(monkeypatch: pytest.
     assert stopped.friction_coefficient == pytest.approx(whole.friction_coefficient, rel=1e-9)
 
 
+@pytest.mark.parametrize(("height", "modulus"), [(1e60, 1e99), (1e-99, 1e-99)])
+@pytest.mark.filterwarnings("error")
+def test_pressures_too_large_or_too_small_for_computations_are_refused(height: float, modulus: float) -> None:
+    material = vf.Material.standard_linear_solid(E0=modulus, E_inf=2.0 * modulus, tau=0.01)
+    surface = PeriodicSurface(height * np.cos(2.0 * np.pi * np.arange(16) / 16), 1.0)
+    with refused("out-of-range"):
+        solve_periodic(material, surface, speed=1.0, gap=0.5 * height)
+
+
 def test_interpolation_keeps_the_points_it_has() -> None:
     values = np.random.default_rng(0).random((6, 5))
     np.testing.assert_allclose(interpolated(values, (12, 10))[::2, ::2], values)

@@ -474,3 +474,11 @@ def test_sliding_at_frequencies_that_were_not_measured_is_noted_as_in_steady_mot
     (steady,), (over_time,) = shares(100.0, 1e9)
     assert 0.05 < steady < 0.95
     assert over_time == pytest.approx(steady, rel=0.05)
+
+
+@pytest.mark.filterwarnings("error")
+def test_pressures_in_whose_rounding_the_heights_are_lost_are_refused() -> None:
+    for first, last in ((1e3, 1e99), (1e99, 1e3)):
+        history = vf.motion.History(time=[0.0, 0.01], pressure=[first, last], speed=0.1)
+        with refused("out-of-range", naming="pressure"):
+            vf.motion.solve_transient(SLS, profile(16), history, accuracy=0.1)

@@ -23,7 +23,7 @@ from viscofric.arrays import Array, ComplexArray, Mask
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.operator import PeriodicOperator
-from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.contact.periodic.surface import PeriodicSurface, flattening_pressure
 from viscofric.motion.memory import Modes, quickest_time, recovery_at_depth
 from viscofric.motion.mover import QUICK, Field, Mover, Observation, Sizes
 from viscofric.motion.problem import Problem
@@ -85,7 +85,8 @@ class PeriodicMover(Mover[PeriodicState]):
         response = self.grid.response
         self.response_unit = float(response.max())
         self.compliance_unit = self.response_unit * spectrum.relaxed
-        self.pressure_unit = self.depth_unit / self.compliance_unit
+        largest = 0.0 if schedule.control == "gap" else schedule.largest
+        self.pressure_unit = flattening_pressure(self.depth_unit, self.compliance_unit, largest)
         unit = 1.0 / spectrum.relaxed
         self.modes = Modes(
             unit * spectrum.instantaneous, unit * spectrum.C, spectrum.tau, spectrum.error, unit * spectrum.at_once

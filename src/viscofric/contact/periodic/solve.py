@@ -26,7 +26,7 @@ from viscofric.contact.periodic.heating import PeriodicThermalContact, insist_on
 from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
-from viscofric.contact.periodic.surface import PeriodicSurface, Topographic, wave_number
+from viscofric.contact.periodic.surface import PeriodicSurface, Topographic, flattening_pressure, wave_number
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, wrong_argument
 from viscofric.threads import in_parts, one_blas_thread, so_many, threads_for
@@ -196,6 +196,7 @@ def solve_periodic(
         finest = solid.transfer(surface.shape, surface.spacing)
         # The unit of compliance, m/Pa: that of the most compliant wave.
         unit = float(np.abs(finest).max())
+        flattening_pressure(depth, unit)
         finest /= unit
         coarser = surface.coarser(coarser_shapes(surface.shape))
         result, work = solve_on_levels(

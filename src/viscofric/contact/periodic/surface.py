@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 import scipy.fft
 
+from viscofric.arguments import LARGEST, SMALLEST
 from viscofric.errors import InputError
 from viscofric.showing import Shown
 from viscofric.threads import in_parts, threads_for
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
 
     from viscofric.arrays import Array, ComplexArray
     from viscofric.showing import Rows
+
+# Largest mean pressure, over that which flattens a surface: the heights are lost in the rounding of larger ones.
+_LARGEST_MEAN = 1e14
 
 
 @runtime_checkable
@@ -155,6 +159,26 @@ class PeriodicSurface(Shown):
         coarse *= mx * my
         heights = scipy.fft.irfft2(coarse, shape, overwrite_x=True, workers=threads_for(mx * my))
         return Coarser(heights, (self.period[0] / mx, self.period[1] / my))
+
+
+def flattening_pressure(height: float, compliance: float, largest: float = 0.0) -> float:
+    """Return about the pressure that flattens a surface, Pa, of a height (m) and the compliance of a wave (m/Pa).
+
+    InputError if it is too large or too small for computations, or too small for the `largest` mean pressure.
+    """
+    found = height / compliance
+    if not SMALLEST <= found <= LARGEST:
+        raise InputError(
+            f"the pressure that flattens the surface is about {found:.2g} Pa, which must lie within {SMALLEST:g} and "
+            f"{LARGEST:g} Pa; check the units of heights, spacing and moduli.",
+            code="out-of-range",
+        )
+    if largest > _LARGEST_MEAN * found:
+        raise InputError(
+            f"pressure: {largest:g} Pa is too large for a surface that {found:.2g} Pa flattens; check its unit.",
+            code="out-of-range",
+        )
+    return found
 
 
 def interpolated(values: Array, shape: tuple[int, int]) -> Array:
