@@ -12,6 +12,7 @@ import viscofric as vf
 from rheology.planted import planted_sweeps, synthetic_polymer, synthetic_soft_rubber
 from viscofric.data import Isotherm, IsothermalSweeps
 from viscofric.notes import codes
+from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.superposition.common_shifts import fitted
 from viscofric.rheology.superposition.isotherm_offsets import BEFORE, SIZES, IsothermOffsets, OffsetSizes, estimated
 from viscofric.rheology.superposition.overlap import LogSweep, join, join_at
@@ -336,20 +337,25 @@ def test_a_law_fitted_to_bare_values_has_the_errors_of_a_regression_line(count, 
 
 @pytest.mark.apart
 def test_scatter_added_to_a_law_counts_its_two_constants():
-    """WLF to six values: χ² is brought to 6 − 1 − 2 = 3, and the errors hold what they promise over many tables."""
+    """WLF to six values: χ² is brought to 6 − 1 − 2 = 3, of which three residuals exclude no bends."""
     random = np.random.default_rng(1)
     kelvin = np.arange(290.0, 391.0, 20.0)
-    truth = vf.WLF(9.0, 110.0, 310.0)
-    slopes = truth.gradient(kelvin)
+    truth, none = vf.WLF(9.0, 110.0, 310.0), np.zeros((kelvin.size, kelvin.size))
     differences = np.diff(np.eye(kelvin.size), axis=0)
-    whitened = np.linalg.solve(np.linalg.cholesky(differences @ differences.T), differences @ slopes)
+    whitened = np.linalg.solve(np.linalg.cholesky(differences @ differences.T), differences @ truth.gradient(kelvin))
     exact = 0.01 * np.sqrt(np.diag(np.linalg.inv(whitened.T @ whitened)))
-    ratios = []
+    squares, ratios = [], []
     for _ in range(60):
         values = truth.log10(kelvin) + 0.01 * random.standard_normal(kelvin.size)
-        ratios.append(np.array(vf.ShiftFactors(kelvin, values, 310.0).law("wlf").standard_errors) / exact)
+        table = law_fitting.FactorTable.of(kelvin, values, none, 310.0)
+        law, _, scatter, _ = law_fitting.fitted("wlf", table)
+        squares.append((scatter / 0.01) ** 2)
+        ratios.append(np.array(law.standard_errors) / exact)
     # Variances from 3 residuals are known to √(2/3), the mean of 60 to 11 %; counting 5 makes 0.6 of them.
-    assert np.mean(np.square(ratios), axis=0) == pytest.approx(1.0, abs=0.25)
+    assert np.mean(squares) == pytest.approx(1.0, abs=0.25)
+    # Deviations that bend would change the constants more than scatter of the same size does.
+    assert np.all(np.mean(np.square(ratios), axis=0) > 0.75)
+    assert np.all(np.mean(np.square(ratios), axis=0) < 9.0)
 
 
 def test_a_given_table_lends_each_sweep_the_error_of_its_own_temperature():
