@@ -349,8 +349,10 @@ def _extrapolated(
         start, duration, speed_in, speed_out, peak, deepest, when, last = columns
         before, after = one.speed_out / one.speed_in, two.speed_out / two.speed_in
         lasting = duration if two.separates else math.inf
-        restitution = min(speed_out / speed_in, 1.0)
-        error = abs(after - before) / 3.0 + merging + of_springs * -after * math.log(after or 1.0)
+        restitution = min(max(speed_out / speed_in, 0.0), 1.0)
+        error = abs(after - before) / 3.0 + merging
+        # An indenter that leaves downwards has lost its speed in rounding.
+        error += -after * of_springs * math.log(after) if after > 0.0 else -after
         largest = max(largest, error)
         if math.isfinite(two.margin):
             off = abs(two.margin - one.margin) / 3.0 + (merging + of_springs) * two.largest_depth
