@@ -350,9 +350,10 @@ def _extrapolated(
         before, after = one.speed_out / one.speed_in, two.speed_out / two.speed_in
         lasting = duration if two.separates else math.inf
         restitution = min(max(speed_out / speed_in, 0.0), 1.0)
-        error = abs(after - before) / 3.0 + merging
-        # An indenter that leaves downwards has lost its speed in rounding.
-        error += -after * of_springs * math.log(after) if after > 0.0 else -after
+        # An indenter that leaves downwards, or faster than it came, has lost its speed in rounding.
+        likely = min(max(after, 0.0), 1.0)
+        error = abs(after - before) / 3.0 + merging + abs(after - likely)
+        error += of_springs * -likely * math.log(likely or 1.0)
         largest = max(largest, error)
         if math.isfinite(two.margin):
             off = abs(two.margin - one.margin) / 3.0 + (merging + of_springs) * two.largest_depth
