@@ -82,6 +82,10 @@ class Stepped:
         """Of the rubber."""
         return self.rubber.spectrum.E_inf
 
+    @property
+    def known_frequencies(self) -> None:
+        """Of no interest: nothing is noted."""
+
     def at(self, temperature: float | None) -> Stepped:
         """Return this: there is one temperature."""
         return self

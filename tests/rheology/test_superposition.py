@@ -368,9 +368,10 @@ def test_acrylic_overlaps_as_well_as_with_the_best_peer(real_data):
     C1, C2 = plain_wlf(centigrade[1:], fit.shift_factors.log10_values[1:])
     assert abs(law.C1 - C1) < 1.96 * first
     assert abs(law.C2 - C2) < 1.96 * second
-    # The residuals bend along temperature: those from 0 °C on give 132 K, which the band holds,
-    # as it holds that of the peers.
-    assert abs(law.C2 - fit.shift_factors.law("wlf", above="-1 degC").C2) < 1.96 * second
+    # The residuals bend along temperature: those from 0 °C on give 132 K, in agreement within both errors.  The band holds
+    # the value of the peers.
+    hotter = fit.shift_factors.law("wlf", above="-1 degC")
+    assert abs(law.C2 - hotter.C2) < 1.96 * np.hypot(second, hotter.standard_errors[1])
     assert abs(law.C2 - 128.5) < 1.96 * second < 10.0
     assert any("−40.0 °C and −30.0 °C" in note for note in fit.notes if note.code == "sweeps-disagree")
     assert elapsed < 0.5  # about 0.03 s of one core; a loaded machine may be slow

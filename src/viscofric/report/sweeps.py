@@ -12,8 +12,8 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
 from viscofric.report.results import group
+from viscofric.report.texts.numbers import degrees, length, megapascals, short, speed
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
-from viscofric.study.cases.sweep import COUNTED, shown
 
 #: Dimension of results that are listed case by case.
 CASE = "case"
@@ -140,8 +140,24 @@ def value_label(dataset: Dataset, name: str, value: object) -> str:
         return str(value)
     if not np.isfinite(number):
         return f"no {_spoken(name)}"
-    words = shown(name, number, line=dataset[name].attrs.get("units") == "N/m")
-    return f"{_spoken(name)} {words}" if name in COUNTED else words
+    unit = str(dataset[name].attrs.get("units", ""))
+    if name == _TEMPERATURE:
+        return degrees(number)
+    if name == _SPEED:
+        return speed(number)
+    if name == "pressure":
+        return f"{short(number / 1e3)} kPa"
+    if unit == "Pa":
+        return megapascals(number)
+    if unit == "rad":
+        return f"{short(math.degrees(number))}°"
+    if unit == "m":
+        return length(number)
+    if unit == "N/m":
+        return f"{short(number / 1e3)} N/mm"
+    if unit in ("", "1"):
+        return f"{_spoken(name)} {short(number)}"
+    return f"{short(number)} {unit}"
 
 
 def cases_of(dataset: Dataset) -> Dataset:

@@ -279,7 +279,10 @@ class FactorTable(Table):
             logarithms.append(-0.5 * (chi2 + log_det))
         weight = np.exp(logarithms - np.max(logarithms)) * size / (1.0 + (size / USUAL_MISFIT) ** 2)
         weight[0] *= max(len(scaled) - 1.0, 1.0)  # independent scatter is as likely as all other shapes together
-        return np.asarray(np.tensordot(weight @ size**2 / np.sum(weight), scaled, axes=1))
+        # The square of the mean size of each shape: the mean square depends on sizes that few residuals hardly exclude.
+        share = np.sum(weight, axis=1)
+        typical = weight @ size / np.maximum(share, np.finfo(float).tiny)
+        return np.asarray(np.tensordot(share / np.sum(share) * typical**2, scaled, axes=1))
 
 
 class Solution(NamedTuple):

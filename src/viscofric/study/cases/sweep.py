@@ -136,7 +136,7 @@ def _places(axes: Sequence[Axis]) -> Iterator[dict[str, Any]]:
 
 
 _RATE = ("temperature", "speed")
-COUNTED = ("sample", "seed")
+_COUNTED = ("sample", "seed")
 
 
 def shown(name: str, value: float | str, line: bool = False, digits: int = 4) -> str:
@@ -153,7 +153,7 @@ def shown(name: str, value: float | str, line: bool = False, digits: int = 4) ->
         return f"{plain(value / 1e3, digits)} N/mm" if line else f"{plain(value, digits)} N"
     if name == "speed":
         return shown_speed(value, digits)
-    return f"{value:.{max(digits, 6)}g}" if name in COUNTED else f"{plain(1e3 * value, digits)} mm"
+    return f"{value:.{max(digits, 6)}g}" if name in _COUNTED else f"{plain(1e3 * value, digits)} mm"
 
 
 def place(case: Case) -> str:
