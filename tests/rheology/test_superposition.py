@@ -368,8 +368,8 @@ def test_acrylic_overlaps_as_well_as_with_the_best_peer(real_data):
     C1, C2 = plain_wlf(centigrade[1:], fit.shift_factors.log10_values[1:])
     assert abs(law.C1 - C1) < 1.96 * first
     assert abs(law.C2 - C2) < 1.96 * second
-    # The residuals bend along temperature: those from 0 °C on give 132 K, in agreement within both errors.  The band holds
-    # the value of the peers.
+    # The residuals bend along temperature: those from 0 °C on give 132 K, in agreement within both errors.  The band
+    # holds the value of the peers.
     hotter = fit.shift_factors.law("wlf", above="-1 degC")
     assert abs(law.C2 - hotter.C2) < 1.96 * np.hypot(second, hotter.standard_errors[1])
     assert abs(law.C2 - 128.5) < 1.96 * second < 10.0
