@@ -47,7 +47,7 @@ def test_a_heated_curve_has_both_frictions_and_a_picture(tmp_path: Path) -> None
     options = ["--speed", "0.05 m/s, 0.2 m/s", *HEAT, "--heating-average", "contact"]
     said = run("curve", *LINE, *options, "--picture", str(picture))
     heading = next(line for line in said.splitlines() if "speed" in line)
-    assert heading.split()[-3:] == ["isothermal", "rise", "(K)"]
+    assert heading.split()[-4:] == ["isothermal", "rise", "(K)", "Coulomb"]
     assert picture.exists()
     points = json.loads(run("curve", *LINE, *options, "--json"))["results"]
     slow, fast = points["temperature_rise"]
