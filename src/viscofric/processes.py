@@ -271,6 +271,15 @@ def call_all(
     return [found[index] for index in range(len(calls))]
 
 
+def counted_from(before: int, report: Callable[[int], object]) -> Callable[[int], None]:
+    """Return what reports a number of finished calls after as many `before` them."""
+
+    def add(done: int) -> None:
+        report(before + done)
+
+    return add
+
+
 def as_they_come(
     function: Callable[..., Any], calls: Sequence[dict[str, Any]], *, workers: Workers
 ) -> Generator[tuple[int, str, Any]]:

@@ -14,6 +14,7 @@ import viscofric as vf
 from refusals import refused
 from viscofric.errors import ViscofricError
 from viscofric.web.jobs import contact, curve
+from viscofric.web.start import GLOSSARY
 from web.contact_studies import BALL, CYLINDER, ROUGH, Desk
 from web.rubber_workspace import EXAMPLE, SWEEPS
 
@@ -51,6 +52,14 @@ def test_sharp_answer_has_the_numbers_of_a_solved_contact(desk: Desk) -> None:
     assert value(coarse, "friction_coefficient") == pytest.approx(
         value(answer, "friction_coefficient"), rel=contact.COARSE
     )
+
+
+@pytest.mark.parametrize("study", [BALL, CYLINDER, ROUGH], ids=["ball", "cylinder", "rough"])
+def test_the_page_defines_every_number_of_a_contact(desk: Desk, study: dict[str, Any]) -> None:
+    answer = desk.run(contact, study, speed=0.1, temperature=333.15, stages="coarse")
+    told = [one["label"] for one in (*answer["key_numbers"], *answer["more_numbers"])]
+    assert len(told) > 10
+    assert {one.replace("{v/a}", "v/a") for one in told} <= set(GLOSSARY)
 
 
 @pytest.mark.parametrize("study", [BALL, CYLINDER], ids=["ball", "cylinder"])

@@ -12,7 +12,7 @@ from viscofric.cli.commands import together
 from viscofric.cli.errors import words_of
 from viscofric.cli.files import plainly
 from viscofric.cli.keys import key, table_of
-from viscofric.cli.rubber_options import column_options, find_rubber
+from viscofric.cli.rubber_options import column_options, find_rubber, rubber_of
 from viscofric.files import says_synthetic
 from viscofric.notes import Note, Remedy, dumped, note_of
 
@@ -193,10 +193,8 @@ def shifts(
 
 def is_of_synthetic(name: str | None) -> bool:
     """Whether a material, or a table of shift factors, that an option names is synthetic."""
-    from viscofric.rheology.cards import open_card
-    from viscofric.rheology.catalogue import catalogue_material, is_synthetic
+    from viscofric.rheology.catalogue import is_synthetic
 
     if name is None or Path(name).suffix.lower() in _TABLES:
         return name is not None and says_synthetic(name)
-    path = Path(name)
-    return is_synthetic(open_card(path).material if path.is_file() or path.suffix else catalogue_material(name))
+    return is_synthetic(rubber_of(name)[0])

@@ -260,6 +260,13 @@ def find_rubber(name: str, parameter: str = "material", **units: Any) -> Materia
 
     `units`: those of `open_card` that a card does not state.
     """
+    material, notes = rubber_of(name, parameter, **units)
+    print_notes(notes)
+    return material
+
+
+def rubber_of(name: str, parameter: str = "material", **units: Any) -> tuple[Material, list[str]]:
+    """Return the rubber of a file, else of the catalogue, and what a card leaves open and its fit has noted."""
     from viscofric.errors import not_needed
     from viscofric.rheology.cards import open_card
     from viscofric.rheology.catalogue import catalogue_material
@@ -269,8 +276,7 @@ def find_rubber(name: str, parameter: str = "material", **units: Any) -> Materia
         for unit in (unit for unit, given in units.items() if given):
             raise not_needed(name, unit, "unit-not-needed", "is a material of the catalogue, with units of its own")
         with typed_as({"name": parameter}):
-            return catalogue_material(name)
+            return catalogue_material(name), []
     card = open_card(path, **units)
     fit = getattr(card.material.spectrum, "fit", None)
-    print_notes([*card.notes, *([] if fit is None else fit.notes)])
-    return card.material
+    return card.material, [*card.notes, *([] if fit is None else fit.notes)]

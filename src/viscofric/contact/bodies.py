@@ -249,19 +249,20 @@ def unit_direction(direction: Sequence[float]) -> tuple[float, float]:
 LITTLE_INERTIA = 0.05
 
 
-def inertia_note(
-    speed: float,
-    modulus: float,
-    poisson_ratio: float,
-    density: float = float(FILLED_RUBBER.density),
-    where: str = "",
-) -> Note:
-    """Return the note on inertia, by the speed of a contact over that of shear waves, and |E(v/a)| of the rubber, SI.
+_DENSITY = float(FILLED_RUBBER.density)
 
-    Its ``change`` is the square of this ratio, about the relative change of friction (K. L. Johnson, Contact Mechanics,
-    section 11.3).
+
+def shear_wave_speed(modulus: float, poisson_ratio: float, density: float = _DENSITY) -> float:
+    """Return the speed of shear waves in a rubber of modulus |E(v/a)|, SI."""
+    return math.sqrt(modulus / (2.0 * (1.0 + poisson_ratio) * density))
+
+
+def inertia_note(speed: float, waves: float, density: float = _DENSITY, where: str = "") -> Note:
+    """Return the note on inertia, by the speed of a contact and that of shear waves in the rubber, SI.
+
+    Its ``change`` is the square of their ratio, about the relative change of friction (K. L. Johnson, Contact
+    Mechanics, section 11.3).
     """
-    waves = math.sqrt(modulus / (2.0 * (1.0 + poisson_ratio) * density))
     change = (speed / waves) ** 2
     at = f"; {where}" if where else ""
     said = (
@@ -290,6 +291,6 @@ def contact_notes(
     notes += [] if strained is None else [strained]
     half = 0.5 * (contact.front + contact.rear)
     if half > 0.0 and 0.0 < abs(speed) < math.inf:
-        inertia = inertia_note(abs(speed), abs(complex(modes.complex_modulus(abs(speed) / half))), poisson_ratio)
-        notes += [inertia] if inertia.values["change"] > LITTLE_INERTIA else []
+        waves = shear_wave_speed(abs(complex(modes.complex_modulus(abs(speed) / half))), poisson_ratio)
+        notes += [inertia_note(abs(speed), waves)] if (speed / waves) ** 2 > LITTLE_INERTIA else []
     return tuple(notes)

@@ -6,7 +6,7 @@ import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array
-from viscofric.contact.bodies import LITTLE_INERTIA, Layer, inertia_note
+from viscofric.contact.bodies import LITTLE_INERTIA, Layer, inertia_note, shear_wave_speed
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, insist_on_indenter
 from viscofric.errors import InputError
 from viscofric.friction.assumption_check import AssumptionCheck, ContactSize, Place, modes_by_temperature, verdict
@@ -189,13 +189,14 @@ def _quasi_static(material: Material, sizes: list[ContactSize], rubber: ThermalP
     """Return the check of the speed against that of shear waves; see `inertia_note`."""
     modes_at, density = modes_by_temperature(material), to_si(rubber.density, "kg/m^3", "density")
 
-    def note(size: ContactSize) -> Note:
-        where = size.where
-        modulus = abs(complex(modes_at(where.temperature).complex_modulus(where.speed / size.smallest)))
-        found = inertia_note(where.speed, modulus, material.poisson_ratio, density, str(where))
-        return found.valued(**where.values)
+    def waves(size: ContactSize) -> float:
+        modulus = modes_at(size.where.temperature).complex_modulus(size.where.speed / size.smallest)
+        return shear_wave_speed(abs(complex(modulus)), material.poisson_ratio, density)
 
-    worst = max(map(note, sizes), key=lambda one: one.values["change"])
+    speeds = list(map(waves, sizes))
+    row = int(np.argmax([size.where.speed / one for size, one in zip(sizes, speeds, strict=True)]))
+    where = sizes[row].where
+    worst = inertia_note(where.speed, speeds[row], density, str(where)).valued(**where.values)
     change = float(worst.values["change"])
     return AssumptionCheck.of("quasi-static", change <= LITTLE_INERTIA, worst, change, LITTLE_INERTIA)
 

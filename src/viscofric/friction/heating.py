@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.planning.shared import SharedContacts
 from viscofric.heat.heating import Heating
 from viscofric.heat.result import SolvedHeatColumns
-from viscofric.processes import Workers
+from viscofric.processes import Workers, counted_from
 from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.showing import Rows
@@ -86,7 +85,7 @@ def predict_heated(
         curves = [[one for one in every if one.kelvin == kelvin] for kelvin in kelvins]
         # Progress is that of the states.
         shared = None if exact else SharedContacts.of(first["material"], contacts, workers, lambda done: None)
-        found = solve_states(curves, first["accuracy"], workers, partial(_add, report, 2 * len(states)), shared)
+        found = solve_states(curves, first["accuracy"], workers, counted_from(2 * len(states), report), shared)
         of_contact = dict(zip([id(one) for curve in curves for one in curve], found, strict=True))
         states += [of_contact[id(one)] for one in every]
     columns: dict[str, Any] = heat_columns(states)
@@ -98,10 +97,6 @@ def predict_heated(
     friction = columns_of_contacts(material, records, unit, columns["temperature_rise"])
     source = marked("predicted", synthetic=is_synthetic(material))
     return HeatedFrictionCurves(**friction, source=source, **columns)
-
-
-def _add(report: Callable[[int], None], before: int, done: int) -> None:
-    report(before + done)
 
 
 def _record(one: States) -> Record:

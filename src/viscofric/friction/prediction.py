@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from typing import Any, Unpack
 
 import numpy as np
@@ -25,7 +24,7 @@ from viscofric.friction.heating import predict_heated
 from viscofric.friction.planning.shared import SharedContacts, places_of
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.heat.heating import Heating
-from viscofric.processes import Workers, at_work, call_all
+from viscofric.processes import Workers, at_work, call_all, counted_from
 from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.interface.law import InterfaceLaw
@@ -202,16 +201,12 @@ def _isothermal(
     first = parts[0][0]
     material, records = first["material"], list[Record]()
     for part in parts:
-        records += _records(part, drawn is not None, workers, partial(_add, report, len(records)), exact)
+        records += _records(part, drawn is not None, workers, counted_from(len(records), report), exact)
     columns = columns_of_contacts(material, records, first["indenter"].geometry.load_unit)
     curves = FrictionCurves(**columns, source=marked("predicted", synthetic=is_synthetic(material)))
     if drawn is None:
         return curves
     return with_material_band(curves, [record.sensitivity for record in records], drawn)  # type: ignore[misc]
-
-
-def _add(report: Callable[[int], None], before: int, done: int) -> None:
-    report(before + done)
 
 
 def _records(
