@@ -13,10 +13,10 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import ViscofricError
-from viscofric.friction.cases.record import SURFACE_NUMBERS
+from viscofric.friction.cases.record import MEANING
 from viscofric.web.jobs import curve
 from viscofric.web.study_text import study_text
-from web.contact_studies import BALL, ROUGH, Desk
+from web.contact_studies import BALL, CYLINDER, ROUGH, Desk
 
 #: Numbers have six digits.
 ROUNDING = 1e-5
@@ -174,9 +174,23 @@ def test_surfaces_whose_grid_is_too_coarse_are_marked(desk: Desk) -> None:
     assert note["values"]["cases"] == missed.count(True)
     assert note["values"]["error"] == pytest.approx(relative.max(), rel=1e-3)  # of digits that the page has
     assert answer["lower"] is None
-    assert answer["notes"] != []  # why there is no band
-    assert set(SURFACE_NUMBERS) >= {"contact_area_fraction", "mean_gap"}
+    assert "no-bands" in {one["code"] for one in answer["note_records"]}  # why there is no band
     assert len(answer["contact_area_fraction"]) == 12
+
+
+@pytest.mark.parametrize("study", [BALL, CYLINDER, ROUGH], ids=["ball", "cylinder", "rough"])
+def test_every_number_of_the_results_is_offered_with_its_name_unit_and_error(desk: Desk, study: dict[str, Any]) -> None:
+    once = {**study["conditions"], "speed": "20 mm/s", "temperature": "60 degC"}
+    answer = desk.run(curve, {**study, "conditions": once, "solver": {"accuracy": 0.1}})
+    given = ("speed", "temperature")
+    meaning = {name: one for name, one in MEANING[answer["kind"]].items() if name in answer and name not in given}
+    expected = {name: words for name, (_, words) in meaning.items() if "error" not in name}  # errors are bars of these
+    assert expected
+    offered = {name: one for name, one in answer["quantities"].items() if name != "friction"}
+    assert {name: one["label"] for name, one in offered.items()} == expected
+    assert [one["kind"] is None for one in offered.values()] == [meaning[name][0] == "1" for name in offered]
+    if answer["kind"] != "rough":
+        assert answer["parts"]["front"][0]["error"] == "edge_error"
 
 
 def test_more_than_a_page_can_show_is_refused(desk: Desk) -> None:

@@ -82,6 +82,8 @@ ERRORS = {
     "max_pressure": "max_pressure_error",
     "centre_of_pressure": "centre_of_pressure_error",
 }
+#: Numbers that say how well and how hard the solver worked.
+OF_THE_SOLVER = ("energy_balance", "complementarity", "cells", "spacing", "products")
 
 
 def number_rows(meaning: dict[str, Meaning], values: dict[str, Any]) -> dict[str, tuple[str, float, str, float | None]]:

@@ -18,7 +18,7 @@ from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import MadeSurface, surface_of
 from viscofric.friction.coulomb import with_interface
 from viscofric.friction.curves import FrictionCurves
-from viscofric.notes import Note, Remedy, note_of
+from viscofric.notes import Note, Reader, Remedy, note_of
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.study.contacts import Contacts, Solved
 from viscofric.study.run_file.study import Study
@@ -29,9 +29,9 @@ _WARNED_OF = ("half-space", "uncoupled")
 _HEATED = Remedy("; this is the isothermal friction, the results also have that with heating.")
 
 
-def assumptions(found: Sequence[AssumptionCheck]) -> dict[str, Dataset]:
-    """Return the checks as a group of results; none without checks."""
-    return {"/assumptions": assumptions_dataset(found, "run_file")} if found else {}
+def assumptions(found: Sequence[AssumptionCheck], reader: Reader = "run_file") -> dict[str, Dataset]:
+    """Return the checks as a group of results, in the words of a reader; none without checks."""
+    return {"/assumptions": assumptions_dataset(found, reader)} if found else {}
 
 
 def assumption_warnings(found: Sequence[AssumptionCheck]) -> list[Note]:

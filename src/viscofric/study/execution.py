@@ -12,7 +12,7 @@ from viscofric.datasets import Dataset, DataTree
 from viscofric.files import file_path, says_synthetic
 from viscofric.friction.cases.record import Failure
 from viscofric.friction.cases.surfaces import notes_on
-from viscofric.notes import Note, dumped, note_of, records
+from viscofric.notes import Note, Reader, dumped, note_of, records
 from viscofric.study.assumptions import assumption_checks, assumption_warnings, assumptions
 from viscofric.study.cases.singles import Singles
 from viscofric.study.contacts import Contacts, Solved, doubts, missed_accuracy, nothing_solved
@@ -193,8 +193,12 @@ def tree_of(
     doubtful: Iterable[str] = (),
     singles: Sequence[Singles] = (),
     interface: StudyInterface | None = None,
+    reader: Reader = "run_file",
 ) -> DataTree:
-    """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved."""
+    """Return all results of a study from its contacts, whose plan has run; raise `StudyError` if no case was solved.
+
+    Checks have their sentences in the words of a `reader`; notes have those of all.
+    """
     import xarray
 
     study, rubbers, measured = contacts.study, contacts.rubbers, contacts.measured
@@ -231,7 +235,7 @@ def tree_of(
     for one in singles:
         groups |= one.groups()
     checked = assumption_checks(contacts, requested, at_points, interface.law)
-    groups |= assumptions(checked)
+    groups |= assumptions(checked, reader)
     tree = xarray.DataTree.from_dict(groups)
     of_friction = [*(measured.notes if measured else ()), *interface.notes, *rubbed.notes]
     if study.heating is not None and study.interface is not None and interface.law is None:

@@ -95,8 +95,8 @@ FIELD_MEANING: dict[str, Meaning] = {
     "pressure": ("Pa", "contact pressure"),
     "displacement": ("m", "displacement of the surface into the rubber"),
 }
-# Numbers that may be infinite.
-_ENDLESS = ("half_width",)
+#: Numbers that may be infinite: those of a line contact.
+ENDLESS = ("half_width",)
 
 
 @dataclass(frozen=True)
@@ -153,7 +153,7 @@ class Record:
         record = cls.of(**given)
         if not isinstance(record.interpolated, bool):
             raise TypeError("interpolated is neither true nor false.")
-        sound = (is_number(value) or (name in _ENDLESS and value == math.inf) for name, value in record.numbers.items())
+        sound = (is_number(value) or (name in ENDLESS and value == math.inf) for name, value in record.numbers.items())
         if not all(sound) or not _is_sound(record.sensitivity):
             raise ValueError("a number is invalid.")
         return record

@@ -7,14 +7,14 @@ import math
 import numpy as np
 
 from viscofric.contact.periodic.solution import PeriodicSolution
-from viscofric.contact.solution import ContactSolution
+from viscofric.contact.solution import OF_THE_SOLVER, ContactSolution
 from viscofric.report.texts.numbers import length, prefixed, short
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.showing import Row, texts
 from viscofric.units import shown_number
 
 # Numbers that the heading has, or that only the solver needs.
-_NOT_SHOWN = ("speed", "temperature", "energy_balance", "complementarity", "cells", "spacing", "products")
+_NOT_SHOWN = ("speed", "temperature", *OF_THE_SOLVER)
 
 
 def contact_rows(solution: ContactSolution | PeriodicSolution) -> dict[str, Row]:

@@ -41,6 +41,11 @@ def kind_of(data: Dataset, name: str) -> str:
     return _KINDS.get(data[name].attrs.get("units", "1"), "plain")
 
 
+def axis_in(unit: str, label: str, **look: Any) -> Spec:
+    """Return the axis of a number with a unit and a long name."""
+    return axis(label, _KINDS.get(unit), **look)
+
+
 def axis_of(data: Dataset, name: str, **look: Any) -> Spec:
     """Return the axis of a column, with its long name."""
     return axis(data[name].attrs["long_name"], kind_of(data, name), **look)

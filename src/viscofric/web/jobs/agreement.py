@@ -61,7 +61,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, context.show)
     # What is to be said of the rubber and of the measurement, other steps say.
     rubber = contacts.rubbers[0]
-    reply = _reply(tree_of(contacts)) | listed("notes", dict.fromkeys(rubber.bands.notes), "page")
+    reply = _reply(tree_of(contacts, reader="page")) | listed("notes", dict.fromkeys(rubber.bands.notes), "page")
     if rubber.rubber.from_friction:
         reply |= listed("warnings", [CIRCULAR, *map(note_of, reply["warning_records"])], "page")
     numbers: dict[str, Any] = plain(reply | {"synthetic": measured(study, context).synthetic})

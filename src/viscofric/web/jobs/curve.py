@@ -4,26 +4,28 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
 
-from viscofric.datasets import plain
-from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.planning.plan import Outcome
-from viscofric.notes import Note, listed
-from viscofric.rheology.interface.law import InterfaceLaw
-from viscofric.study.assumptions import assumption_checks
-from viscofric.study.contacts import Contacts, Solved, doubts, missed_accuracy, nothing_solved
-from viscofric.study.heating import NO_LAW, Heatings
-from viscofric.study.interface import interface_columns, study_interface
+from viscofric.contact.solution import ERRORS, OF_THE_SOLVER
+from viscofric.datasets import Dataset, DataTree, plain
+from viscofric.friction.assumption_check import assumption_checks_of
+from viscofric.friction.cases.case import Case
+from viscofric.friction.cases.record import ENDLESS, MEANING, Failure, Record
+from viscofric.notes import Note, listed, notes_in
+from viscofric.report.results import group, values
+from viscofric.study.contacts import Contacts, Solved, missed_accuracy, nothing_solved
+from viscofric.study.execution import tree_of
+from viscofric.study.heating import Heatings
+from viscofric.study.interface import StudyInterface, study_interface
+from viscofric.study.results.tree import meaning_of
 from viscofric.study.run_file.study import Study
 from viscofric.study.running.executors import Processes
-from viscofric.study.running.running import Event, Plan, run_plan
+from viscofric.study.running.running import Event, run_plan
 from viscofric.study.running.store import CaseStore
-from viscofric.study.study_rubber import StudyRubber, band_columns
-from viscofric.web.figures.spec import Spec, axis, quantity
+from viscofric.study.study_rubber import StudyRubber
+from viscofric.web.figures.spec import Spec, axis, axis_in, quantity
 from viscofric.web.jobs.combinations import combinations, of_material, page_sweep
 from viscofric.web.jobs.context import Context, JobOptions
 from viscofric.web.jobs.rubbers import study_rubber
@@ -32,21 +34,26 @@ from viscofric.web.study_text import study_of
 _BETWEEN_PARTS = 0.12  # s
 _DIGITS = 6
 _MOST_REASONS = 5
-#: Quantities of cases; those in `_ROUGH` are a rough surface's, those in `_SMOOTH` an indenter's.
-_QUANTITIES = {
-    "friction": axis("friction coefficient μ"),
-    "indentation": axis("indentation", "length"),
-    "contact_area": axis("contact area", "area"),
-    "contact_area_fraction": axis("contact area fraction"),
-    "max_pressure": axis("maximum pressure", "pressure"),
-    "mean_gap": axis("mean gap", "length"),
+#: Numbers of a case that are not offered: what the solver did, and what the case was given.
+_NOT_OFFERED = {*OF_THE_SOLVER, *ERRORS.values(), "interpolation_error", "speed", "temperature", "load", "pressure"}
+#: Columns of the results -> those of the page.
+_NAMES = {
+    "friction_coefficient": "friction",
+    "friction_error": "error",
+    "friction_lower": "lower",
+    "friction_upper": "upper",
+}
+_HEATED = {
     "heated_friction": axis("friction coefficient μ with heating"),
     "temperature_rise": axis("rise of temperature (K)"),
-    "interface_friction": axis("friction coefficient of the interface"),
-    "total_friction": axis("total friction coefficient"),
 }
-_ROUGH, _SMOOTH = ("contact_area_fraction", "mean_gap"), ("indentation", "contact_area")
-_OF_TABLES = ("interface_friction", "total_friction", "heated_friction", "temperature_rise")
+#: Columns of cases with heating, by those of their group.
+_OF_HEATING = {
+    **{name: name for name in ("temperature_rise", "temperature_rise_error", "coulomb_rise", "loss_rise")},
+    "friction_coefficient": "heated_friction",
+    "interface_friction": "interface_friction",
+    "total_friction": "total_friction",
+}
 _DOUBTS = {
     "extrapolated": "it depends on frequencies at which the material was not measured",
     "shift": "the shift factor is extrapolated beyond the temperatures that its law was fitted to",
@@ -83,29 +90,32 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     store.prepare()
     with Processes() as executor:
         run_plan(contacts.plan, store, executor, progress)
-        requested, at_points, along = contacts.results()
-        more, said, law = _of_tables(contacts, requested, lambda plan: run_plan(plan, store, executor, context.show))
-    if not requested.records:
-        raise nothing_solved(requested.failures[0].note)
-    found = {**layout, **columns(contacts, requested), **more}
+        requested = contacts.results()[0]
+        if not requested.records:
+            raise nothing_solved(requested.failures[0].note)
+        interface = study_interface(contacts) if _is_given(checked) else StudyInterface(None, {}, _left_out(checked))
+        heatings = Heatings.of(checked, contacts.sweep, contacts.plan.rubbers, interface.law)
+        if heatings is not None:
+            run_plan(heatings, store, executor, context.show)
+    tree = tree_of(contacts, (), () if heatings is None else (heatings,), interface, "page")
+    failures, checks = [one.note for one in requested.failures], group(tree, "assumptions")
+    found = {**layout, "lower": None, "upper": None, **columns(tree), "doubts": doubts(contacts, requested)}
     return {
         **found,
         **_parts(found),
-        "master": master_curve(contacts, along),
-        **listed("failures", [one.note for one in requested.failures], "page"),
-        "missing": _missing([one.note for one in requested.failures], len(found["speed"])),
-        **listed(
-            "warnings",
-            [
-                *(note for one in contacts.rubbers for note in one.doubts(checked.conditions.temperature)),
-                *doubts((requested,), contacts.rubbers),
-                *missed_accuracy(requested, checked)[1],
-            ],
-            "page",
-        ),
-        **listed("notes", [*_notes(contacts, checked), *said], "page"),
-        "checks": plain([one.record("page") for one in assumption_checks(contacts, requested, at_points, law)]),
+        "master": master_curve(tree),
+        **listed("failures", failures, "page"),
+        "missing": _missing(failures, len(found["speed"])),
+        **listed("warnings", notes_in(tree.attrs, "warnings"), "page"),
+        **listed("notes", notes_in(tree.attrs, "notes"), "page"),
+        "checks": plain([one.record("page") for one in (assumption_checks_of(checks) if checks else ())]),
     }
+
+
+def _left_out(study: Study) -> list[Note]:
+    """Return the note on an interface whose law the measurement gives."""
+    words = "The interface is fitted to the measurement when the study is run."
+    return [] if study.interface is None else [Note("fitted-interface", words)]
 
 
 def _missing(failures: list[Note], count: int) -> list[str]:
@@ -120,9 +130,9 @@ def _missing(failures: list[Note], count: int) -> list[str]:
 
 def _contacts(checked: Study, study: dict[str, Any], context: Context) -> Contacts:
     page_sweep(checked)  # refuses what is too much
-    bare = checked.uncertainty.model_copy(update={"members": 0, **({} if checked.indenter else {"draws": 0})})
+    bare = checked.uncertainty.model_copy(update={"members": 0})
     checked = checked.model_copy(update={"uncertainty": bare, "measurement": None})
-    tables = {**study, "uncertainty": bare.model_dump(mode="json")}
+    tables = {**study, "uncertainty": checked.applied_uncertainty.model_dump(mode="json")}
     temperatures = checked.conditions.temperature
     rubbers = [
         study_rubber(of_material(tables, number), context, temperatures) for number in range(len(checked.materials))
@@ -137,7 +147,7 @@ def _layout(contacts: Contacts) -> dict[str, Any]:
     alpha = {(case.material, case.temperature): float(rubbers[case.material].shift(case.temperature)) for case in cases}
     study = contacts.study
     heated = study.heating is not None and (study.interface is None or _is_given(study))
-    kind = "rough" if study.indenter is None else "line" if study.indenter.LINE else "point"
+    kind = contacts.sweep.geometry
     layout: dict[str, Any] = {
         "kind": kind,
         "accuracy": study.solver.accuracy,
@@ -148,14 +158,13 @@ def _layout(contacts: Contacts) -> dict[str, Any]:
         "speed": plain([case.speed for case in cases], 9),
         "reduced_speed": plain([alpha[case.material, case.temperature] * case.speed for case in cases], 9),
     }
-    extra = [
-        *(("interface_friction", "total_friction") if _is_given(study) else ()),
-        *(("heated_friction", "temperature_rise") if heated else ()),
-    ]
-    others = [*(_SMOOTH if kind == "rough" else _ROUGH), *(name for name in _OF_TABLES if name not in extra)]
-    quantities = {name: about for name, about in _QUANTITIES.items() if name not in others}
-    if kind == "line":
-        quantities["contact_area"] = axis("contact width", "length")
+    quantities = {"friction": axis("friction coefficient μ")}
+    shown = [name for name in MEANING[contacts.sweep.geometry] if name not in _NOT_OFFERED]
+    shown = [name for name in shown if name not in _NAMES and not (kind == "line" and name in ENDLESS)]
+    shown += ["interface_friction", "total_friction"] if _is_given(study) else []
+    meaning = meaning_of(contacts.sweep.geometry)
+    quantities |= {name: axis_in(*meaning[name]) for name in shown}
+    quantities |= _HEATED if heated else {}
     rows: dict[tuple[int, float], list[int]] = {}
     for at, key in enumerate(zip(layout["combination"], layout["temperature"], strict=True)):
         rows.setdefault(key, []).append(at)
@@ -174,8 +183,9 @@ def _parts(found: dict[str, Any]) -> dict[str, Any]:
         main: Spec = {"y": name, "mode": "lines+markers", "size": 6, "text": "remarks"}
         if name == "friction":
             main |= band or {"error": "error"}
-        if f"{name}_error" in found:
-            main |= {"error": f"{name}_error"}
+        error = ERRORS.get(name, f"{name}_error")
+        if name != "friction" and error in found:
+            main |= {"error": error}
         style: Spec = {"mode": "lines", "width": 1.2, "legend": False}
         beside = [{**style, "y": other, "dash": dash, "text": words} for other, dash, words in _BESIDE.get(name, [])]
         parts[name] = [main, *beside]
@@ -188,39 +198,6 @@ def _parts(found: dict[str, Any]) -> dict[str, Any]:
 def _is_given(study: Study) -> bool:
     """Whether there is an interface whose law is known without a measurement."""
     return study.interface is not None and study.interface.is_given
-
-
-def _of_tables(
-    contacts: Contacts, requested: Solved, solve: Callable[[Plan], object]
-) -> tuple[dict[str, Any], list[Note], InterfaceLaw | None]:
-    """Return what [interface] and [heating] add to all cases, each number a column, notes, and the interface's law."""
-    study, rows = contacts.study, [not isinstance(one, Failure) for one in requested.outcomes]
-    found: dict[str, Any] = {}
-    law: InterfaceLaw | None = None
-    said: list[Note] = []
-    if _is_given(study):
-        interface = study_interface(contacts)
-        rubbed = interface_columns(contacts, interface, requested)
-        law, said = interface.law, [*interface.notes, *rubbed.notes]
-        for name in ("interface_friction", "total_friction"):
-            column = np.full(len(rows), np.nan)
-            column[rows] = rubbed.columns.get(name, np.nan)
-            found[name] = column
-    elif study.interface is not None:
-        said.append(Note("fitted-interface", "The interface is fitted to the measurement when the study is run."))
-        said += [NO_LAW] if study.heating is not None else []
-    heatings = Heatings.of(study, contacts.sweep, contacts.plan.rubbers, law)
-    if heatings is not None:
-        solve(heatings)
-        warm = {name: values[:, 0, 0] for name, values in heatings.columns_of_cases().items()}
-        names = ("temperature_rise", "temperature_rise_error", "coulomb_rise", "loss_rise")
-        found |= {name: warm[name] for name in names if name in warm}
-        found |= {"heated_friction": warm["friction_coefficient"]} if warm else {}
-        if law is not None and warm:
-            found["interface_friction"] = warm["interface_friction"]
-            found["total_friction"] = warm["friction_coefficient"] + warm["interface_friction"]
-        said += [*heatings.failures, *heatings.warnings]
-    return {name: plain(column, _DIGITS) for name, column in found.items()}, said, law
 
 
 class _Sender:
@@ -256,56 +233,29 @@ class _Sender:
             self._context.part({"cases": list(cases), "friction": list(friction), "known": list(known_ones)})
 
 
-def _notes(contacts: Contacts, study: Study) -> list[str]:
-    notes = [note for one in contacts.rubbers for note in one.notes]
-    return list(dict.fromkeys([*notes, *study.notes]))
+def columns(tree: DataTree) -> dict[str, Any]:
+    """Return what is known of all cases, each number a column named as in the results, but for `_NAMES`."""
+    cases, heated = tree["prediction"].to_dataset(), group(tree, "heating")
+    names = [str(name) for name in cases.data_vars if name not in (*OF_THE_SOLVER, "failed")]
+    found: dict[str, Any] = {_NAMES.get(name, name): values(cases, name) for name in names}
+    if heated is not None:  # of the first Coulomb friction and slip
+        first = heated.isel({name: 0 for name in ("coulomb", "slip") if name in heated.dims})
+        found |= {own: values(first, name) for name, own in _OF_HEATING.items() if name in first}
+    found = {name: plain(column.ravel(), _DIGITS) for name, column in found.items()}
+    return found | {"interpolated": [value == 1.0 for value in found["interpolated"]]}
 
 
-#: Numbers of a contact besides its friction, where it has them.
-_COLUMNS = (
-    "indentation",
-    "contact_area",
-    "front",
-    "rear",
-    "max_pressure",
-    "centre_of_pressure",
-    "contact_area_fraction",
-    "mean_gap",
-)
+def doubts(contacts: Contacts, requested: Solved) -> list[list[str]]:
+    """Return what is doubtful about each case, in words of `_DOUBTS`."""
+    missed = iter(missed_accuracy(requested, contacts.study)[0])
+    return [
+        ["failed"] if isinstance(outcome, Failure) else _doubts(contacts, case, outcome, inaccurate=bool(next(missed)))
+        for case, outcome in zip(requested.cases, requested.outcomes, strict=True)
+    ]
 
 
-def columns(contacts: Contacts, requested: Solved) -> dict[str, Any]:
-    """Return what is known of all cases, each number a column."""
-    bands = band_columns(contacts.rubbers, requested.of_records, requested.records)
-    rows = [number for number, outcome in enumerate(requested.outcomes) if not isinstance(outcome, Failure)]
-    missed = np.zeros(len(requested.cases), dtype=bool)
-    missed[rows] = missed_accuracy(requested, contacts.study)[0]
-
-    def column(values: Iterable[float]) -> Any:
-        whole = np.full(len(requested.cases), np.nan)
-        whole[rows] = list(values)
-        return plain(whole, _DIGITS)
-
-    records = requested.records
-    found = {
-        "friction": column(one.friction_coefficient for one in records),
-        "error": column(one.friction_error for one in records),
-        "interpolated": [getattr(outcome, "interpolated", False) for outcome in requested.outcomes],
-        "lower": None if bands is None else column(bands.viscoelastic_lower),
-        "upper": None if bands is None else column(bands.viscoelastic_upper),
-        "doubts": [
-            _doubts(contacts, case, outcome, inaccurate=bool(one))
-            for case, outcome, one in zip(requested.cases, requested.outcomes, missed, strict=True)
-        ],
-    }
-    has = [name for name in _COLUMNS if hasattr(records[0], name)]
-    return found | {name: column(getattr(one, name) for one in records) for name in has}
-
-
-def _doubts(contacts: Contacts, case: Any, outcome: Outcome, *, inaccurate: bool) -> list[str]:
+def _doubts(contacts: Contacts, case: Case, outcome: Record, *, inaccurate: bool) -> list[str]:
     """Name what is doubtful about a point."""
-    if isinstance(outcome, Failure):
-        return ["failed"]
     rubber: StudyRubber = contacts.rubbers[case.material]
     found = {_OF_CODES.get(note.code, "strain") for note in outcome.warnings}
     found |= {
@@ -320,16 +270,11 @@ def _doubts(contacts: Contacts, case: Any, outcome: Outcome, *, inaccurate: bool
     return [name for name in _DOUBTS if name in found]
 
 
-def master_curve(contacts: Contacts, along: Solved) -> dict[str, Any] | None:
+def master_curve(tree: DataTree) -> dict[str, Any] | None:
     """Return friction along the master curve, at the reference temperature; None where there is more than one."""
-    if not along.records:
+    along: Dataset | None = group(tree, "prediction_master")
+    if along is None:
         return None
-    records: list[Record] = along.records
-    curves = contacts.rubbers[0].bands.curves(records)
-    shown = {
-        "reduced_speed": curves.speed,
-        "friction": curves.viscoelastic,
-        "lower": curves.viscoelastic_lower,
-        "upper": curves.viscoelastic_upper,
-    }
-    return {name: None if values is None else plain(values, _DIGITS) for name, values in shown.items()}
+    names = {"speed": "reduced_speed"} | _NAMES
+    found = {own: values(along, name) for name, own in names.items() if name in along}
+    return {"lower": None, "upper": None} | {name: plain(column, _DIGITS) for name, column in found.items()}
