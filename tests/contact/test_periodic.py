@@ -586,7 +586,7 @@ def test_steep_surfaces_are_reported(amplitude: float, doubtful: bool) -> None:
     wave = PeriodicSurface(amplitude * np.cos(2.0 * np.pi * np.arange(32) / 32), 1.0 / 32)
     solution = solve_periodic(broad(), wave, speed=1.0, pressure=100.0)
     assert solution.diagnostics.full_contact
-    assert codes(solution.warnings) == ({"large-strain"} if doubtful else set())
+    assert ("large-strain" in codes(solution.warnings)) is doubtful
 
 
 def test_a_layer_pressed_deeply_is_reported() -> None:
@@ -595,9 +595,7 @@ def test_a_layer_pressed_deeply_is_reported() -> None:
     deep, shallow = (
         solve_periodic(broad(), wave, speed=1.0, pressure=mean, layer=vf.Layer(1.0)).warnings for mean in (1.0, 1e-2)
     )
-    assert len(deep) == 1
-    assert "thickness" in deep[0]
-    assert shallow == ()
+    assert [codes(one) - {"quasi-static"} for one in (deep, shallow)] == [{"deep-in-layer"}, set()]
 
 
 def test_what_was_given_comes_back_to_the_last_digit() -> None:
@@ -637,3 +635,21 @@ def test_few_points_in_contact_take_few_products(points: tuple[int, int], pressu
         assert (found.pressure > 0.0).sum() < 20
         products.append(found.diagnostics.products)
     assert max(products) < 50
+
+
+def test_inertia_of_waves_is_noted_by_the_squares_of_their_speeds() -> None:
+    """In full contact two waves at 53° to the motion and along it have friction at their own frequencies."""
+    soft = vf.Material.standard_linear_solid("50 kPa", "200 kPa", "1 ms")
+    phase = 2.0 * np.pi * np.arange(16) / 16
+    surface = PeriodicSurface(1e-6 * (np.cos(phase)[:, None] + np.cos(phase)), 1e-4)
+    given = {"pressure": "50 kPa", "direction": (0.6, 0.8)}
+    assert codes(vf.solve_periodic(soft, surface, speed=0.5, **given).warnings) == set()
+    fast = vf.solve_periodic(soft, surface, speed=4.0, **given)
+    (note,) = (one for one in fast.warnings if one.code == "quasi-static")
+    parts = np.array([0.6, 0.8])
+    compliance = soft.spectrum.compliance(4.0 * parts * 2.0 * np.pi / 1.6e-3)
+    # Friction of a wave is its energy under the same displacement, Im E, along the motion.
+    shares = parts * (-compliance.imag / np.abs(compliance) ** 2)
+    changes = (4.0 * parts) ** 2 * np.abs(compliance) * 3.0 * 1150.0  # of filled rubber
+    # Moduli are interpolated between frequencies that are a tenth of a decade apart.
+    assert note.values["change"] == pytest.approx(float(shares @ changes / shares.sum()), rel=1e-2)

@@ -482,3 +482,14 @@ def test_pressures_in_whose_rounding_the_heights_are_lost_are_refused() -> None:
         history = vf.motion.History(time=[0.0, 0.01], pressure=[first, last], speed=0.1)
         with refused("out-of-range", naming="pressure"):
             vf.motion.solve_transient(SLS, profile(16), history, accuracy=0.1)
+
+
+def test_inertia_of_a_surface_in_motion_is_that_of_steady_sliding_at_its_largest_speed() -> None:
+    soft, surface = vf.Material.standard_linear_solid("50 kPa", "200 kPa", "1 ms"), profile(16)
+    steady = vf.solve_periodic(soft, surface, speed="4 m/s", pressure="50 kPa")
+    history = vf.motion.History([0.0, 1e-2, 2e-2], pressure="50 kPa", speed=[0.1, 0.1, 4.0], before="sliding")
+    run = vf.motion.solve_transient(soft, surface, history, times=[1e-2, 2e-2], accuracy=1e-2)
+    (found,), (known,) = (
+        [note for note in map(note_of, one.warnings) if note.code == "quasi-static"] for one in (run, steady)
+    )
+    assert found.values["change"] == pytest.approx(known.values["change"], rel=1e-2)  # the accuracy of the run

@@ -257,7 +257,9 @@ def shear_wave_speed(modulus: float, poisson_ratio: float, density: float = _DEN
     return math.sqrt(modulus / (2.0 * (1.0 + poisson_ratio) * density))
 
 
-def inertia_note(speed: float, waves: float, density: float = _DENSITY, where: str = "") -> Note:
+def inertia_note(
+    speed: float, waves: float, density: float = _DENSITY, where: str = "", frequency: str = "v/a"
+) -> Note:
     """Return the note on inertia, by the speed of a contact and that of shear waves in the rubber, SI.
 
     Its ``change`` is the square of their ratio, about the relative change of friction (K. L. Johnson, Contact
@@ -266,12 +268,31 @@ def inertia_note(speed: float, waves: float, density: float = _DENSITY, where: s
     change = (speed / waves) ** 2
     at = f"; {where}" if where else ""
     said = (
-        f"Shear waves in the rubber run at {plain(waves, 2)} m/s (at |E(v/a)|, with {density:.4g} kg/m³{at}). Inertia, "
-        f"which is left out, changes friction by about {plain(100.0 * change, 2)} % there (good if ≤ "
+        f"Shear waves in the rubber run at {plain(waves, 2)} m/s (at |E({frequency})|, with {density:.4g} kg/m³{at}). "
+        f"Inertia, which is left out, changes friction by about {plain(100.0 * change, 2)} % there (good if ≤ "
         f"{100.0 * LITTLE_INERTIA:.0f} %){'.' if change <= LITTLE_INERTIA else '; at lower speeds it does not matter.'}"
     )
     values = {"wave_speed": waves, "change": change, "density": density, "severity": change}
     return Note("quasi-static", said, values=values)
+
+
+def inertia_notes(
+    speed: ArrayLike,
+    frequency: ArrayLike,
+    modes: RetardationSpectrum,
+    poisson_ratio: float,
+    where: Sequence[str] = ("",),
+) -> tuple[Note, ...]:
+    """Return a note if inertia changes the friction of one of several contacts by much, of their frequencies v/a."""
+    speed, frequency = np.atleast_1d(np.abs(speed)), np.atleast_1d(np.abs(frequency))
+    moving = np.flatnonzero((speed > 0.0) & np.isfinite(speed) & (frequency > 0.0))
+    if not len(moving):
+        return ()
+    moduli = np.abs(modes.complex_modulus(frequency[moving]))
+    worst = int(np.argmax(np.square(speed[moving]) / moduli))
+    waves, place = shear_wave_speed(float(moduli[worst]), poisson_ratio), int(moving[worst])
+    note = inertia_note(float(speed[place]), waves, where=where[place])
+    return (note,) if float(note.values["change"]) > LITTLE_INERTIA else ()
 
 
 def contact_notes(
@@ -290,7 +311,4 @@ def contact_notes(
     strained = None if layer is None else layer.strain_warning(indentation)
     notes += [] if strained is None else [strained]
     half = 0.5 * (contact.front + contact.rear)
-    if half > 0.0 and 0.0 < abs(speed) < math.inf:
-        waves = shear_wave_speed(abs(complex(modes.complex_modulus(abs(speed) / half))), poisson_ratio)
-        notes += [inertia_note(abs(speed), waves)] if (speed / waves) ** 2 > LITTLE_INERTIA else []
-    return tuple(notes)
+    return (*notes, *inertia_notes(speed, speed / half if half > 0.0 else 0.0, modes, poisson_ratio))

@@ -171,11 +171,11 @@ class Schedule:
         ]
         return min(found), max(found)
 
-    def fastest(self, start: float, end: float) -> Array:
-        """Return the largest velocity (2,) per time of the material's clock, between two times; m/s."""
+    def fastest(self, start: float, end: float, *, by_clock: bool = True) -> Array:
+        """Return the largest velocity (2,), per time of the material's clock or per time, between two times; m/s."""
         times = [start, *self.kinks[(self.kinks > start) & (self.kinks < end)].tolist(), end]
         found = [
-            self.velocity(time, after=time == begin) / self.rates(begin, until)[0]
+            self.velocity(time, after=time == begin) / (self.rates(begin, until)[0] if by_clock else 1.0)
             for begin, until in pairwise(times)
             for time in {begin, until}
         ]

@@ -13,10 +13,10 @@ import numpy as np
 import scipy.fft
 
 from viscofric.arguments import insist_on, insist_on_function
-from viscofric.contact.bodies import Layer, checked_coulomb, indenter_compliance
+from viscofric.contact.bodies import Layer, checked_coulomb, indenter_compliance, inertia_notes
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
-from viscofric.contact.periodic.solve import beyond_measured
+from viscofric.contact.periodic.solve import beyond_measured, too_fast
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, wrong_argument
@@ -381,7 +381,7 @@ def assemble(
         direction=history.direction,
         warnings=(
             *_doubts(problem, moments),
-            *_beyond_measured(problem, moments),
+            *_notes_on_speed(problem, moments),
             *notes,
             *problem.material.notes_on_modes,
             *problem.material.notes_at(kelvin),
@@ -410,51 +410,63 @@ def _doubts(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
     return tuple(indenter.warnings(widest, deepest, load, problem.schedule.spectrum.E0, material.poisson_ratio))
 
 
-def _beyond_measured(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
-    """Return a note where a motion is faster than its material was measured, also between the moments."""
-    # Without sliding, also where it is slower.
+def _notes_on_speed(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
+    """Return notes where a motion is faster than its material was measured, or too fast without inertia."""
+    # Also between the moments, and without sliding where it is slower.
     schedule, times = problem.schedule, [one.instant.time for one in moments]
     known = schedule.spectrum.known_frequencies
-    if known is None or not moments:
+    if not moments:
         return ()
-    velocities = [schedule.fastest(start, end) for start, end in pairwise([schedule.start, *times])]
+    spans = list(pairwise([schedule.start, *times]))
+    velocities = [schedule.fastest(*ends) for ends in spans]
     if not np.any(velocities):
+        if known is None:
+            return ()
         since = np.array([schedule.since_jump(one.instant) for one in moments])
-        changes = [schedule.quickest_change(start, end) for start, end in pairwise([schedule.start, *times])]
+        changes = [schedule.quickest_change(*ends) for ends in spans]
         load = np.abs([one.seen.load for one in moments])
         with np.errstate(divide="ignore"):
             rates = np.maximum(changes, 1.0 / since)
         # The first touch is always too quick, and of no consequence.
         return known.beyond(rates[load >= _LITTLE * load.max()], "rate of loading or 1/t after a jump")
     if isinstance(problem.indenter, PeriodicSurface):
-        return _beyond_on_waves(problem, problem.indenter, moments, velocities)
+        return _speed_on_waves(problem, problem.indenter, moments, velocities)
     extents = [one.seen.extents for one in moments]
     half = np.array(
         [0.5 * (one["front"] + one["rear"]) if "front" in one else one["contact_radius"] for one in extents]
     )
     speed = np.hypot(*np.transpose(velocities))
     rate = np.divide(speed, half, out=np.zeros_like(half), where=half > 0.0)
-    return known.beyond(np.where(rate > known.frequency_range[1], rate, 0.0))
+    beyond = () if known is None else known.beyond(np.where(rate > known.frequency_range[1], rate, 0.0))
+    real = np.hypot(*np.transpose([schedule.fastest(*ends, by_clock=False) for ends in spans]))
+    where = [f"at {time:.3g} s" for time in times]
+    return (*beyond, *inertia_notes(real, rate, schedule.spectrum, problem.material.poisson_ratio, where))
 
 
-def _beyond_on_waves(
+def _speed_on_waves(
     problem: Problem, surface: PeriodicSurface, moments: list[Moment[Any]], velocities: list[Array]
 ) -> tuple[Note, ...]:
-    """Return the note on the pressure of the largest friction, as if it slid on at the reduced speed of that moment."""
-    friction = [
-        math.hypot(*one.seen.friction_force) if one.field is not None and velocity.any() else 0.0
+    """Return notes on the fastest pressure and that of the largest friction, as if they slid on at a reduced speed."""
+    moving = [
+        (one, velocity)
         for one, velocity in zip(moments, velocities, strict=True)
+        if one.field is not None and velocity.any() and np.any(one.seen.friction_force)
     ]
-    chosen = int(np.argmax(friction))
-    field, velocity = moments[chosen].field, velocities[chosen]
-    if field is None or friction[chosen] == 0.0:
+    if not moving:
         return ()
-    toward = tuple((velocity / math.hypot(*velocity)).tolist())
-    material, layer = problem.material, problem.layer
-    solid = SlidingSolid(
-        problem.schedule.spectrum, material.poisson_ratio, tuple(velocity.tolist()), layer, problem.counterface, toward
-    )
-    transfer = solid.transfer(surface.shape, surface.spacing)
-    waves: Any = scipy.fft.rfft2(field.pressure)
-    whole = dissipation(transfer, surface.shape, surface.spacing, toward, waves)
-    return beyond_measured(surface, solid, transfer, waves, whole)
+
+    def waves_of(one: Moment[Any], velocity: Array) -> tuple[Any, ...]:
+        assert one.field is not None
+        toward = tuple((velocity / math.hypot(*velocity)).tolist())
+        material, layer, along = problem.material, problem.layer, tuple(velocity.tolist())
+        solid = SlidingSolid(
+            problem.schedule.spectrum, material.poisson_ratio, along, layer, problem.counterface, toward
+        )  # fmt: skip
+        transfer, waves = solid.transfer(surface.shape, surface.spacing), scipy.fft.rfft2(one.field.pressure)
+        return surface, solid, transfer, waves, dissipation(transfer, surface.shape, surface.spacing, toward, waves)
+
+    hardest = max(moving, key=lambda each: math.hypot(*each[0].seen.friction_force))
+    fastest = max(moving, key=lambda each: math.hypot(*each[1]))
+    time = fastest[0].instant.time
+    clock = problem.schedule.rates(time, time)[0]
+    return (*beyond_measured(*waves_of(*hardest)), *too_fast(*waves_of(*fastest), clock, f"at {time:.3g} s"))

@@ -15,10 +15,13 @@ import scipy.fft
 from viscofric.arguments import exactly_one, whole_number
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import (
+    LITTLE_INERTIA,
     Layer,
     checked_coulomb,
     half_space_coupling,
     indenter_compliance,
+    inertia_note,
+    shear_wave_speed,
     unit_direction,
 )
 from viscofric.contact.indenters.indenter import too_steep
@@ -58,6 +61,8 @@ LIKENESS = 1e-10
 _UNSURE_AT_EDGES = 0.25
 # Least factor by which errors fall where points are twice as close: pressures rise like square roots at the edges.
 _FADING = 0.5**1.5
+# Frequencies at which moduli are computed for the speeds of shear waves, and interpolated between.
+_MODULI = 200
 #: Bytes of memory for each point while an elastic and a viscoelastic contact is solved with up to a fifth of the area
 #: in contact: those of the arrays and of the surface, and what the allocator keeps.  In full contact up to 30 more.
 BYTES_PER_POINT = (105, 120)
@@ -334,7 +339,8 @@ def _assemble(
     waves = scipy.fft.rfft2(pressure, workers=threads_for(pressure.size))
     by_energy = dissipation(transfer, surface.shape, surface.spacing, toward, waves)
     lateral = dissipation(transfer, surface.shape, surface.spacing, (-toward[1], toward[0]), waves)
-    extrapolated = beyond_measured(surface, solid, transfer, waves, by_energy)
+    notes = too_fast(surface, solid, transfer, waves, by_energy)
+    notes += beyond_measured(surface, solid, transfer, waves, by_energy)
     del waves
     error = abs(by_pressure - by_energy)
     if coarser is not None and work.coarser_pressure is not None:
@@ -377,7 +383,7 @@ def _assemble(
             linear_iterations=work.linear_iterations,
             grids=work.grids,
         ),
-        warnings=extrapolated,
+        warnings=notes,
     )
     return solution, steepness
 
@@ -392,15 +398,57 @@ def beyond_measured(
     known = solid.spectrum.known_frequencies
     if known is None or friction == 0.0 or not all(map(math.isfinite, solid.velocity)):
         return ()
-    qx, qy = wave_number(surface.shape, surface.spacing)
-    frequency = np.abs(solid.velocity[0] * qx + solid.velocity[1] * qy)
-    measured = known.covers(frequency)
+    measured = known.covers(_frequency(surface, solid))
     if measured.all():
         return ()
     waves[measured] = 0.0
     share = abs(dissipation(transfer, surface.shape, surface.spacing, solid.toward, waves) / friction)
     said: tuple[Note, ...] = known.beyond_part(share)
     return said
+
+
+def too_fast(
+    surface: PeriodicSurface,
+    solid: SlidingSolid,
+    transfer: ComplexArray | Array,
+    waves: ComplexArray,
+    friction: float,
+    clock: float = 1.0,
+    where: str = "",
+) -> tuple[Note, ...]:
+    """Return a note if inertia changes the friction force per area by much, of each wave by the square of its speed.
+
+    The solid's velocity is per time of a clock, which runs so many times as fast as time.
+    """
+
+    def slowness(frequency: Array) -> Array:
+        """Return the square of one over the speed of shear waves, s²/m²."""
+        softness = np.abs(solid.spectrum.compliance(frequency))
+        return np.asarray(softness / shear_wave_speed(1.0, solid.poisson_ratio) ** 2)
+
+    speed = clock * math.hypot(*solid.velocity)
+    if friction == 0.0 or speed == 0.0 or not math.isfinite(speed):
+        return ()
+    frequency = _frequency(surface, solid)
+    lowest, highest = float(frequency.min(where=frequency > 0.0, initial=math.inf)), float(frequency.max())
+    if speed**2 * float(slowness(np.array([lowest]))[0]) <= LITTLE_INERTIA:
+        return ()
+    known = np.geomspace(lowest, highest, _MODULI)
+    part = np.exp(np.interp(np.log(np.maximum(frequency, lowest)), np.log(known), np.log(slowness(known))))
+    magnitude = np.hypot(*wave_number(surface.shape, surface.spacing))
+    magnitude[0, 0] = 1.0
+    part *= np.square(clock * frequency / magnitude)
+    weighted = waves * np.sqrt(part)
+    change = abs(dissipation(transfer, surface.shape, surface.spacing, solid.toward, weighted) / friction)
+    if change <= LITTLE_INERTIA:
+        return ()
+    return (inertia_note(speed, speed / math.sqrt(change), where=where, frequency="qv"),)
+
+
+def _frequency(surface: PeriodicSurface, solid: SlidingSolid) -> Array:
+    """Return |q·v| of each wave, rad/s."""
+    qx, qy = wave_number(surface.shape, surface.spacing)
+    return np.asarray(np.abs(solid.velocity[0] * qx + solid.velocity[1] * qy))
 
 
 def _on_slopes(surface: PeriodicSurface, pressure: Array, toward: tuple[float, float]) -> tuple[float, float]:
