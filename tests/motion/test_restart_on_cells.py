@@ -13,7 +13,7 @@ from marks import apart, slow
 from motion.going_on import BALL, RUBBER, broad_rubber, same, stopped_after
 from refusals import refused
 from viscofric.errors import DataFileError
-from viscofric.notes import codes
+from viscofric.notes import codes, note_of
 
 CYLINDER = vf.Cylinder("10 mm")
 TIMES = [0.01, 0.02, 0.03, 0.04]
@@ -206,3 +206,28 @@ def test_modes_that_were_merged_for_a_short_history_are_refused_in_a_long_one():
     assert further.time.tolist() == [0.02, 0.04]
     with refused("merged-modes"):
         vf.motion.solve_transient(broad, CYLINDER, moved[2], accuracy=5e-2, times=[20.0], resume=begun)
+
+
+@pytest.mark.parametrize("before", ["untouched", "at rest"])
+def test_depths_and_energies_of_a_longer_path_are_those_of_one_run(before: str):
+    """The longer path and the larger load measure the line contact from farther points, also in its past."""
+    times, load, speed = [0.0, 0.01, 0.02], [100.0, 300.0, 500.0], [0.02, 0.02, 0.1]
+
+    def run(count: int, **more):
+        given = vf.motion.History(times[:count], load=load[:count], speed=speed[:count], before=before)
+        return vf.motion.solve_transient(RUBBER, CYLINDER, given, accuracy=0.1, times=times[1:count], **more)
+
+    known, found = run(3), run(3, resume=run(2))
+    for name, error in {
+        "indentation": "indentation",
+        "dissipated": "energy",
+        "stored": "energy",
+        "work": "energy",
+    }.items():
+        one, two = getattr(known, name), getattr(found, name)
+        assert np.all(np.abs(one - two) < getattr(known.errors, error) + getattr(found.errors, error)), name
+        assert two == pytest.approx(one, rel=1e-2)  # a tenth of the accuracy; by one level instead of the other 20 %
+    assert found.energy_imbalance < 1e-2
+    assert [note.values for note in map(note_of, found.warnings)] == [
+        note.values for note in map(note_of, known.warnings)
+    ]

@@ -25,7 +25,7 @@ from viscofric.motion.free.mover import FreeMover
 from viscofric.motion.free.setting import Setting, with_fewer_kinks
 from viscofric.motion.free.stored import Level
 from viscofric.motion.march import march
-from viscofric.motion.memory import Modes
+from viscofric.motion.memory import Modes, step_parts
 from viscofric.motion.mover import Sizes
 from viscofric.motion.problem import Problem
 from viscofric.motion.progress import Progress
@@ -161,9 +161,40 @@ def solve_free(
             break
     if told is not None and not found.interrupted:
         told.end_all()
+    whole = Setting.of(problem, Modes.of(problem.schedule.spectrum))
+    if begun and not whole.is_levelled:
+        found = _measured_from(whole, found, level.mover.setting, problem)
     if not found.interrupted and times is None:
         notes = (*notes, *_after_starts(found.moments, judged, _largest(level), problem.accuracy))
-    return found, (*_notes(problem, level.mover.setting, found), *notes), levels
+    return found, (*_notes(problem, whole, found), *notes), levels
+
+
+def _measured_from(whole: Setting, track: Track[Any], part: Setting, problem: Problem) -> Track[Any]:
+    """Return what was measured from the level of a part of a history, measured from that of the whole of it."""
+    # All points are displaced by 2/π ln(L'/L) times the response of a line to its load, whatever its path.
+    farther = 2.0 / math.pi * math.log(whole.level * whole.scale.length / (part.level * part.scale.length))
+    schedule, modes = whole.schedule, whole.modes
+    body = 0.0 if problem.layer is not None else farther * problem.plane_strain
+    C, instant = body * modes.C, body * modes.instantaneous + farther * problem.counterface
+    given = [(schedule.at(float(time), after=after), after, -1) for time in schedule.given for after in (False, True)]
+    told = [one.instant for one in track.moments]
+    given += [(one, one.load == schedule.at(one.time).load, row) for row, one in enumerate(told)]
+    clock, load = given[0][0].clock, 0.0 if schedule.before == "untouched" else float(given[0][0].load or 0.0)
+    memory, lost, moments = np.full(len(modes), load), 0.0, list(track.moments)
+    first, held = instant * load + float(C @ memory), 0.5 * (instant * load**2 + float(C @ memory**2))
+    for now, _, row in sorted(given, key=lambda one: (one[0].time, *one[1:])):
+        parts, change, away = step_parts((now.clock - clock) / modes.tau), float(now.load or 0.0) - load, load - memory
+        lost += float(C @ (parts.own * away**2 + 2.0 * parts.mixed * away * change + parts.new * change**2))
+        memory = parts.decay * memory + parts.start * load + parts.end * (load + change)
+        clock, load = now.clock, load + change
+        if row >= 0:
+            deeper, stored = instant * load + float(C @ memory), 0.5 * (instant * load**2 + float(C @ memory**2))
+            one, seen = moments[row], moments[row].seen
+            seen = seen._replace(
+                depth=seen.depth + deeper - first, stored=seen.stored + stored, dissipated=seen.dissipated + lost
+            )
+            moments[row] = replace(one, seen=seen, work=one.work + stored - held + lost)
+    return replace(track, moments=moments, stored=track.stored + held)
 
 
 def _first(task: _Task, cells: int, level: Level | None) -> Level:
