@@ -22,11 +22,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import Array, Indices
+from viscofric.arrays import Array
 from viscofric.errors import ConvergenceError
 from viscofric.motion.history import dense_parts
 from viscofric.motion.memory import StepParts, step_parts
-from viscofric.motion.springs import quadrature_error
+from viscofric.motion.springs import Springs, quadrature_error
 
 #: Steps of the first run, by the time of the contact's own oscillation, and their growth.
 _BY_STIFFNESS, _GROWTH = 0.14, 1.4
@@ -39,19 +39,6 @@ _SECANTS = 60
 _IN_FLIGHT = 40
 #: Parts of the time in which the indenter would fall back to where it left, at which the gap is looked at.
 _PARTS_OF_FLIGHT = np.geomspace(1e-6, 1.0, 100).tolist()
-
-
-@dataclass(frozen=True, eq=False)
-class Springs:
-    """A row of springs: profile and weights of the integral over both sides, and the modes of each."""
-
-    g: Array  # (n,) m
-    s: Array  # (n,) m
-    weights: Array  # (n,) m
-    instantaneous: float  # plane-strain compliance, 1/Pa
-    compliances: Array  # (modes,)
-    tau: Array
-    walled: bool = False  # whether the last spring is at the edge of a punch
 
 
 class _Step(NamedTuple):
@@ -143,10 +130,9 @@ class Bounce:
             step = next(planned, None) or self._next_step(step, stiffness, mesh is not None)
             a = g - force / m
             threshold, compliance = self._predict(step)
-            order = np.argsort(threshold, kind="stable")
-            b, weights = threshold[order], self.springs.weights[order]
             free = depth + v * step + step**2 * (2.0 * a + g) / 6.0
-            if free <= b[0]:  # nothing touches any more
+            found = self.springs.balance(threshold, free, step**2 / (6.0 * m * compliance), held=1.0)
+            if not found.touched:  # any more
                 taken.append(step)
                 step = self._separation(depth, v, a, step)
                 self._predict(step)
@@ -158,15 +144,9 @@ class Bounce:
                 self.taken.append(taken)
                 margin = self._largest_gap(final, -out)
                 return Contact(start, time, speed, -out, peak, deepest, deepest_time, final, True, margin, -out), final
-            share = step**2 / (6.0 * m * compliance)
-            total = np.cumsum(weights)
-            depths = (free + share * np.cumsum(weights * b)) / (1.0 + share * total)
-            enough = depths[:-1] <= b[1:]
-            last = int(np.argmax(enough))
-            last = last if enough[last] else len(enough)
-            if last == len(enough) and not self.springs.walled:
+            if found.touched == len(threshold) and not self.springs.walled:
                 raise ConvergenceError("the contact is wider than the row of springs.", code="beyond-springs")
-            new, stiffness = float(depths[last]), float(total[last]) / compliance
+            new, stiffness = found.depth, found.weight / compliance
             spring_forces = np.maximum(new - threshold, 0.0) / compliance
             force = float(self.springs.weights @ spring_forces)
             self._complete(spring_forces)
@@ -180,14 +160,14 @@ class Bounce:
                     deepest, deepest_time = at_most, time + part * step
             if v * v1 < 0.0:
                 reversals += 1
-            if reversals and new - float(b[0]) < margin:
-                margin, leaving = new - float(b[0]), max(-v1, 0.0)
+            if reversals and new - found.first < margin:
+                margin, leaving = new - found.first, max(-v1, 0.0)
             depth, v, time = new, v1, time + step
             peak = max(peak, _top(last_forces, (time, force))) if force >= 0.5 * peak else peak
             last_forces = (last_forces[1], (time, force))
             taken.append(step)
             if self.recorded:
-                self._record(start + time, depth, v, force, self._edge(order, b, new, last))
+                self._record(start + time, depth, v, force, self.springs.edge(spring_forces, threshold, new))
             resting = self.gravity > 0.0 and len(taken) >= _RESTING * self.division and abs(v) < _SLOW * speed
             if reversals >= _MOST_REVERSALS or resting:
                 self.taken.append(taken)
@@ -289,14 +269,6 @@ class Bounce:
                 break
             largest = gap
         return largest
-
-    def _edge(self, order: Indices, b: Array, depth: float, last: int) -> float:
-        """Return the contact radius between the last spring that touches and the next one."""
-        if last + 1 == len(b):
-            return float(self.springs.s[-1])
-        inner, outer = self.springs.s[order[last]], self.springs.s[order[last + 1]]
-        share = (depth - b[last]) / (b[last + 1] - b[last]) if b[last + 1] > b[last] else 0.0
-        return float(inner + (outer - inner) * share)
 
     def _record(self, time: float, depth: float, speed: float, force: float, radius: float) -> None:
         if self.recorded:

@@ -13,11 +13,11 @@ from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.errors import ConvergenceError, InputError, wrong_argument
-from viscofric.motion.bounce import Bounce, Springs
+from viscofric.motion.bounce import Bounce
 from viscofric.motion.impact_solution import ImpactContact, ImpactSolution, RestitutionCurve
 from viscofric.motion.memory import Modes
 from viscofric.motion.solution import TransientErrors, TransientSolution
-from viscofric.motion.springs import impact_radius, is_body_of_revolution, profile, row
+from viscofric.motion.springs import Springs, impact_radius, is_body_of_revolution, profile, row
 from viscofric.notes import Note, counted
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.threads import one_blas_thread

@@ -29,7 +29,7 @@ from viscofric.motion.memory import StepParts, quickest_time, recovery_at_depth,
 from viscofric.motion.mover import QUICK, Field, Mover, Observation, Sizes
 from viscofric.motion.problem import Problem
 from viscofric.motion.schedule import Instant, Schedule
-from viscofric.motion.springs import both_sides, elastic_radius, graded_row, quadrature_error
+from viscofric.motion.springs import Springs, both_sides, elastic_radius, graded_row, quadrature_error
 
 #: Springs from the axis to the largest edge for an accuracy of 1e-3, and their maximum number.
 SPRINGS, MOST_SPRINGS = 400, 2000
@@ -54,19 +54,13 @@ class SpringState:
     lost_error: float = 0.0  # of the dissipated energy by the distance of springs, J
 
 
-@dataclass(frozen=True, eq=False)
-class NormalMotion(Mover[SpringState]):
+@dataclass(frozen=True, eq=False, kw_only=True)
+class NormalMotion(Springs, Mover[SpringState]):
     """Mover of a body of revolution that moves along its axis; see the module."""
 
     indenter: Indenter
     schedule: Schedule
-    glassy: float  # c∞, 1/Pa
-    compliances: Array  # c_k, (modes,)
-    tau: Array
     radius: float  # largest edge, m
-    s: Array
-    g: Array
-    weights: Array  # of ∫ over both sides
     spacing: float  # largest distance of springs up to the edge, m
 
     @classmethod
@@ -88,15 +82,16 @@ class NormalMotion(Mover[SpringState]):
             radius = elastic_radius(indenter, largest, None, soft)
         edge = _MARGIN * radius if not indenter.has_walls else radius
         count = min(max(SPRINGS, round(SPRINGS * math.sqrt(1e-3 / problem.accuracy))), MOST_SPRINGS)
+        s, g, weights = graded_row(indenter, edge, count)
         return cls(
-            indenter, schedule, glassy, compliances, spectrum.tau[keep], radius, *graded_row(indenter, edge, count),
-            spacing=edge / count,
+            g, s, weights, glassy, compliances, spectrum.tau[keep], indenter.has_walls, indenter=indenter,
+            schedule=schedule, radius=radius, spacing=edge / count,
         )  # fmt: skip
 
     @cached_property
     def quickest(self) -> float:
         """Time in which the response to a jump changes noticeably, s of the clock."""
-        return quickest_time(self.glassy, self.compliances, self.tau)
+        return quickest_time(self.instantaneous, self.compliances, self.tau)
 
     @cached_property
     def scales(self) -> Sizes:
@@ -104,11 +99,10 @@ class NormalMotion(Mover[SpringState]):
         largest = self.schedule.largest
         if largest <= 0.0:
             return Sizes(1.0, 1.0, 1.0, 1.0)
-        soft = self.glassy + float(self.compliances.sum())
         if self.schedule.control == "load":
-            depth, load = self._depth(self.g, self.glassy, largest), largest
+            depth, load = self.balance(self.g, largest * self.instantaneous).depth, largest
         else:
-            depth, load = largest, self._load(self._force(self.g, soft, largest))
+            depth, load = largest, self._load(self._force(self.g, self.relaxed, largest))
         return Sizes(load, depth, load, load * depth)
 
     def begin(self) -> SpringState:
@@ -118,8 +112,7 @@ class NormalMotion(Mover[SpringState]):
         if self.schedule.before == "untouched":
             return untouched
         first = self.schedule.at(self.schedule.start, after=False)
-        soft = self.glassy + float(self.compliances.sum())
-        depth, force = self._pressed(self.g, soft, first)
+        depth, force = self._pressed(self.g, self.relaxed, first)
         memory = np.repeat(force[:, None], len(self.tau), axis=1)
         return SpringState(depth, self._carried(force, first), force, memory, 0.0, self.g)
 
@@ -128,7 +121,7 @@ class NormalMotion(Mover[SpringState]):
         steps, c = (end.clock - start.clock) / self.tau, self.compliances
         parts = step_parts(steps)
         known = state.memory @ (c * parts.decay) + state.force * float(c @ parts.start)
-        compliance = self.glassy + float(c @ parts.end)
+        compliance = self.instantaneous + float(c @ parts.end)
         threshold = self.g + known
         depth, force = self._pressed(threshold, compliance, end)
         memory = state.memory * parts.decay + state.force[:, None] * parts.start + force[:, None] * parts.end
@@ -155,7 +148,7 @@ class NormalMotion(Mover[SpringState]):
         if not quick.any():
             return state
         known = state.memory[:, ~quick] @ self.compliances[~quick]
-        depth, force = self._pressed(self.g + known, self.glassy + float(self.compliances[quick].sum()), instant)
+        depth, force = self._pressed(self.g + known, self.instantaneous + float(self.compliances[quick].sum()), instant)
         memory = np.where(quick, force[:, None], state.memory)
         found = SpringState(depth, self._carried(force, instant), force, memory, state.dissipated, self.g + known)
         lost = found.load * (depth - state.depth) - (self._stored(found) - self._stored(state))
@@ -164,7 +157,7 @@ class NormalMotion(Mover[SpringState]):
 
     def observe(self, state: SpringState) -> Observation:
         """Return load, depth, radius and energies."""
-        radius = self._edge(state)
+        radius = self.edge(state.force, state.threshold, state.depth)
         extents = {"contact_radius": radius, "dent": float(state.memory[0] @ self.compliances)}
         if state.force[0] > 0.0:
             extents["dent"] = float(state.depth)
@@ -174,12 +167,12 @@ class NormalMotion(Mover[SpringState]):
         )  # fmt: skip
 
     def _stored(self, state: SpringState) -> float:
-        squares = self.glassy * np.square(state.force) + np.square(state.memory) @ self.compliances
+        squares = self.instantaneous * np.square(state.force) + np.square(state.memory) @ self.compliances
         return 0.5 * float(self.weights @ squares)
 
     def _left_out(self, state: SpringState) -> Sizes:
         """Return the discretisation errors of the springs, caused by a force that is not smooth at the contact edge."""
-        if self.indenter.has_walls:
+        if self.walled:
             return Sizes(0.0, 0.0, 0.0, 0.0)
         least = (self.spacing / self.radius) ** 2
         load = quadrature_error(state.force, self.s)
@@ -187,8 +180,7 @@ class NormalMotion(Mover[SpringState]):
         depth = least * abs(state.depth)
         if load > 0.0 and state.load > 0.0:
             # Where a load has nearly gone, its error moves only the few springs that touch.
-            soft = self.glassy + float(self.compliances.sum())
-            now = load * soft / float(self.weights @ (state.force > 0.0))
+            now = load * self.relaxed / float(self.weights @ (state.force > 0.0))
             depth = max(depth, min(load / state.load * abs(state.depth), now))
         return Sizes(load, depth, 0.0, energy)
 
@@ -203,7 +195,7 @@ class NormalMotion(Mover[SpringState]):
 
     def accept(self, state: SpringState, instant: Instant) -> None:
         """Raise `ConvergenceError` where the contact is wider than the row."""
-        if state.force[-1] > 0.0 and not self.indenter.has_walls:
+        if state.force[-1] > 0.0 and not self.walled:
             raise ConvergenceError(
                 f"at time {instant.time:.4g} s the contact is wider than the row of springs.", code="beyond-springs"
             )
@@ -231,7 +223,7 @@ class NormalMotion(Mover[SpringState]):
         levels = np.ceil(touched * _LEVELS) / _LEVELS
         for level in np.unique(levels[levels > 0.0]):
             these = levels == level
-            matrix = recovery_at_depth(self.glassy / level, self.compliances, self.tau, period)
+            matrix = recovery_at_depth(self.instantaneous / level, self.compliances, self.tau, period)
             found[these] = (change - common)[these] @ matrix.T
         return np.asarray(found + common / freely)
 
@@ -266,7 +258,7 @@ class NormalMotion(Mover[SpringState]):
         """Return the depth, and the forces of springs with these thresholds and this compliance."""
         if instant.depth is not None:
             return instant.depth, self._force(threshold, compliance, instant.depth)
-        depth = self._depth(threshold, compliance, float(instant.load))  # type: ignore[arg-type]
+        depth = self.balance(threshold, float(instant.load) * compliance).depth  # type: ignore[arg-type]
         return depth, self._force(threshold, compliance, depth)
 
     @staticmethod
@@ -279,27 +271,6 @@ class NormalMotion(Mover[SpringState]):
 
     def _load(self, force: Array) -> float:
         return float(self.weights @ force)
-
-    def _depth(self, threshold: Array, compliance: float, load: float) -> float:
-        """Return the depth at which springs touched one after the other carry the load, or the first is touched."""
-        order = np.argsort(threshold, kind="stable")
-        sorted_threshold, weights = threshold[order], self.weights[order]
-        if load == 0.0:
-            return float(sorted_threshold[0])
-        depths = (load * compliance + np.cumsum(weights * sorted_threshold)) / np.cumsum(weights)
-        enough = depths <= np.append(sorted_threshold[1:], np.inf)
-        return float(depths[int(np.argmax(enough))])
-
-    def _edge(self, state: SpringState) -> float:
-        """Return the contact radius, within a spacing by the thresholds."""
-        touching = np.flatnonzero(state.force > 0.0)
-        if not len(touching):
-            return 0.0
-        last = int(touching[-1])
-        if last + 1 == len(self.s):
-            return float(self.s[-1])
-        inside, outside = state.depth - state.threshold[last], state.threshold[last + 1] - state.depth
-        return float(self.s[last] + (self.s[last + 1] - self.s[last]) * inside / (inside + outside))
 
 
 def _lost(first: Array, last: Array, memory: Array, parts: StepParts, compliances: Array) -> Array:

@@ -455,7 +455,7 @@ def _speed_on_waves(
     if not moving:
         return ()
 
-    def waves_of(one: Moment[Any], velocity: Array) -> tuple[Any, ...]:
+    def waves_of(one: Moment[Any], velocity: Array) -> tuple[PeriodicSurface, SlidingSolid, Any, Any, float]:
         assert one.field is not None
         toward = tuple((velocity / math.hypot(*velocity)).tolist())
         material, layer, along = problem.material, problem.layer, tuple(velocity.tolist())
@@ -469,4 +469,7 @@ def _speed_on_waves(
     fastest = max(moving, key=lambda each: math.hypot(*each[1]))
     time = fastest[0].instant.time
     clock = problem.schedule.rates(time, time)[0]
-    return (*beyond_measured(*waves_of(*hardest)), *too_fast(*waves_of(*fastest), clock, f"at {time:.3g} s"))
+    return (
+        *beyond_measured(*waves_of(*hardest)),
+        *too_fast(*waves_of(*fastest), clock=clock, where=f"at {time:.3g} s"),
+    )

@@ -18,6 +18,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -36,6 +38,60 @@ _BISECTIONS = 200
 _GRADING, _FIRST = 8, 1e-3
 #: Springs beyond the edge, and how far.
 _FAR, _FARTHEST = 60, 4.0
+
+
+class Balance(NamedTuple):
+    """Springs that touch one after the other, up to where they are in balance."""
+
+    depth: float  # m
+    first: float  # depth at which the first of them touches, m
+    touched: int  # number of springs that touch
+    weight: float  # sum of their weights, m
+
+
+@dataclass(frozen=True, eq=False)
+class Springs:
+    """A row of springs: profile and weights of the integral over both sides, and the modes of each."""
+
+    g: Array  # (n,) m
+    s: Array  # (n,) m
+    weights: Array  # (n,) m
+    instantaneous: float  # plane-strain compliance, 1/Pa
+    compliances: Array  # (modes,)
+    tau: Array
+    walled: bool = False  # whether the last spring is at the edge of a punch
+
+    @property
+    def relaxed(self) -> float:
+        """Compliance after an infinite time, 1/Pa."""
+        return self.instantaneous + float(self.compliances.sum())
+
+    def balance(self, threshold: Array, free: float, share: float = 1.0, held: float = 0.0) -> Balance:
+        """Return where held δ + share Σ w (δ − b) = free, the sum over the springs that touch at δ; (n,) thresholds b.
+
+        With the load times the compliance for `free` they carry the load.  Where nothing touches, δ is free over held,
+        or without `held` the depth at which the first one is touched.
+        """
+        order = np.argsort(threshold, kind="stable")
+        b, weights = threshold[order], self.weights[order]
+        first = float(b[0])
+        if free <= held * first:
+            return Balance(free / held if held else first, first, 0, 0.0)
+        total = np.cumsum(weights)
+        depths = (free + share * np.cumsum(weights * b)) / (held + share * total)
+        last = int(np.argmax(depths <= np.append(b[1:], np.inf)))
+        return Balance(float(depths[last]), first, last + 1, float(total[last]))
+
+    def edge(self, force: Array, threshold: Array, depth: float) -> float:
+        """Return the contact radius between the last spring that touches and the next one, by their thresholds, m."""
+        touching = np.flatnonzero(force > 0.0)
+        if not len(touching):
+            return 0.0
+        last = int(touching[-1])
+        if last + 1 == len(self.s):
+            return float(self.s[-1])
+        inside, outside = depth - threshold[last], threshold[last + 1] - depth
+        return float(self.s[last] + (self.s[last + 1] - self.s[last]) * inside / (inside + outside))
 
 
 def quadrature_error(values: Array, s: Array) -> float:

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import Array
-from viscofric.motion.bounce import Springs
+from viscofric.arrays import Array, Mask
 from viscofric.motion.memory import step_coefficients
+from viscofric.motion.springs import Springs
 
 
 @dataclass(frozen=True)
@@ -130,46 +130,27 @@ def _moved(
     given: Array | Falling,
     control: str,
     number: int,
-) -> tuple[_Point, Array]:
+) -> tuple[_Point, Mask]:
     """Return depth, velocity and load at the end of a step, and which springs touch then."""
-    falling = given if isinstance(given, Falling) else None
-    order = np.argsort(threshold, kind="stable")
-    b, weights = threshold[order], springs.weights[order]
-    total, sums = np.cumsum(weights), np.cumsum(weights * b)
-    share, free, freed = 0.0, 0.0, np.zeros(len(stiffer))
+    moved, freed, wanted, share, held = np.zeros(len(stiffer)), np.zeros(len(stiffer)), 0.0, 1.0, 0.0
     if isinstance(given, Falling):
         a, moved_a = given.gravity - now.load / given.mass, -now.load_change / given.mass
         free = now.depth + now.velocity * step + step**2 * (2.0 * a + given.gravity) / 6.0
         freed = now.depth_change + now.velocity_change * step + step**2 * moved_a / 3.0
-        share = step**2 / (6.0 * given.mass * compliance)
-        depths = (free + share * sums) / (1.0 + share * total)
-        nothing = free <= b[0]
-    elif control == "load":
-        load = float(given[number])
-        depths, nothing = (load * compliance + sums) / total, load <= 0.0
+        share, held = step**2 / (6.0 * given.mass * compliance), 1.0
     else:
-        depths = np.full(len(b), float(given[number]))
-        nothing = depths[0] <= b[0]
-    if nothing:
-        touching, depth = np.zeros(len(b), dtype=bool), free if falling else float(depths[0])
-        moved = freed
-        if control == "load":
-            depth, moved = float(b[0]), change[:, order[0]]
-        load, loaded = 0.0, np.zeros(len(stiffer))
-    else:
-        last = int(np.argmax(depths <= np.append(b[1:], np.inf)))
-        depth = float(depths[last])
-        touching = threshold < depth
-        w = springs.weights * touching
-        W, pushed = float(w.sum()), change @ w
-        load = float(w @ (depth - threshold)) / compliance
-        if falling:
-            moved = (freed + share * (pushed + load * stiffer)) / (1.0 + share * W)
-        elif control == "load":
-            moved = (pushed + load * stiffer) / W
-        else:
-            moved = np.zeros(len(stiffer))
-        loaded = (W * moved - pushed - load * stiffer) / compliance
+        wanted = float(given[number])
+        free = wanted * compliance
+    depth = wanted if control == "indentation" else springs.balance(threshold, free, share, held).depth
+    touching = threshold < depth
+    w = springs.weights * touching
+    W, pushed = float(w.sum()), change @ w
+    load = float(w @ (depth - threshold)) / compliance
+    if W == 0.0 and control == "load":
+        moved = change[:, int(np.argmin(threshold))]
+    elif control != "indentation":
+        moved = (freed + share * (pushed + load * stiffer)) / (held + share * W)
+    loaded = (W * moved - pushed - load * stiffer) / compliance
     if isinstance(given, Falling):
         velocity = now.velocity + step * (given.gravity - 0.5 * (now.load + load) / given.mass)
         faster = now.velocity_change - 0.5 * step * (now.load_change + loaded) / given.mass

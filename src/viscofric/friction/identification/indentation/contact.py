@@ -13,8 +13,7 @@ from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, FlatPunch
 from viscofric.friction.identification.moduli import compliance, log_modulus
-from viscofric.motion.bounce import Springs
-from viscofric.motion.springs import both_sides, disc_profile
+from viscofric.motion.springs import Springs, both_sides, disc_profile
 
 
 class Shared(NamedTuple):
