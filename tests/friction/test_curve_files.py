@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from dataclasses import fields, replace
@@ -262,13 +263,65 @@ def test_friction_of_any_origin_is_noted_and_traction_runs_are_refused(tmp_path:
         text = FOREIGN if columns is None else path.read_text()
         (tmp_path / "stated.csv").write_text(text, encoding="utf-8")
         assert "total-friction" not in codes(vf.read_friction_curves(tmp_path / "stated.csv", columns=columns).notes)
-    for speeds in ("rolling speed (mm/s);sliding speed (mm/s)", "disc speed (mm/s);ball speed (mm/s)"):
+    speeds = ("rolling speed (mm/s);sliding speed (mm/s)", "disc speed (mm/s);ball speed (mm/s)")
+    for header, friction in itertools.product(speeds, ("friction coefficient;0.03", "friction force (N);0.75")):
         runs = tmp_path / "runs.csv"
-        runs.write_text(f"{speeds};temperature (degC);load (N);friction coefficient\n20;1;30;25;0.03\n", "utf-8")
+        name, value = friction.split(";")
+        runs.write_text(f"{header};temperature (degC);load (N);{name}\n20;1;30;25;{value}\n", "utf-8")
         assert not holds_friction_curves(runs)
         with refused("traction-runs", DataFileError):
             vf.read_friction_curves(runs)
         assert vf.read_mtm(runs).traction_force == pytest.approx([0.75], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        "speed (mm/s),load (N),friction force (N)\n20,25,10\n200,50,15\n",
+        "speed (m/min),Fn (kgf),Ff (gf)\n1.2,2.5,1000\n12,5,1500\n",
+        "v (rpm),track radius (m),load (N),Reibkraft (kN)\n30,0.1,25,.01\n300,0.1,50,.015\n",
+        "speed (mm/s),load (N/m),friction force (N/m)\n20,25,10\n200,50,15\n",
+        "speed (mm/s),friction force 25 N (N)\n20,10\n200,7.5\n",
+    ],
+)
+def test_forces_of_friction_are_read_as_coefficients_in_any_unit(tmp_path: Path, table: str) -> None:
+    """A friction force over the load is the coefficient, which includes Coulomb friction."""
+    found = read(tmp_path, table, columns={"temperature": "= 30 degC"})
+    assert found.viscoelastic == pytest.approx([0.4, 0.3], rel=1e-12)
+    assert found.speed[1] / found.speed[0] == pytest.approx(10.0, rel=1e-12)
+    assert "total-friction" in codes(found.notes)
+    assert "unused-columns" not in codes(found.notes)
+    assert holds_friction_curves(tmp_path / "curves.csv")
+
+
+def test_columns_of_a_lubricated_test_are_noted(tmp_path: Path) -> None:
+    header = "speed (mm/s),load (N),COF,viscosity (Pa s),Hersey number"
+    columns = {"temperature": "= 30 degC"}
+    found = read(tmp_path, f"{header}\n20,25,0.2,0.1,8e-5\n", columns=columns)
+    assert {"lubricated", "unused-columns"} <= set(codes(found.notes))
+    assert "lubricated" not in codes(read(tmp_path, "speed (mm/s),load (N),COF\n20,25,0.2\n", columns=columns).notes)
+    runs = tmp_path / "runs.csv"
+    runs.write_text("disc speed (mm/s),ball speed (mm/s),load (N),traction force (N),Lubricant\n20,18,25,0.2,PAO\n")
+    assert "lubricated" in codes(vf.read_mtm(runs, columns=columns).notes)
+
+
+def test_a_coefficient_is_preferred_to_its_force_and_zero_load_has_none(tmp_path: Path) -> None:
+    table = "speed (mm/s),load (N),friction force (N),COF\n20,25,10,0.41\n"
+    columns = {"temperature": "= 30 degC"}
+    assert read(tmp_path, table, columns=columns).viscoelastic.tolist() == [0.41]
+    with refused("out-of-range", DataFileError):
+        read(tmp_path, "speed (mm/s),load (N),friction force (N)\n20,0,10\n", columns=columns)
+    with refused("wrong-unit", DataFileError):
+        read(tmp_path, "speed (mm/s),load (N/m),friction force (N)\n20,25,10\n", columns=columns)
+
+
+@pytest.mark.parametrize("friction", ["COF", "friction force (N)"])
+def test_sliding_friction_of_both_directions_is_refused(tmp_path: Path, friction: str) -> None:
+    """Signed by the direction of motion it is no friction to be read as it is; noise about zero is."""
+    columns = {"temperature": "= 30 degC", "load": "= 1 N"}
+    with refused("both-directions", DataFileError):
+        read(tmp_path, f"speed (mm/s),{friction}\n20,0.41\n20,-0.38\n", columns=columns)
+    assert read(tmp_path, f"speed (mm/s),{friction}\n20,0.41\n200,-0.01\n", columns=columns).viscoelastic.min() < 0.0
 
 
 def test_headings_of_curves_are_found_as_those_of_any_table(tmp_path: Path) -> None:

@@ -285,7 +285,7 @@ def test_lines_above_a_table_replace_none_of_its_columns(
         ([["", "Friction force (N)", ""], [SPEED, "5 N", "10 N"]], "quantity-unknown", "'Friction force (N)'"),
         ([["", "temperature rise", ""], [SPEED, "5 N", "10 N"]], "quantity-unknown", "'temperature rise'"),
         ([["Reibkraft", "", ""], [SPEED, "5 N", "10 N"]], "quantity-unknown", "'Reibkraft'"),
-        ([[SPEED, "friction force 5 N (N)", "friction force 10 N (N)"]], "missing-columns", "'friction force 5 N (N)'"),
+        ([[SPEED, "wear force 5 N (N)", "wear force 10 N (N)"]], "missing-columns", "'wear force 5 N (N)'"),
         ([[SPEED, "NR 5 N", "SBR 5 N"]], "missing-columns", "'NR 5 N'"),
         ([[SPEED, "µ static 5 N", "µ kinetic 5 N"]], "missing-columns", "'µ static 5 N'"),
         ([[SPEED, "COF 0.2 MPa", "COF 0.4 MPa"]], "missing-columns", "'COF 0.2 MPa'"),

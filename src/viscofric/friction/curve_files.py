@@ -43,6 +43,10 @@ _MOST_REPLICATES = 1e9
 _OF_HEADINGS = ("two-values", "number-without-unit", "dash-or-minus", "quantity-unknown")
 #: Larger numbers under headings such as "5 N" are not taken for coefficients of friction.
 _LARGEST_UNNAMED = 2.0
+#: Sliding friction below zero by more than this part of the largest is that of the other direction.
+_LEAST_BACKWARDS = 0.1
+#: Heading of coefficients computed here, and its beginning.
+_OF_FORCES = "friction force over load"
 #: As results of studies name viscoelastic friction.
 _OF_RESULTS = "friction_coefficient"
 
@@ -108,10 +112,10 @@ def read_friction_curves(
         What `write_friction_curves` or `viscofric export` wrote; or a table, text or workbook, with the columns
         ``speed``, ``temperature``, ``load`` and ``viscoelastic friction``, and optionally ``viscoelastic friction
         standard error``, ``… scatter``, ``… degrees of freedom``, ``replicates``, ``Coulomb friction``, its standard
-        error, scatter and degrees of freedom, and ``slip``.  Units stand in the headings, such as ``speed (mm/s)``;
-        coefficients have none, or are in ``%``.  The load of a line contact is in N/m.  Temperature, load
-        or speed without a column may stand in the headings of curves beside each other, such as ``viscoelastic
-        friction 25 °C`` or ``COF 5 N``, or above tables.
+        error, scatter and degrees of freedom, and ``slip``.  A ``friction force`` without a coefficient is divided by
+        the load.  Units stand in the headings, such as ``speed (mm/s)``; coefficients have none, or are in ``%``.  The
+        load of a line contact is in N/m.  Temperature, load or speed without a column may stand in the headings of
+        curves beside each other, such as ``viscoelastic friction 25 °C`` or ``COF 5 N``, or above tables.
     columns : mapping, optional
         Headings that are not understood, by quantity: ``{"viscoelastic_friction": "mu_v", "speed": "v1 (mm/s)"}``.  A
         unit in brackets counts instead of that of the file; ``"#3 (N)"`` is the third column, ``"= 20 N"`` a value of
@@ -146,7 +150,7 @@ def read_friction_curves(
     if _is_of_runs(table):
         problem = "this is a table of traction runs, whose friction is not separated yet"
         raise DataFileError(str(path), problem, code="traction-runs", remedy=AS_RUNS)
-    table, notes = _with_temperatures(table)
+    table, notes = _with_temperatures(_with_coefficients(table))
     places = _places(table)
     unit = table.load_unit(places["load"])
     _insist_on_absolute_errors(table, places)
@@ -163,8 +167,14 @@ def read_friction_curves(
     if _is_any_friction(column := table.columns[places["viscoelastic"]]):
         said = f"Column {column.heading!r} was read as viscoelastic friction; friction measured in sliding includes "
         notes.append(Note("total-friction", said + "Coulomb friction, which must be subtracted first."))
+        if found["viscoelastic"].min() < -_LEAST_BACKWARDS * np.max(np.abs(found["viscoelastic"])):
+            problem = (
+                f"column {column.heading!r} has values below zero, as of both directions of motion; give the mean "
+            )
+            raise table.refused("both-directions", problem + "magnitude of both directions in one row.")
     radius = table.place("track radius") if is_revolutions(table.columns[places["speed"]].unit) else None
-    unused = [column.heading for column in table.unused([*places.values(), radius])]
+    force = table.place("friction force") if column.heading.startswith(_OF_FORCES) else None
+    unused = [column.heading for column in table.unused([*places.values(), radius, force])]
     if unused:
         said = f"Columns of the file of friction curves that are not read: {', '.join(map(repr, unused))}."
         notes.append(Note("unused-columns", said, values={"headings": unused}))
@@ -188,15 +198,18 @@ def read_friction_curves(
 
 
 def holds_friction_curves(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> bool:
-    """Return whether a file has a column of viscoelastic friction, not of a tribometer's runs; False if unreadable."""
-    # So has one of which `columns` names the viscoelastic friction.
-    if any(quantity_of(name) == "viscoelastic friction" for name in columns or {}):
+    """Return whether a file has a column of friction, not of a tribometer's runs; False if unreadable."""
+    # So has one of which `columns` names the friction.
+    if any(quantity_of(name) in ("viscoelastic friction", "friction force") for name in columns or {}):
         return True
     try:
         tables = find_tables(Source(str(path), bytes_of(str(path))), CURVES).values()
     except DataFileError as error:
         return error.code in _OF_HEADINGS
-    return any(table.has("viscoelastic friction") and not _is_of_runs(table) for table in tables)
+    held = [table for table in tables if not _is_of_runs(table)]
+    return any(
+        table.has("viscoelastic friction") or (table.has("friction force") and table.has("speed")) for table in held
+    )
 
 
 def _is_any_friction(column: Column) -> bool:
@@ -205,11 +218,10 @@ def _is_any_friction(column: Column) -> bool:
 
 
 def _is_of_runs(table: Table) -> bool:
-    """Return whether a table has coefficients of friction beside the two speeds of a tribometer with slip."""
-    coefficients = [column for column in table.columns if column.quantity == "viscoelastic friction"]
+    """Return whether a table has friction of any origin beside the two speeds of a tribometer with slip."""
+    friction = [column for column in table.columns if column.quantity in ("viscoelastic friction", "friction force")]
     held = {TRACTION.quantity(column.name) for column in table.columns if not column.given}
-    two_speeds = "rolling speed" in held or {"disc speed", "ball speed"} <= held
-    return two_speeds and any(map(_is_any_friction, coefficients))
+    return not held.isdisjoint(("rolling speed", "ball speed")) and any(map(_is_any_friction, friction))
 
 
 def _cell(value: float) -> str:
@@ -235,6 +247,19 @@ def _with_temperatures(table: Table) -> tuple[Table, list[str]]:
         problem = "holds several tables below or beside each other, which may differ in more than temperature; "
         raise DataFileError(table.path, problem + "give each a file of its own.", code="several-tables")
     return table, []
+
+
+def _with_coefficients(table: Table) -> Table:
+    """Return the table with a column of friction forces over loads, where it has no coefficients."""
+    force, load = table.place("friction force"), table.place("load")
+    if table.has("viscoelastic friction") or force is None or load is None:
+        return table
+    unit = table.load_unit(load)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        coefficients = table.values(force, unit) / _read_column(table, "load", load, unit)
+    heading = f"{_OF_FORCES}: {table.columns[force].heading} / {table.columns[load].heading}"
+    column = Column(heading, _OF_FORCES, "", "viscoelastic friction")
+    return table.with_column(column, [repr(value) for value in coefficients.tolist()])
 
 
 def _places(table: Table) -> dict[str, int]:

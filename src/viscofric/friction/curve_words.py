@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from viscofric.readers.dma.names import TEMPERATURE
 from viscofric.readers.headings import Vocabulary
-from viscofric.readers.mtm.delimited import COEFFICIENT, LOAD
+from viscofric.readers.mtm.delimited import COEFFICIENT, FRICTION_FORCE, LOAD, LUBRICANT
 
 _SPEEDS = (
     *("v", "velocity", "sliding speed", "sliding velocity", "disc speed", "disk speed", "linear speed", "lin. speed"),
@@ -52,8 +52,9 @@ _NEEDED = ("speed", "temperature", "load", "viscoelastic")
 CURVES = Vocabulary(
     "a table of friction curves",
     {heading.lower(): frozenset({heading, heading.lower(), *others}) for _, heading, others in COLUMNS.values()}
-    | {"temperature": TEMPERATURE, "track radius": frozenset({"track radius", "wear track radius"})},
-    needed=tuple((COLUMNS[name][1],) for name in _NEEDED),
+    | {"temperature": TEMPERATURE, "track radius": frozenset({"track radius", "wear track radius"})}
+    | {"friction force": FRICTION_FORCE, "lubricant": LUBRICANT},
+    needed=tuple((COLUMNS[name][1], *(["friction force"] * (name == "viscoelastic"))) for name in _NEEDED),
     example="friction curves have 'speed (mm/s)', 'temperature (degC)', 'load (N)' and 'viscoelastic friction'",
     key="measurement.columns",
     offered=(

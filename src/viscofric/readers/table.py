@@ -237,12 +237,13 @@ class Table:
 
     @property
     def heading_notes(self) -> list[Note]:
-        """Notes on logarithms whose base is assumed, on means, on loads in kg, and on what stood in headings."""
+        """Notes on assumed bases of logarithms, means, loads in kg, films of fluid, and on what stood in headings."""
         decadic = [repr(column.heading) for column in self.columns if column.assumed_decadic]
         means = [repr(column.heading) for column in self.columns if column.is_mean]
         alone = next((repr(column.heading) for column in self.columns if column.alone), "")
         masses = [repr(one.heading) for one in self.columns if one.quantity and one.unit in MASSES]
         above = [repr(column.heading) for column in self.columns if column.above]
+        wet = [repr(column.heading) for column in self.columns if column.quantity == "lubricant"]
         spread = [repr(column.heading) for column in self.columns if column.spread]
         milli = [repr(column.heading) for column in self.columns if column.quantity and MILLIPASCAL in column.unit]
         headings = {column.heading for column in self.columns}
@@ -255,6 +256,11 @@ class Table:
                 f"Column {alone} and those beside it name no quantity; they were read as {self.vocabulary.alone}.",
             ),
             ("value-from-above", above, f"For all rows, as lines above the table state: {', '.join(above)}."),
+            (
+                "lubricated",
+                wet,
+                f"Headings suggest a lubricated test, with friction of a film outside the model: {', '.join(wet)}.",
+            ),
             ("value-spread", spread, f"Blank cells of {' and '.join(spread)} were read as the value above them."),
             ("unit-assumed", milli, f"Read in MPa, as mPa (millipascal) is no unit of solids: {', '.join(milli)}."),
             (

@@ -387,10 +387,11 @@ def _insist_on_words(table: Table) -> None:
     if alone is None:
         return
     over = next((line[1] for title in table.titles for line in title[-1:] if len(line) > 1), "")
+    instead = {what for some in table.vocabulary.needed if alone.quantity in some for what in some} - {alone.quantity}
     for cell in (cell.strip() for row in table.above for cell in row if cell.strip()):
         one = table.vocabulary.column(cell.partition(":")[0])
         unit = one.unit and not table.vocabulary.has_value(cell)
-        if not one.quantity and (unit or cell == over or _NO_COEFFICIENT.search(cell)):
+        if one.quantity in ("", *instead) and (unit or cell == over or _NO_COEFFICIENT.search(cell)):
             problem = f"heading {alone.heading!r} and those beside it name no quantity, and above them is {cell!r}; "
             right = f"write the quantity into each heading, such as 'COF {alone.heading}' for coefficients of friction."
             raise table.refused("quantity-unknown", problem + right)

@@ -40,6 +40,17 @@ LOAD = frozenset(
     | {"charge", "charge normale", "force normale", "carga", "carga normal", "fuerza normal", "carico", "forza normale"}
     | {"belasting", "normaalkracht", "荷重", "垂直荷重", "载荷", "荷载", "法向力"}
 )
+#: Names of the force of sliding friction.
+FRICTION_FORCE = frozenset(
+    {"friction force", "frictional force", "tangential force", "Ff", "ff", "F_f", "f_f", "reibkraft", "reibungskraft"}
+    | {"force de frottement", "forza di attrito", "fuerza de fricción", "wrijvingskracht", "摩擦力", "摩擦荷重"}
+)
+#: Names of columns of tests with a film of fluid, which nothing is computed from.
+LUBRICANT = frozenset(
+    {"lubricant", "viscosity", "dynamic viscosity", "kinematic viscosity", "film thickness", "lambda ratio"}
+    | {"hersey number", "hersey", "stribeck number", "sommerfeld number", "gumbel number"}
+    | {"schmierstoff", "viskosität", "schmierfilmdicke", "lubrifiant", "viscosité", "lubricante", "viscosidad"}
+)
 #: What to do with traction runs in place of friction curves or sweeps.
 AS_RUNS = Remedy(
     "; use read_mtm, or name it as mtm under [measurement] of a run file.",
@@ -63,10 +74,7 @@ TRACTION = Vocabulary(
             | {"kugelgeschwindigkeit", "vitesse de la bille", "ボール速度"}
         ),
         "load": LOAD | {"ball load"},
-        "traction force": frozenset(
-            {"traction force", "traction", "friction force", "reibkraft", "reibungskraft", "traktionskraft"}
-            | {"force de frottement", "forza di attrito", "fuerza de fricción", "摩擦力"}
-        ),
+        "traction force": FRICTION_FORCE | {"traction force", "traction", "traktionskraft"},
         "rolling speed": frozenset(
             {"rolling speed", "entrainment speed", "entrainment velocity", "mean speed"}
             | {"rollgeschwindigkeit", "vitesse de roulement"}
@@ -90,6 +98,7 @@ TRACTION = Vocabulary(
         "track radius": frozenset({"track radius", "disc track radius"}),
         "replicate": frozenset({"replicate", "repetition", "repeat", "wiederholung", "répétition"}),
         "step": frozenset({"step", "step number"}),
+        "lubricant": LUBRICANT,
     },
     needed=(("disc speed", "ball speed", "rolling speed"), ("traction force", "traction coefficient")),
     example="a table of traction runs has e.g. 'temperature (degC)', 'disc speed (mm/s)', 'ball speed (mm/s)', "
