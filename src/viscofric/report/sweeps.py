@@ -14,6 +14,7 @@ from viscofric.datasets import Dataset, DataTree
 from viscofric.report.results import group
 from viscofric.report.texts.numbers import degrees, length, megapascals, short, speed
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
+from viscofric.study.cases.sweep import COORDINATES
 
 #: Dimension of results that are listed case by case.
 CASE = "case"
@@ -24,34 +25,7 @@ SEED = "seed"
 #: Most lines in one panel, and most panels in one figure: more are not read.
 MOST_LINES, MOST_PANELS = 8, 9
 
-#: What else than speed and temperature may vary, in the order in which it is listed.
-VARIED = (
-    "material",
-    "sample",
-    "radius",
-    "radius_x",
-    "radius_y",
-    "angle",
-    "thickness",
-    "seed",
-    "pressure",
-    "direction",
-    "load",
-)
 _SPEED, _TEMPERATURE = "speed", "temperature"
-# coordinate -> its unit on a figure's axis, and what an SI number is divided by (temperatures: less 273.15)
-_UNITS = {
-    "speed": ("mm/s", 1e-3),
-    "temperature": ("°C", 1.0),
-    "radius": ("mm", 1e-3),
-    "thickness": ("mm", 1e-3),
-    "radius_x": ("mm", 1e-3),
-    "radius_y": ("mm", 1e-3),
-    "angle": ("°", math.pi / 180.0),
-    "direction": ("°", math.pi / 180.0),
-    "pressure": ("kPa", 1e3),
-}
-_SYMBOLS = {"speed": "$v$", "load": "$F$", "radius": "$R$", "thickness": "$h$"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +84,7 @@ def axis_of(dataset: Dataset, dimension: str) -> SweepAxis:
 
 def _is_index(dataset: Dataset, name: str, dimension: str, along: list[str]) -> bool:
     """Whether a coordinate merely counts the points of a dimension that has others to be named by."""
-    return name == dimension and len(along) > 1 and name not in _UNITS and name != "load"
+    return name == dimension and len(along) > 1 and name not in COORDINATES
 
 
 def _spoken(name: str) -> str:
@@ -120,13 +94,17 @@ def _spoken(name: str) -> str:
 def on_axis(name: str, numbers: object) -> Array:
     """Return SI numbers of a coordinate in the unit of a figure's axis."""
     numbers = np.asarray(numbers, dtype=float)
-    return numbers - 273.15 if name == _TEMPERATURE else numbers / _UNITS.get(name, ("", 1.0))[1]
+    if name == _TEMPERATURE:
+        return numbers - 273.15
+    return numbers / COORDINATES[name].scale if name in COORDINATES else numbers
 
 
 def axis_label(dataset: Dataset, name: str) -> str:
     """Return the label of a figure's axis along a coordinate."""
-    unit = _UNITS[name][0] if name in _UNITS else str(dataset[name].attrs.get("units", ""))
-    named = f"{_spoken(name)} {_SYMBOLS[name]}" if name in _SYMBOLS else _spoken(name)
+    about, unit = COORDINATES.get(name), str(dataset[name].attrs.get("units", ""))
+    if about is not None and name != "load":  # of a line contact, per length
+        unit = about.unit
+    named = f"{_spoken(name)} {about.symbol}" if about and about.symbol else _spoken(name)
     return f"{named} ({unit})" if unit and unit != "1" else named
 
 
@@ -225,7 +203,7 @@ def over_seeds(cases: Dataset) -> Dataset:
         return cases
     from viscofric.roughness.rough_friction import interval_of_mean
 
-    named = [name for name in dict.fromkeys((*VARIED, "temperature", "speed")) if name in cases and name != SEED]
+    named = [name for name in COORDINATES if name in cases and name != SEED]
     keys = list(zip(*(cases[name].values.tolist() for name in named), strict=True))
     alike: defaultdict[tuple[Any, ...], list[int]] = defaultdict(list)
     for row, key in enumerate(keys):

@@ -10,11 +10,10 @@ import numpy as np
 from viscofric.datasets import Dataset, DataTree
 from viscofric.report.figures.contacts import Contact
 from viscofric.report.results import group, values
-from viscofric.report.sweeps import SEED, VARIED, solved_cases, value_label
+from viscofric.report.sweeps import SEED, solved_cases, value_label
+from viscofric.study.cases.sweep import COORDINATES
 
 FIELDS = "fields"
-#: Coordinates of a case, in the order in which they are listed.
-_CONDITIONS = (*VARIED, "temperature", "speed")
 _SAME = 1e-9  # relative
 
 
@@ -57,7 +56,7 @@ def _kept(tree: DataTree) -> list[tuple[Dataset, dict[str, Any]]]:
         fields = child.to_dataset()
         if "y" not in fields.dims:  # a line contact
             fields = fields.expand_dims(y=[0.0], axis=1)
-        conditions = {name: fields[name].item() for name in _CONDITIONS if name in fields.coords}
+        conditions = {name: fields[name].item() for name in COORDINATES if name in fields.coords}
         if "mean_pressure" in fields.coords:  # of a rough surface: `pressure` is the field
             conditions["pressure"] = fields["mean_pressure"].item()
         conditions["friction_coefficient"] = math.nan if cases is None else _friction_of(cases, conditions)
@@ -78,13 +77,13 @@ def _friction_of(cases: Dataset, conditions: dict[str, Any]) -> float:
 
 def _varied(found: list[tuple[Dataset, dict[str, Any]]]) -> set[str]:
     """Return which conditions differ among the contacts, and those that are always listed."""
-    differ = {name for name in _CONDITIONS if len({str(conditions.get(name)) for _, conditions in found}) > 1}
+    differ = {name for name in COORDINATES if len({str(conditions.get(name)) for _, conditions in found}) > 1}
     return differ | {"temperature", "speed"}
 
 
 def _contact(fields: Dataset, conditions: dict[str, Any], title: str, named: set[str]) -> Contact:
     words = [
-        value_label(fields, name, conditions[name]) for name in _CONDITIONS if name in conditions and name in named
+        value_label(fields, name, conditions[name]) for name in COORDINATES if name in conditions and name in named
     ]
     x, y = (fields[name].values.astype(float) for name in ("x", "y"))
     pressure = fields["pressure"].transpose("x", "y").values.astype(float)

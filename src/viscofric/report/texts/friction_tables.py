@@ -25,7 +25,7 @@ from viscofric.report.results import (
     shown_error,
     values,
 )
-from viscofric.report.sweeps import SEED, VARIED, cases_of, over_seeds, solved_cases, thinned, value_label
+from viscofric.report.sweeps import SEED, cases_of, over_seeds, solved_cases, thinned, value_label
 from viscofric.report.texts.numbers import ABSENT, degrees, percent, several, signed_percent, significant, with_error
 from viscofric.report.texts.tables import (
     Column,
@@ -38,6 +38,7 @@ from viscofric.report.texts.tables import (
     times,
     whole,
 )
+from viscofric.study.cases.sweep import VARIED
 
 _GLANCE = "at-a-glance"
 _MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it

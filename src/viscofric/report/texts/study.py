@@ -41,6 +41,7 @@ from viscofric.report.texts.numbers import (
     unbroken,
     with_error,
 )
+from viscofric.study.cases.sweep import CONDITIONS, COORDINATES
 from viscofric.study.results.compare import flat_keys
 from viscofric.units import CELSIUS_ZERO
 
@@ -186,7 +187,7 @@ def inputs(tree: DataTree) -> list[Input]:
         along = {axis.name: axis for axis in predicted_axes(tree)}
         varied = {column for axis in along.values() for column in axis.columns}
         listed += [Input(axis.title, _points(axis)) for axis in along.values()]
-        for name in ("load", "pressure", "direction", "temperature", "speed", "thickness"):
+        for name in (*CONDITIONS, "thickness"):
             if name in friction.coords and name not in varied and friction[name].ndim == 0:
                 listed.append(Input(name, value_label(friction, name, friction[name].values.item())))
         listed.append(Input("cases", str(math.prod(friction.sizes.values()))))
@@ -202,8 +203,7 @@ def inputs(tree: DataTree) -> list[Input]:
 _WORDED = frozenset(
     {"cluster", "outputs", "solver.accuracy"}
     | {f"material.{name}" for name in ("poisson_ratio", "reference_temperature", "name", "catalogue")}
-    | {f"indenter.{name}" for name in ("shape", "radius", "radius_x", "radius_y", "angle")}
-    | {f"conditions.{name}" for name in ("load", "pressure", "speed", "temperature", "direction", "thickness")}
+    | {f"{table}.{name}" for table in ("indenter", "conditions") for name in ("shape", *COORDINATES)}
 )
 
 

@@ -7,7 +7,7 @@ import itertools
 import math
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from viscofric.units import plain, shown_celsius, shown_speed
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
+    from viscofric.contact.solution import Meaning
     from viscofric.friction.cases.case import Case
 
     Values: TypeAlias = tuple[float | str, ...]
@@ -28,13 +29,46 @@ MOST_CASES = 1_000_000
 CONDITIONS = ("load", "pressure", "direction", "temperature", "speed")
 
 
+class Coordinate(NamedTuple):
+    """What a study may vary: unit and long name, the usual unit, what SI is divided by for it, and the symbol."""
+
+    si: str
+    words: str
+    unit: str = ""
+    scale: float = 1.0
+    symbol: str = ""
+
+    @property
+    def meaning(self) -> Meaning:
+        """Unit and long name."""
+        return self.si, self.words
+
+
+#: All coordinates of cases, in the order in which they are listed.
+COORDINATES: dict[str, Coordinate] = {
+    "material": Coordinate("1", "name of the material"),
+    "sample": Coordinate("1", "number of the bootstrap sample of the material; 0 is the best estimate"),
+    "radius": Coordinate("m", "radius of the indenter", "mm", 1e-3, "$R$"),
+    "radius_x": Coordinate("m", "radius of curvature of the indenter along the motion", "mm", 1e-3),
+    "radius_y": Coordinate("m", "radius of curvature of the indenter across the motion", "mm", 1e-3),
+    "angle": Coordinate("rad", "angle between the cone's flank and the surface", "°", math.pi / 180.0),
+    "seed": Coordinate("1", "seed of the generated rough surface"),
+    "thickness": Coordinate("m", "thickness of the rubber", "mm", 1e-3, "$h$"),
+    "load": Coordinate("N", "normal load", "N", 1.0, "$F$"),
+    "pressure": Coordinate("Pa", "mean pressure", "kPa", 1e3),
+    "direction": Coordinate("rad", "direction of the motion, from x towards y", "°", math.pi / 180.0),
+    "temperature": Coordinate("K", "temperature", "°C"),
+    "speed": Coordinate("m/s", "speed at which the rubber is deformed", "mm/s", 1e-3, "$v$"),
+}
+#: Those that vary along no curve of friction.
+VARIED = tuple(name for name in COORDINATES if name not in ("temperature", "speed"))
+
+
 @dataclass(frozen=True, eq=False)
 class Axis:
     """One dimension of the results."""
 
-    #: "material", "sample", "radius" ("radius_x", "radius_y", "angle"), "seed", "thickness", "load", "pressure",
-    #: "direction", "temperature" or "speed"; of several that vary together, joined: "load_radius"
-    name: str
+    name: str  # one of `COORDINATES`; of several that vary together, joined: "load_radius"
     #: Coordinate → its values, one for each point of the axis, SI; names of materials, numbers of samples (0: the
     #: best estimate)
     columns: dict[str, Values]
@@ -47,9 +81,7 @@ class Axis:
 class Sweep:
     """All cases of a study."""
 
-    #: In the order material, sample, shape of the indenter or seed of the surface, thickness, load or pressure,
-    #: direction, temperature, speed; those with one point included
-    axes: tuple[Axis, ...]
+    axes: tuple[Axis, ...]  # in the order of `COORDINATES`; those with one point included
     cases: tuple[Case, ...]  # one for each combination of the axes' points; the last axis runs fastest
 
     @property
@@ -136,7 +168,6 @@ def _places(axes: Sequence[Axis]) -> Iterator[dict[str, Any]]:
 
 
 _RATE = ("temperature", "speed")
-_COUNTED = ("sample", "seed")
 
 
 def shown(name: str, value: float | str, line: bool = False, digits: int = 4) -> str:
@@ -145,15 +176,14 @@ def shown(name: str, value: float | str, line: bool = False, digits: int = 4) ->
         return value
     if name == "temperature":
         return f"{shown_celsius(value, f'z.{digits + 1}g')} °C"
-    if name in ("angle", "direction"):
-        return f"{plain(math.degrees(value), digits)}°"
-    if name == "pressure":
-        return f"{plain(value / 1e3, digits)} kPa"
-    if name == "load":
-        return f"{plain(value / 1e3, digits)} N/mm" if line else f"{plain(value, digits)} N"
     if name == "speed":
         return shown_speed(value, digits)
-    return f"{value:.{max(digits, 6)}g}" if name in _COUNTED else f"{plain(1e3 * value, digits)} mm"
+    if name == "load" and line:
+        return f"{plain(value / 1e3, digits)} N/mm"
+    about = COORDINATES[name]
+    if not about.unit:
+        return f"{value:.{max(digits, 6)}g}"
+    return f"{plain(value / about.scale, digits)}{'' if about.unit == '°' else ' '}{about.unit}"
 
 
 def place(case: Case) -> str:

@@ -11,27 +11,12 @@ import numpy as np
 
 from viscofric.datasets import Dataset, DataTree
 from viscofric.notes import notes_in, table_in
+from viscofric.study.cases.sweep import COORDINATES
 from viscofric.study.results.file import DESCRIBED, rubbers_of
 from viscofric.units import CELSIUS_ZERO
 
 #: How a table of results begins, after its ``#``.
 TITLE = "viscofric results"
-#: Coordinates of cases in the order of a table's columns; others come after these.
-PLACES = (
-    "material",
-    "sample",
-    "radius",
-    "radius_x",
-    "radius_y",
-    "angle",
-    "seed",
-    "thickness",
-    "load",
-    "pressure",
-    "direction",
-    "temperature",
-    "speed",
-)
 # Of a temperature in degC; further digits are rounding of the sum with 273.15.
 _DECIMALS = 9
 # Attribute -> its name in the lines above a table.
@@ -77,11 +62,11 @@ def about(attributes: Mapping[Any, Any]) -> list[tuple[str, str]]:
 
 def columns_of(dataset: Dataset) -> tuple[list[str], list[str], list[list[Any]]]:
     """Return names, units (degC, or K of differences) and values of columns, the last dimension running fastest."""
-    known = [name for name in PLACES if name in dataset.coords]
-    known += [str(name) for name in dataset.coords if name not in PLACES]
+    known = [name for name in COORDINATES if name in dataset.coords]
+    known += [str(name) for name in dataset.coords if name not in COORDINATES]
     # Coordinates of measured points are among the variables.
-    places = [name for name in PLACES if name in dataset.data_vars]
-    names = [*known, *places, *(str(name) for name in dataset.data_vars if name not in PLACES)]
+    places = [name for name in COORDINATES if name in dataset.data_vars]
+    names = [*known, *places, *(str(name) for name in dataset.data_vars if name not in COORDINATES)]
     units, columns = [], []
     for name in names:
         variable = dataset[name]

@@ -44,7 +44,7 @@ import numpy as np
 from viscofric.datasets import Dataset, dataset
 from viscofric.friction.cases.record import FIELD_MEANING, MEANING, Failure, Record
 from viscofric.friction.cases.surfaces import MadeSurface
-from viscofric.study.cases.sweep import shown
+from viscofric.study.cases.sweep import COORDINATES, shown
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -61,9 +61,7 @@ if TYPE_CHECKING:
 _WITHIN = "within_measured_frequencies"
 # Flags of a case, with their values for a case without a solution.
 _FLAGS = {"interpolated": 0, _WITHIN: -1}
-# Numbers of a record that are coordinates of a sweep.
-_PLACES = ("speed", "temperature", "load", "pressure")
-# Meaning of values that are no numbers of a record: bands and flags, and coordinates.
+# Meaning of values that are no numbers of a record: bands and flags.
 _OTHER: dict[str, Meaning] = {
     "friction_material_error": ("1", "standard error of the friction coefficient due to material uncertainty"),
     "friction_lower": ("1", "lower end of the 95 % band of the friction coefficient"),
@@ -74,15 +72,6 @@ _OTHER: dict[str, Meaning] = {
     _WITHIN: ("1", "1: reduced frequency αv/a within the measured range; 0: beyond it; -1: case failed"),
     "interpolated": ("1", "1: interpolated between solved contacts; 0: solved"),
     "failed": ("1", "1: the case could not be solved, and its other variables are missing; 0: solved"),
-    "material": ("1", "name of the material"),
-    "sample": ("1", "number of the bootstrap sample of the material; 0 is the best estimate"),
-    "radius": ("m", "radius of the indenter"),
-    "radius_x": ("m", "radius of curvature of the indenter along the motion"),
-    "radius_y": ("m", "radius of curvature of the indenter across the motion"),
-    "angle": ("rad", "angle between the cone's flank and the surface"),
-    "thickness": ("m", "thickness of the rubber"),
-    "seed": ("1", "seed of the generated rough surface"),
-    "direction": ("rad", "direction of the motion, from x towards y"),
 }
 _ROUGH_WITHIN = ("1", "1: reduced frequencies 2παv/λ of all waves of the surface within the measured range; 0: not")
 _PREDICTED: dict[str, Meaning] = {
@@ -124,7 +113,7 @@ def prediction(
     columns: dict[str, Any] = {
         name: [getattr(record, name) for record in records]
         for name in (records[0].numbers if records else ())
-        if name not in _PLACES
+        if name not in COORDINATES
     }
     columns |= {} if curves is None else _band(curves, "friction")
     columns |= interface or {}
@@ -296,7 +285,8 @@ def _band(curves: FrictionCurves | BandColumns, name: str) -> dict[str, Any]:
 
 def meaning_of(geometry: str) -> dict[str, Meaning]:
     """Return unit and long name of all numbers and coordinates of a geometry."""
-    return MEANING[geometry] | _OTHER | ({_WITHIN: _ROUGH_WITHIN} if geometry == "rough" else {})
+    coordinates = {name: one.meaning for name, one in COORDINATES.items()}
+    return coordinates | MEANING[geometry] | _OTHER | ({_WITHIN: _ROUGH_WITHIN} if geometry == "rough" else {})
 
 
 def _attributes(name: str, meaning: Mapping[str, Meaning]) -> dict[str, str]:
