@@ -162,7 +162,7 @@ def prediction(speed: Any, temperature: Any, mu: Any) -> xr.Dataset:
             "friction_coefficient": (mu, "1", "viscoelastic friction coefficient"),
             "friction_error": (4e-4 * mu, "1", "numerical error"),
             "indentation": (0.61e-3 + 0.1 * mu * 1e-3, "m", "indentation"),
-            "contact_area": (np.full(size, 1.57e-5), "m2", "contact area"),
+            "contact_area": (np.full(size, 1.57e-5), "m**2", "contact area"),
             "front": (np.full(size, 2.31e-3), "m", "front"),
             "rear": (np.full(size, 2.12e-3), "m", "rear"),
             "half_width": (np.full(size, 2.24e-3), "m", "half width"),

@@ -156,11 +156,19 @@ def test_rows_of_a_table_keep_the_numbers_together(tree: xr.DataTree) -> None:
     first = dict(zip(prediction.headings, prediction.rows[0], strict=True))
     assert first["temperature"] == "30 °C"
     assert first["speed (mm/s)"] == "20.00"
-    assert first["area (mm²)"] == "15.7"
+    assert first["contact area (mm²)"] == "15.70"
     assert prediction.headings.index("energy balance") == prediction.headings.index("numerical error") + 1
-    assert "complementarity: " in prediction.note
-    assert first["largest pressure (MPa)"] == "2.310"
+    assert first["max pressure (MPa)"] == "2.310"
     assert first["cells"] == "256"
+
+
+def test_every_number_of_the_results_is_in_the_table_with_its_meaning(tree: xr.DataTree) -> None:
+    results = tree.copy()
+    total = (results["prediction"]["friction_coefficient"] + 0.3).assign_attrs(long_name="of both")
+    results["prediction/total_friction"] = total
+    (table,) = [one for one in detail_tables(results) if one.key == "prediction"]
+    assert table.headings[-1] == "total friction"
+    assert "total friction: of both" in table.note
 
 
 @pytest.mark.usefixtures("undrawn")

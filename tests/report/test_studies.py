@@ -203,7 +203,7 @@ def test_a_rough_surface_is_not_called_a_ball(
     assert "Small strain" not in checks
     page = write_report(found, tmp_path, images={"friction_sweep": {"svg": b"<svg></svg>"}}).read_text("utf-8")
     assert "50 kPa" in page.replace("\N{NO-BREAK SPACE}", " ")
-    assert "area (share)" in page
+    assert "contact area fraction" in page
     assert contacts(found) is None
 
 

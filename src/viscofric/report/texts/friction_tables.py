@@ -33,12 +33,13 @@ from viscofric.report.texts.tables import (
     law_table,
     logarithm,
     made_table,
+    number_column,
     shift_factor_table,
     spectrum_table,
     times,
     whole,
 )
-from viscofric.study.cases.sweep import VARIED
+from viscofric.study.cases.sweep import COORDINATES, VARIED
 
 _GLANCE = "at-a-glance"
 _MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
@@ -48,29 +49,15 @@ _DOUBTFUL = {
     WIDE: f"extends beyond {SMALL_STRAIN:g} of the indenter's radius from its axis",
     EXTRAPOLATED: "depends on frequencies that were not measured",
 }
-_MEANINGS = (
-    "95 %: confidence band from the uncertainty of the material; "
-    "front and rear: from the indenter's axis to the leading and to the trailing edge of the contact; half-width: "
-    "across the motion; energy balance: friction from the pressure minus friction from the dissipation, relative; "
-    "complementarity: largest violation of the contact conditions, over the indentation; cells: along the longer "
-    "edge of the finest grid; products: number of products with the influence matrix."
-)
-
-
-_ROUGH_CHECKS = (
-    "energy balance: friction from the pressure minus friction from the dissipation, relative; complementarity: "
-    "largest violation of the contact conditions"
-)
-_ROUGH_COST = (
-    "cells: points along the longer edge of the surface; products: number of products with the influence matrix."
-)
-_ROUGH_MEANINGS = f"95 %: confidence band from the uncertainty of the material; {_ROUGH_CHECKS}; {_ROUGH_COST}"
-
-
-_SEEDS_MEAN = (
+_BAND = "95 %: confidence band from the uncertainty of the material"
+_MEANS = (
     "Means over the seeds of the surface, of which the results have each; 95 %: confidence interval of the mean "
-    f"friction (Student's t); numerical error, {_ROUGH_CHECKS}, each the largest of the seeds; {_ROUGH_COST}"
+    "friction (Student's t); errors, energy balance and complementarity are the largest of the seeds"
 )
+# Numbers of a case that other columns show, or its remarks.
+_SHOWN_ELSEWHERE = {"friction_coefficient", "friction_lower", "friction_upper", "energy_balance", "seeds"} | {
+    *("failed", "interpolated", "within_measured_frequencies")
+}
 
 
 def _with_remarks(table: Table, doubts: Sequence[tuple[str, ...]]) -> Table:
@@ -230,9 +217,16 @@ def prediction_table(tree: DataTree, name: str, key: str, caption: str, is_open:
     between = interpolated(full)
     for work in ("cells", "products"):  # what was not solved took none
         if work in full:
-            full[work] = ("case", np.where(between, np.nan, values(full, work)))
-    load, area = (_unit(full, part) for part in ("load", "contact_area"))
-    is_line = area == "m"
+            full[work] = full[work].copy(data=np.where(between, np.nan, values(full, work)))
+    load = str(full["load"].attrs.get("units", "N")) if "load" in full else "N"
+    names = [
+        str(name)
+        for name, one in full.data_vars.items()
+        if not (name in (*_SHOWN_ELSEWHERE, *COORDINATES) or str(name).endswith("_error")) and np.isfinite(one).any()
+    ]
+    numbers = [number_column(full, name) for name in names]
+    told = {name.replace("_", " "): str(full[name].attrs.get("long_name", name)) for name in names}
+    meanings = [f"{spoken}: {words}" for spoken, words in told.items() if words.replace("_", " ") != spoken]
     table = made_table(
         key,
         caption,
@@ -241,27 +235,17 @@ def prediction_table(tree: DataTree, name: str, key: str, caption: str, is_open:
             *_varied_columns(full),
             Column("temperature", "temperature", degrees),
             Column("speed (mm/s)" if name == "prediction" else "reduced speed (mm/s)", "speed", times(1e3)),
-            Column(f"load ({load or 'N'})", "load", significant),
+            Column(f"load ({load})", "load", significant),
             Column("friction coefficient", "friction_coefficient", times(1.0)),
             Column("95 % from", "friction_lower", times(1.0)),
             Column("to", "friction_upper", times(1.0)),
             Column("seeds", "seeds", whole),
             Column("numerical error", "relative_error", percent),
             Column("energy balance", "energy_balance", percent),
-            Column("indentation (mm)", "indentation", times(1e3)),
-            Column("width (mm)" if is_line else "area (mm²)", "contact_area", times(1e3 if is_line else 1e6, 3)),
-            Column("area (share)", "contact_area_fraction", percent),
-            Column("mean gap (µm)", "mean_gap", times(1e6)),
-            Column("front (mm)", "front", times(1e3)),
-            Column("rear (mm)", "rear", times(1e3)),
-            Column("half-width (mm)", "half_width", times(1e3)),
-            Column("largest pressure (MPa)", "max_pressure", times(1e-6)),
-            Column("complementarity", "complementarity", times(1.0, 2)),
-            Column("cells", "cells", whole),
-            Column("products", "products", whole),
+            *numbers,
         ],
         is_open,
-        _MEANINGS if "contact_area_fraction" not in full else _SEEDS_MEAN if "seeds" in full else _ROUGH_MEANINGS,
+        "; ".join([_MEANS if "seeds" in full else _BAND, *meanings]) + ".",
     )
     failed = values(full, "failed") == 1.0
     doubts = [
@@ -269,10 +253,6 @@ def prediction_table(tree: DataTree, name: str, key: str, caption: str, is_open:
         for row, doubt in enumerate(remarks(tree, full))
     ]
     return _with_remarks(table, doubts)
-
-
-def _unit(cases: Dataset, name: str) -> str:
-    return str(cases[name].attrs.get("units", "")) if name in cases else ""
 
 
 def _varied_columns(cases: Dataset) -> list[Column]:

@@ -54,6 +54,24 @@ def whole(value: float) -> str:
     return f"{value:.0f}" if np.isfinite(value) else ABSENT
 
 
+def number_column(data: Dataset, name: str) -> Column:
+    """Return the column of a number: its name and unit are the heading, and whole numbers are written as such."""
+    found, unit = values(data, name), str(data[name].attrs.get("units", "1"))
+    known = np.abs(found[np.isfinite(found)])
+    if unit == "m" and known.max(initial=0.0) < _FINE:
+        shown, factor = "µm", 1e6
+    else:
+        shown, factor = _UNITS.get(unit, ("" if unit == "1" else unit, 1.0))
+    spoken = name.replace("_", " ")
+    write = whole if unit == "1" and np.all(known == np.rint(known)) else times(factor)
+    return Column(f"{spoken} ({shown})" if shown else spoken, name, write)
+
+
+#: SI unit -> the unit of tables, and its number for 1 in SI; lengths up to `_FINE`, m, are in µm.
+_UNITS = {"m": ("mm", 1e3), "m**2": ("mm²", 1e6), "m/s": ("mm/s", 1e3), "Pa": ("MPa", 1e-6)}
+_FINE = 1e-4
+
+
 def made_table(
     key: str, caption: str, dataset: Dataset, columns: list[Column], is_open: bool = True, note: str = ""
 ) -> Table:
@@ -132,7 +150,8 @@ def text_table(data: Dataset, *columns: tuple[str, str] | tuple[str, str, str]) 
         if data[name].dtype.kind in "OU":
             cells.append([heading, *data[name].values])
             continue
-        write, factor = _SHOWN.get(name) or _SHOWN_UNITS.get(data[name].attrs.get("units", "1"), (_four, 1.0))
+        unit = data[name].attrs.get("units", "1")
+        write, factor = _SHOWN.get(name) or (_four, _UNITS[unit][1] if unit in ("m/s", "Pa") else 1.0)
         found, error = factor * values(data, name), other[0] if other else f"{name}_error"
         texts = (
             _pairs(found, factor * values(data, error), write) if error in data else list(map(write, found.tolist()))
@@ -165,7 +184,6 @@ _SHOWN: dict[str, tuple[Callable[[float], str], float]] = {
     "known": (_decimals, 1.0),
     "difference": (_decimals, 1.0),
 }
-_SHOWN_UNITS = {"m/s": (_four, 1e3), "Pa": (_four, 1e-6)}
 
 
 def _share(part: float, whole: float) -> str:
