@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,7 @@ from viscofric.notes import listed
 
 if TYPE_CHECKING:
     from viscofric.study.run_file.study import Study
-    from viscofric.verification import Check, Comparison, Outcome
+    from viscofric.verification import Check, Outcome
 
 
 #: Columns of the report's table that are printed.
@@ -115,11 +116,6 @@ def compare_test(folder: Path, as_json: bool) -> None:
     sys.exit(status)
 
 
-#: What is written of a comparison, in the order in which it is printed.
-_COLUMNS = ("case", "quantity", "computed", "expected", "error", "bound", "measure", "passed")
-_SIGNS = {"relative": "", "absolute": "", "at least": "≥ ", "at most": "≤ "}
-
-
 @as_command("verify")
 @click.option("--published", is_flag=True, help="Compare with published results and other programs instead.")
 @click.option(
@@ -179,10 +175,12 @@ def command(
                 if details:
                     _print_details(outcome)
     if out is not None:
-        checks_of = _record(outcomes)["checks"]
-        write_rows(out, [{"check": each["name"], **one} for each in checks_of for one in each["comparisons"]])
+        found = [outcome.record for outcome in outcomes]
+        write_rows(out, [{"check": each["name"], **one} for each in found for one in each["comparisons"]])
     if as_json:
-        print_json({"backend": backend} | _record(outcomes))
+        about: dict[str, Any] = {"backend": backend, "viscofric": version("viscofric")}
+        about |= {"passed": all(one.passed for one in outcomes), "seconds": sum(one.seconds for one in outcomes)}
+        print_json({**about, "checks": [one.record for one in outcomes]})
     elif out != DASH:
         _print_verdict(outcomes)
     if not all(outcome.passed for outcome in outcomes):
@@ -197,19 +195,8 @@ def _list(checks: tuple[Check, ...]) -> None:
             click.echo(group)
         click.echo(f"  {check.name:<18} {check.title}")
         click.echo(f"  {'':<18} against {check.source}")
-        for about, text in _origin(check).items():
+        for about, text in check.origin.items():
             click.echo(f"  {'':<18} {about}: {text}")
-
-
-def _numbers(one: Comparison) -> tuple[str, str, str, str]:
-    """Return computed, expected, error and bound as they are printed."""
-    share = one.measure == "relative"
-    return (
-        f"{one.computed:.6g}",
-        f"{_SIGNS[one.measure]}{one.expected:.6g}",
-        f"{one.error:.1e}" if one.error else "0",
-        f"{one.bound:.1e}{' rel.' if share else ''}" if one.bound else "0",
-    )
 
 
 def _line(outcome: Outcome) -> str:
@@ -218,7 +205,7 @@ def _line(outcome: Outcome) -> str:
     worst = outcome.worst
     if outcome.trouble or worst is None:
         return f"{start}  {outcome.trouble or 'nothing to compare'}"
-    computed, expected, error, bound = _numbers(worst)
+    computed, expected, error, bound = worst.texts
     count = len(outcome.comparisons)
     return (
         f"{start}  {count:3d} compared; worst: {worst.quantity} ({worst.case}): {computed}, expected {expected}, "
@@ -226,19 +213,13 @@ def _line(outcome: Outcome) -> str:
     )
 
 
-def _origin(check: Check) -> dict[str, str]:
-    """Return how published numbers were obtained, and what their source does not state."""
-    texts = {"obtained": check.obtained, "unstated": check.unstated}
-    return {about: text for about, text in texts.items() if text}
-
-
 def _print_details(outcome: Outcome) -> None:
     click.echo(f"    {outcome.check.title}; against {outcome.check.source}")
     click.echo(f"    bounds: {outcome.check.reason}")
-    for about, text in _origin(outcome.check).items():
+    for about, text in outcome.check.origin.items():
         click.echo(f"    {about}: {text}")
     for one in outcome.comparisons:
-        computed, expected, error, bound = _numbers(one)
+        computed, expected, error, bound = one.texts
         mark = " " if one.passed else "!"
         click.echo(
             f"  {mark} {one.case}, {one.quantity}: {computed}, expected {expected}, error {error}, bound {bound}"
@@ -254,31 +235,3 @@ def _print_verdict(outcomes: list[Outcome]) -> None:
         return
     passed = f"All {len(outcomes)} checks passed" if len(outcomes) > 1 else "The check passed"
     click.echo(f"{passed}, {count} comparisons, in {seconds:.{0 if seconds >= 10.0 else 1}f} s.")
-
-
-def _record(outcomes: list[Outcome]) -> dict[str, Any]:
-    """Return everything in plain types; a number that is none is null."""
-    from viscofric import __version__
-    from viscofric.datasets import plain
-
-    found: dict[str, Any] = {
-        "viscofric": __version__,
-        "passed": all(outcome.passed for outcome in outcomes),
-        "seconds": sum(outcome.seconds for outcome in outcomes),
-        "checks": [
-            {
-                "name": outcome.check.name,
-                "title": outcome.check.title,
-                "group": outcome.check.group,
-                "source": outcome.check.source,
-                "reason_of_bounds": outcome.check.reason,
-                **_origin(outcome.check),
-                "passed": outcome.passed,
-                "trouble": outcome.trouble,
-                "seconds": outcome.seconds,
-                "comparisons": [{name: getattr(one, name) for name in _COLUMNS} for one in outcome.comparisons],
-            }
-            for outcome in outcomes
-        ],
-    }
-    return dict(plain(found, digits=None))

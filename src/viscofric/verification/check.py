@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from dataclasses import dataclass, fields
+from typing import Any, Literal, TypeAlias
 
+from viscofric.datasets import plain
 from viscofric.errors import InputError, ViscofricError
 from viscofric.verification.engine import checking
 
@@ -53,6 +54,16 @@ class Comparison:
             return self.error / self.bound
         return 0.0 if self.error == 0.0 else math.inf
 
+    @property
+    def texts(self) -> tuple[str, str, str, str]:
+        """Computed and expected number, error and bound as they are shown: per cent of a relative difference."""
+
+        def difference(value: float) -> str:
+            return f"{100.0 * value:.2g} %" if self.measure == "relative" else f"{value:.2g}"
+
+        sign = {"at least": "≥ ", "at most": "≤ "}.get(self.measure, "")
+        return f"{self.computed:.6g}", f"{sign}{self.expected:.6g}", difference(self.error), difference(self.bound)
+
 
 @dataclass(frozen=True)
 class Check:
@@ -66,6 +77,11 @@ class Check:
     compare: Callable[[], Iterable[Comparison]]  # computes and yields the comparisons
     obtained: str = ""  # of published numbers: how
     unstated: str = ""  # what their source does not state
+
+    @property
+    def origin(self) -> dict[str, str]:
+        """How published numbers were obtained, and what their source does not state."""
+        return {name: text for name in ("obtained", "unstated") if (text := getattr(self, name))}
 
     def run(self, backend: str = "scipy") -> Outcome:
         """Compute the comparisons; a contact that cannot be solved is a failure of the check.
@@ -102,6 +118,16 @@ class Outcome:
     def worst(self) -> Comparison | None:
         """The comparison with the largest error over its bound."""
         return max(self.comparisons, key=lambda one: one.severity, default=None)
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """Everything in plain types; a number that is none is None."""
+        check, names = self.check, (*(one.name for one in fields(Comparison)), "error", "passed")
+        comparisons = [{name: getattr(one, name) for name in names} for one in self.comparisons]
+        about = {name: getattr(check, name) for name in ("name", "title", "group", "source")}
+        about |= {"reason_of_bounds": check.reason, **check.origin}
+        verdict = {name: getattr(self, name) for name in ("passed", "trouble", "seconds")}
+        return dict(plain({**about, **verdict, "comparisons": comparisons}, digits=None))
 
 
 def run_checks(

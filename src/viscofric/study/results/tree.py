@@ -1,37 +1,7 @@
 """The tree of a study's results: which data set stands where; each result labels itself.
 
-===============================  ==================================================================================
-``/prediction``                  all cases over the axes with more than one point; `failed` is 1 for cases without a
-                                 solution, whose numbers are NaN, with the reasons in the root's attribute `failures`
-``/prediction_master``           friction at the reference temperature over the reduced speeds α(T)·v
-``/history``                     the cases over time: also over the dwell, where there are several, and over `instant`
-``/impact``                      impacts of the indenters, over shapes, temperatures and `impact_speed`
-``/fields/<n>``                  pressure and displacement of case n, where they are kept
-``/measurement``                 separated measurement, and the prediction at the same points (if measured)
-``/measurement_master``          measured friction over the reduced speed, at the load of the master curve
-``/agreement``                   prediction and measurement compared, per temperature (if measured)
-``/friction_shift_factors``      α(T) from friction alone, and that of the modulus (if measured curves overlap)
-``/heating``                     the cases at the temperatures to which their own friction heats them
-``/temperature_map``             rise of temperature of the rubber's face at the warmest of these contacts
-``/interface``                   shear stress of the interface at the measured points (if a law was fitted to it)
-``/interface_law``               that law at the reference temperature
-``/assumptions``                 assumptions of the predictions, checked
-``/isotherms``                   measured moduli (tensile) in use
-``/ramps``                       temperature ramps (tensile) in use instead, with α(T) at every point
-``/step_tests``                  creep or relaxation tests (tensile) in use instead
-``/amplitude_sweep``             moduli over the strain amplitude, with Kraus's law (if there is such a sweep)
-``/shift_factors``               log10 α of each isotherm with its standard error (and the vertical shift)
-``/shift_law``                   law in use, or the best one, over the same temperatures
-``/laws``                        all laws that describe the shift factors, compared
-``/superposition``               whether superposition holds, in numbers and sentences
-``/master_curve``                isotherms shifted to the reference temperature, and the fit at the same points
-``/step_master_curve``           creep or relaxation tests over reduced time, and the fit at the same points
-``/spectrum``                    retardation spectrum at the reference temperature
-``/spectrum_curve``              its storage and loss modulus over a wider range (with a band, if there are samples)
-``/materials/<n>/…``             the groups of each of several materials, numbered from 1
-===============================  ==================================================================================
-
-All variables are in SI units and have `units` and `long_name`.  A predefined material has its spectrum only.
+`GROUPS` lists them.  All variables are in SI units and have `units` and `long_name`.  A predefined material has its
+spectrum only.
 """
 
 from __future__ import annotations
@@ -58,6 +28,39 @@ if TYPE_CHECKING:
 
     Groups = dict[str, Dataset]
 
+#: Each group of results, and what it holds.
+GROUPS = {
+    "/": "The study; attributes only.",
+    "/prediction": "All cases over the axes with more than one point, the others are scalar coordinates; `failed` is 1 "
+    "for cases without a solution, whose numbers are NaN, with the reasons in the root's attribute `failures`.",
+    "/prediction_master": "Friction at the reference temperature over the reduced speeds α(T)·v.",
+    "/fields/<n>": "Pressure and displacement of the case with the number n, if they were kept.",
+    "/measurement": "The separated measurement, and the prediction at the same points.",
+    "/measurement_master": "Measured friction over the reduced speed, at the load of the master curve.",
+    "/agreement": "Prediction against measurement, at each temperature.",
+    "/friction_shift_factors": "log10 α found from the measured friction alone, beside that of the material.",
+    "/history": "With `[history]`: the cases over time, also over the dwell, where there are several, and over "
+    "`instant`; with `[heating]`, also their rise of temperature.",
+    "/impact": "With `[impact]`: impacts of the indenters, over shapes, temperatures and `impact_speed`.",
+    "/heating": "With `[heating]`: the cases at the temperatures to which their own friction heats them.",
+    "/temperature_map": "Its warmest contact: rise of temperature of the rubber's face.",
+    "/interface": "With a fitted `[interface]`: shear stress at the measured points.",
+    "/interface_law": "Its law at the reference temperature.",
+    "/assumptions": "Assumptions of the predictions, and their checks.",
+    "/isotherms": "The measured moduli (tensile) that were used.",
+    "/ramps": "Temperature ramps (tensile) with α(T) at every point, and the peaks of tan δ and E''.",
+    "/step_tests": "Creep or relaxation tests (tensile).",
+    "/amplitude_sweep": "Moduli over the strain amplitude, with Kraus's law.",
+    "/shift_factors": "log10 α of each isotherm with its standard error, and the vertical shift.",
+    "/shift_law": "The law that is used, or the best one, over the same temperatures.",
+    "/laws": "Comparison of all shift laws.",
+    "/superposition": "Validity of superposition: the checks, in numbers and sentences.",
+    "/master_curve": "The isotherms shifted to the reference temperature, and the fit at the same points.",
+    "/step_master_curve": "Creep or relaxation tests over reduced time, and the fit at the same points.",
+    "/spectrum": "The retardation spectrum at the reference temperature.",
+    "/spectrum_curve": "Its storage and loss modulus over a wider range, with the 95 % band.",
+    "/materials/<n>/…": "For several materials, the groups of each from `/isotherms` to `/spectrum_curve`.",
+}
 _WITHIN = "within_measured_frequencies"
 # Flags of a case, with their values for a case without a solution.
 _FLAGS = {"interpolated": 0, _WITHIN: -1}

@@ -6,13 +6,12 @@ import itertools
 import time
 from typing import Any
 
-from viscofric.verification import Comparison, Outcome, run_checks
+from viscofric.verification import Outcome, run_checks
 from viscofric.verification.published import PUBLISHED
 from viscofric.web.figures.spec import Spec, table
 from viscofric.web.jobs.context import Context, JobOptions
 
-_HEAD = ["case", "quantity", "published", "computed", "difference", "allowed"]
-_SIGNS = {"at least": "≥ ", "at most": "≤ "}
+_HEAD = ["case", "quantity", "computed", "published", "difference", "allowed"]
 
 
 Options = JobOptions
@@ -42,17 +41,10 @@ def _shown(outcome: Outcome) -> Spec:
         f"Allowed difference: {check.reason}.",
         outcome.trouble,
     ]
+    rows = [[one.case, one.quantity, *one.texts] for one in outcome.comparisons]
     return {
         "title": check.title,
         "verdict": "agrees" if outcome.passed else "does not agree",
         "origin": [one.replace("..", ".") for one in origin if one],
-        "table": table(check.title, _HEAD, [_row(one) for one in outcome.comparisons]),
+        "table": table(check.title, _HEAD, rows),
     }
-
-
-def _row(one: Comparison) -> list[Any]:
-    def difference(value: float) -> str:
-        return f"{100.0 * value:.2g} %" if one.measure == "relative" else f"{value:.2g}"
-
-    expected = f"{_SIGNS[one.measure]}{one.expected:.5g}" if one.measure in _SIGNS else one.expected
-    return [one.case, one.quantity, expected, one.computed, difference(one.error), difference(one.bound)]
