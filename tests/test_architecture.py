@@ -291,8 +291,13 @@ def test_the_rule_finds_what_breaks_it(module: str, text: str, right: bool, forb
         "import viscofric",
         "import sys; sys.argv = ['viscofric', '--help']; from viscofric.cli import main; main()",
         "import viscofric.web.child",
+        (
+            "import viscofric as vf; "
+            "rubber = vf.Material.standard_linear_solid(E0='1 MPa', E_inf='10 MPa', tau='1 ms'); "
+            "vf.solve_steady(rubber, vf.Ball(radius='10 mm'), speed='1 m/s', load='1 N')"
+        ),
     ],
-    ids=["import", "help", "process of the page"],
+    ids=["import", "help", "process of the page", "contact"],
 )
 def test_start_loads_nothing_slow(program: str) -> None:
     report = (

@@ -12,6 +12,7 @@ import viscofric as vf
 from refusals import refused
 from viscofric.errors import InputError
 from viscofric.units import (
+    _COMMON,
     angular_frequency,
     conversion,
     in_either,
@@ -54,6 +55,12 @@ from viscofric.units import (
 )
 def test_one_number_and_one_unit_are_understood(text, unit, number):
     assert to_si(text, unit) == pytest.approx(number, rel=1e-12)  # rounding of the conversion
+
+
+@pytest.mark.parametrize(("unit", "text"), [(unit, text) for unit, common in _COMMON.items() for text in common])
+def test_units_that_are_read_without_pint_are_those_of_pint(unit: str, text: str) -> None:
+    with_pint = registry().Quantity(12.34, text).to(unit).magnitude
+    assert to_si(f"12.34 {text}", unit) == pytest.approx(with_pint, rel=4e-16)  # rounding
 
 
 @pytest.mark.parametrize(

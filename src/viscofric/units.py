@@ -2,8 +2,8 @@
 
 Plain numbers are SI (temperatures in kelvin).  Text is one plain number and one unit, such as ``"100 mm/s"`` or
 ``"30 degC"``; it is never evaluated.  pint quantities carry their own unit, as do arrays of xarray
-(``attrs["units"]``).  pint itself receives only the text of the unit, and is imported only when a unit has to be
-interpreted.
+(``attrs["units"]``).  pint itself receives only the text of the unit, and is imported only for units that are not among
+the most common ones, since that takes as long as solving many contacts.
 """
 
 from __future__ import annotations
@@ -52,19 +52,19 @@ _EXAMPLE = {
     "dimensionless": "the plain number 0.5",
 }
 
-#: SI unit -> common notations, to suggest one with other capitals.
+#: SI unit -> common notations with the factor to it, which are read without pint, and suggested for other capitals.
 _COMMON = {
-    "m": ("nm", "um", "mm", "cm", "m", "km"),
-    "N": ("mN", "N", "kN"),
-    "N/m": ("N/m", "N/mm", "kN/m"),
-    "m/s": ("mm/s", "m/s", "um/s"),
-    "K": ("degC", "degF", "K"),
-    "Pa": ("Pa", "kPa", "MPa", "GPa"),
-    "s": ("s", "ms", "us"),
-    "Hz": ("Hz", "kHz", "MHz"),
-    "rad/s": ("rad/s",),
-    "delta_degC": ("K",),
-    "J/mol": ("J/mol", "kJ/mol"),
+    "m": {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "km": 1e3},
+    "N": {"mN": 1e-3, "N": 1.0, "kN": 1e3},
+    "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3},
+    "m/s": {"mm/s": 1e-3, "m/s": 1.0, "um/s": 1e-6},
+    "K": {"degC": 1.0, "degF": 5.0 / 9.0, "K": 1.0},
+    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9},
+    "s": {"s": 1.0, "ms": 1e-3, "us": 1e-6},
+    "Hz": {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6},
+    "rad/s": {"rad/s": 1.0},
+    "delta_degC": {"K": 1.0},
+    "J/mol": {"J/mol": 1.0, "kJ/mol": 1e3},
 }
 #: Letters that pint reads as coulomb and farad.
 _DEGREES = {"c": "degC", "f": "degF"}
@@ -73,6 +73,7 @@ _DEGREES = {"c": "degC", "f": "degF"}
 _ANGLES = ("radian", "revolution", "turn", "degree")
 
 CELSIUS_ZERO = 273.15  # K
+_ZERO = {"degC": CELSIUS_ZERO, "degF": CELSIUS_ZERO - 160.0 / 9.0}
 #: No rubber is measured below this; a plain number there was probably meant in degrees Celsius.
 COLDEST_PLAUSIBLE = 150.0  # K
 
@@ -110,20 +111,23 @@ def _wrong(code: str, name: str, value: object, unit: str, reason: str, right: s
 def conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:
     """Return ``(factor, offset)`` of ``SI = factor * number + offset`` for a unit as in a file's header."""
     insist_on(text, name, str, right="the text of a unit, such as 'MPa'")
-    zero, one = (_convert(_quantity(number, text, text, unit, name), text, unit, name) for number in (0.0, 1.0))
+    zero, one = (_of_unit(number, text, text, unit, name) for number in (0.0, 1.0))
     return one - zero, zero
 
 
-def _quantity(number: float, text: str, shown: str, unit: str, name: str) -> pint.Quantity[Any]:
+def _of_unit(number: float, text: str, shown: str, unit: str, name: str) -> float:
+    """Convert a number of the unit that a text names."""
     plain = _plain(text)
-    units = registry()
+    if plain in (common := _COMMON.get(unit, {})):
+        return common[plain] * number + _ZERO.get(plain, 0.0)
+    units, right = registry(), _meant(shown, text, unit)
     try:
         if len(plain) > _LONGEST_UNIT or not _UNIT.fullmatch(plain):
             raise ValueError(plain)
-        return units.Quantity(number, units.Unit(plain))
+        quantity = units.Quantity(number, units.Unit(plain))
     except Exception as error:  # pint raises many kinds
-        reason = f"{text!r} is not a known unit"
-        raise _wrong("unknown-unit", name, shown, unit, reason, _meant(shown, text, unit)) from error
+        raise _wrong("unknown-unit", name, shown, unit, f"{text!r} is not a known unit", right) from error
+    return _convert(quantity, shown, unit, name, right)
 
 
 def _plain(text: str) -> str:
@@ -136,7 +140,7 @@ def _plain(text: str) -> str:
 def _meant(shown: str, text: str, unit: str) -> str:
     """Suggest the one common unit that differs only in its capitals."""
     plain = _plain(text).replace("°", "deg").casefold()
-    near = [one for one in _COMMON.get(unit, ()) if one.casefold() == plain]
+    near = [one for one in _COMMON.get(unit, {}) if one.casefold() == plain]
     if unit == "K" and plain in _DEGREES:
         near = [_DEGREES[plain]]
     if len(near) != 1 or not shown.endswith(text):
@@ -203,8 +207,7 @@ def _parse(text: str, unit: str, name: str) -> float:
     """Read one plain number and one unit."""
     match = _NUMBER.fullmatch(text.strip().replace("−", "-"))
     if match and match["unit"] and _UNIT.fullmatch(_plain(match["unit"])):
-        quantity = _quantity(float(match["number"]), match["unit"], text.strip(), unit, name)
-        return _convert(quantity, text, unit, name, _meant(text.strip(), match["unit"], unit))
+        return _of_unit(float(match["number"]), match["unit"], text.strip(), unit, name)
     if match and not match["unit"]:
         if unit == "dimensionless":
             return float(match["number"])

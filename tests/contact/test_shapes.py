@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from gallery import BALL_RADIUS, HERTZ_RADIUS, LOAD, POISSON_RATIO, RUBBER_MODUL
 from marks import slow
 from refusals import refused
 from viscofric.contact.free.grids import Extent
-from viscofric.contact.free.scale import Scale
+from viscofric.contact.free.scale import Scale, root
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid, FlatPunch
@@ -439,3 +440,18 @@ def test_what_was_given_comes_back_to_the_last_digit(speed: float) -> None:
     assert pressed.indentation == under_load.indentation
     # The same contact, found from its load and from its depth; both to the accuracy of coarse grids.
     assert pressed.load == pytest.approx(LOAD, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("function", "zero"),
+    [
+        (lambda x: 2.0 * x - 1.0, 0.5),
+        (lambda x: min(x, 0.5 * x + 0.5) - 2.0, 3.0),
+        (lambda x: math.inf if x > 2.0 else x - 1.25, 1.25),  # beyond the edge of a map
+        (lambda x: math.inf if x > 2.0 else -1e-3, 2.0),
+        (lambda x: -700.0 if x < 2.0 else x - 1.5, 2.0),
+    ],
+    ids=["power", "two powers", "height map", "punch", "flat bottom"],
+)
+def test_size_of_a_contact_is_found_to_rounding(function: Callable[[float], float], zero: float) -> None:
+    assert root(function, -50.0, 9.0) == pytest.approx(zero, rel=3e-15)  # rounding

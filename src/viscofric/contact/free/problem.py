@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.arrays.backend import Backend
+from viscofric.contact.free.scale import root
 from viscofric.contact.operators.convolution import solve_on_cells
 
 if TYPE_CHECKING:
@@ -69,8 +70,6 @@ class Problem:
         """
         if self.control.load is None:
             return 1.0
-        from scipy.optimize import brentq
-
         power = 1.0 / (self.geometry.dimension + 1.0)
 
         def beyond(log_size: float) -> float:
@@ -81,7 +80,7 @@ class Problem:
         least, largest = _LOG_SIZES
         while beyond(least) > 0.0:
             least *= 2.0
-        return math.exp(brentq(beyond, least, largest, xtol=1e-11))
+        return math.exp(root(beyond, least, largest))
 
     def height_on(self, window: Grid, shift: float) -> Array:
         """Height of the indenter at the collocation points, `shift` cells behind the cell centres."""

@@ -144,8 +144,6 @@ def _depth_at(indenter: Indenter, length: float) -> float:
 
 def _crossing(function: Callable[[float], float], target: float) -> float:
     """Distance at which a function that grows from zero crosses a value; it is nearly a power of the distance."""
-    from scipy.optimize import brentq
-
     low = high = 1.0
     for _ in range(_BRACKETS):
         if function(low) < target:
@@ -163,4 +161,26 @@ def _crossing(function: Callable[[float], float], target: float) -> float:
     def beyond(log_distance: float) -> float:
         return math.log(max(function(math.exp(log_distance)), sys.float_info.min)) - math.log(target)
 
-    return math.exp(brentq(beyond, math.log(low), math.log(high), xtol=1e-15, rtol=4.0 * sys.float_info.epsilon))
+    return math.exp(root(beyond, math.log(low), math.log(high)))
+
+
+def root(function: Callable[[float], float], below: float, above: float) -> float:
+    """Return where a difference of logarithms is zero, from places where it is below and above zero; to rounding.
+
+    By the rule of false position (Illinois: M. Dowell, P. Jarratt, BIT 11 (1971) 168), by halves where that stands
+    still.  SciPy's methods take longer to import than the contact of a ball to solve.
+    """
+    low, high, before = function(below), function(above), 0.0
+    while below < (middle := 0.5 * (below + above)) < above:
+        place = below - low * (above - below) / (high - low)
+        place = place if below < place < above else middle
+        now = function(place)
+        if abs(now) <= 4.0 * sys.float_info.epsilon * max(1.0, abs(place)):
+            return place
+        # An end that stays twice counts half, so that the other one soon passes the root.
+        if now < 0.0:
+            below, low, high = place, now, high * (0.5 if before < 0.0 else 1.0)
+        else:
+            above, high, low = place, now, low * (0.5 if before > 0.0 else 1.0)
+        before = now
+    return middle
