@@ -300,10 +300,12 @@ def test_points_of_friction_say() -> None:
     (left_out,) = usable_points(unknown, BALL, None, 1e-4).notes
     assert left_out == "1 of 8 points have no standard error that is known and were left out."
     with pytest.raises(vf.InputError) as caught:
-        usable_points(replace(curves, viscoelastic=np.where(speed == speed[2], -1e-3, 0.01)), BALL, None, 1e-4)
+        usable_points(
+            replace(curves, viscoelastic=-curves.viscoelastic, viscoelastic_error=np.zeros(8)), BALL, None, 0.0
+        )
     assert caught.value.words("page") == (
-        "viscoelastic friction is −0.001 at 38.61 mm/s and 26.9 °C: must be above zero; leave out its whole speed or "
-        "temperature (points below zero alone would be a biased choice), or check the signs of the measurement."
+        "viscoelastic friction is −0.01 at 20 mm/s and 26.9 °C, with a standard error of zero: no rubber has it; give "
+        "the standard error, or check the signs of the measurement."
     )
 
 

@@ -54,8 +54,23 @@ MOST_OVER_MEDIAN = 4.4
 ROUNDS, SETTLED = 10, 0.1
 #: Fewest errors that have a common one.
 FEWEST_ERRORS = 6
+#: Within this many standard errors of zero the logarithm of friction is useless: the coefficient itself is then fitted.
+CLEAR_OF_ZERO = 4.0
 #: Code of the note on errors of measured friction that the speeds of a temperature share.
 SHARED_BY_SPEEDS = "errors-shared-by-speeds"
+
+
+def clear_of_zero(friction: Array, error: Array) -> bool:
+    """Whether all friction (n,) is so far above zero that its logarithm has a normal error; unknown errors are none."""
+    return bool(np.all(friction > CLEAR_OF_ZERO * np.where(np.isfinite(error), error, 0.0)))
+
+
+def friction_unit(curves: FrictionCurves) -> Array:
+    """Return what errors of friction are relative to, (n,): friction itself, or the largest if some is near zero."""
+    friction = np.maximum(np.abs(curves.viscoelastic), np.finfo(float).tiny)
+    if clear_of_zero(curves.viscoelastic, curves.viscoelastic_error):
+        return friction
+    return np.full(len(friction), friction.max())
 
 
 def shared_level(curves: FrictionCurves) -> float:
@@ -83,7 +98,8 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
     if curves.viscoelastic_freedom is not None:
         return np.maximum(curves.viscoelastic_freedom, 1.0), ()
     freedom = np.where(curves.replicates > 1, curves.replicates - 1.0, np.inf)
-    relative = curves.viscoelastic_error / np.maximum(np.abs(curves.viscoelastic), np.finfo(float).tiny)
+    # Near zero it is friction that scatters in a relative error, which is then taken over the largest friction.
+    relative = curves.viscoelastic_error / friction_unit(curves)
     wanted = np.isinf(freedom) & np.isfinite(relative) & (relative > 0.0)
     squares, count = 0.0, 0
     for isotherm in nominal_rows(curves.temperature):
@@ -201,13 +217,13 @@ def outlying_points(speed: Array, temperature: Array, away: Array, *, relative: 
 
 
 def relative_errors(curves: FrictionCurves) -> Array:
-    """Return standard errors of ln μ, moderated towards the common one."""
+    """Return standard errors over `friction_unit`, moderated towards the common one."""
     # The scatter of few replicates is a poor estimate, with an error of a quarter for eight; weights by it would make
     # the fit worse than its errors. With ν0 the freedom of the common variance s0², that of a point is (ν0 s0² + ν
     # s²)/(ν0 + ν); ν0 follows from the scatter of ln s² beyond chance. The error of a mean then has Student's
     # distribution of ν0 + ν degrees of freedom, whose variance is larger by (ν0 + ν)/(ν0 + ν − 2) (G. K. Smyth, Stat.
     # Appl. Genet. Mol. Biol. 3 (2004) 3).
-    errors = curves.viscoelastic_error / curves.viscoelastic
+    errors = curves.viscoelastic_error / friction_unit(curves)
     freedom, _ = error_freedom(curves)
     known = np.isfinite(freedom) & (errors > 0.0)
     if np.count_nonzero(known) < FEWEST_ERRORS:

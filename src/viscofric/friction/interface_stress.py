@@ -14,11 +14,11 @@ from viscofric.contact.solution import ContactSolution
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.agreement import partner
-from viscofric.friction.curve_checks import shared_error
+from viscofric.friction.curve_checks import CLEAR_OF_ZERO, shared_error
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.shifting.collapse import Collapse, collapse
 from viscofric.friction.shifting.found_shifts import found_shifts
-from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, friction_isotherms, nominal_temperatures
+from viscofric.friction.shifting.isotherms import friction_isotherms, nominal_temperatures
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
 from viscofric.notes import Note, note_attributes
 from viscofric.rheology.interface.fitting import StressTable, compare_stress_laws, fit_stress

@@ -115,7 +115,7 @@ def test_means_weighed_by_errors_of_four_replicates_err_as_they_say(said: str) -
         points = usable_points(measured, BALL, None, 1e-4)
         noted.append(codes(points.notes) == {"inferred-freedom"})
         weight = points.error**-2.0
-        away = float(weight @ (points.log_friction + 0.2 * np.log(speed)) / weight.sum())
+        away = float(weight @ (points.log_scale + 0.2 * np.log(speed)) / weight.sum())
         held.append(abs(away) < 1.96 * weight.sum() ** -0.5)
     # 300 shares of 95 % scatter by 1.3 %; own errors as weights hold 77 %.
     assert np.mean(held) == pytest.approx(0.95, abs=0.035)
@@ -211,7 +211,7 @@ def test_points_of_a_ball_at_two_loads_are_those_of_one() -> None:
     both = curves_of(speeds, np.full(6, 300.0), speeds, 1e-4, load=loads)  # friction as large as the speed in m/s
     points = usable_points(both, BALL, None, 1e-4)
     np.testing.assert_allclose(points.log_speed[:3], points.log_speed[3:])
-    np.testing.assert_allclose(points.log_friction[:3], points.log_friction[3:])
+    np.testing.assert_allclose(points.log_scale[:3], points.log_scale[3:])
     assert points.load == pytest.approx(np.sqrt(2.0 * 16.0))
     profile = vf.Profile(np.linspace(-1e-3, 1e-3, 101) ** 2, spacing=2e-5)
     with refused("several-loads"):
@@ -221,10 +221,9 @@ def test_points_of_a_ball_at_two_loads_are_those_of_one() -> None:
 def test_points_that_cannot_be_used_are_reported() -> None:
     speed = np.geomspace(0.02, 0.2, 8)
     curves = curves_of(speed, np.full(8, 300.0), np.full(8, 0.01), 1e-4)
-    negative = replace(curves, viscoelastic=np.where(speed == speed[2], -1e-3, 0.01))
-    with refused("friction-not-positive") as caught:
-        usable_points(negative, BALL, None, 1e-4)
-    assert caught.value.note.values == {"viscoelastic": -1e-3, "speed": speed[2], "temperature": 300.0}
+    exact = replace(curves, viscoelastic=0.01 * (speed != speed[2]), viscoelastic_error=np.zeros(8))
+    with refused("friction-not-positive"):
+        usable_points(exact, BALL, None, 1e-4)
     with refused("too-few-points"):
         usable_points(curves.select(np.arange(3)), BALL, None, 1e-4)
     with refused("load-unit"):
@@ -234,6 +233,21 @@ def test_points_that_cannot_be_used_are_reported() -> None:
     assert len(points) == 7
     assert points.notes[0].code == "points-without-error"
     assert points.notes[0].values == {"points": 1, "of": 8}
+
+
+def test_friction_that_is_not_clear_of_zero_counts_as_it_is() -> None:
+    """A point below zero, within its error, is data: μ itself is then fitted, whose error is normal, not ln μ."""
+    speed, error = np.geomspace(0.02, 0.2, 8), 1e-3
+    friction = np.where(speed == speed[2], -5e-4, 0.01)
+    points = usable_points(curves_of(speed, np.full(8, 300.0), friction, error), BALL, None, 1e-6)
+    missed, slope = points.missed(np.log(np.full(8, 4e-3)))
+    np.testing.assert_allclose(missed / points.error, (4e-3 - friction) / error, rtol=1e-4)
+    np.testing.assert_allclose(slope / points.error, 4e-3 / error, rtol=1e-4)
+    np.testing.assert_allclose(
+        points.at_one_load(curves_of(speed, np.full(8, 300.0), friction, error)).viscoelastic, friction
+    )
+    clear = usable_points(curves_of(speed, np.full(8, 300.0), np.abs(friction) + 0.01, error), BALL, None, 1e-6)
+    np.testing.assert_allclose(clear.missed(clear.log_scale + 0.3)[0], 0.3)
 
 
 def test_errors_that_nobody_gave_are_those_of_the_scatter() -> None:

@@ -254,4 +254,4 @@ def _fitted(outcome: Outcome, posterior: Posterior[Problem]) -> tuple[FrictionCu
         viscoelastic_lower=lower,
         viscoelastic_upper=upper,
     )
-    return curves, (points.log_friction - value) / points.error
+    return curves, -points.missed(value)[0] / points.error

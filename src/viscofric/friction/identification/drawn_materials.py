@@ -195,7 +195,7 @@ def level_family(
                 break
             last = factor
             points = problem.points
-            away = problem.modelled(place)[0] - points.log_friction
+            away, _ = points.missed(problem.modelled(place)[0])
             everything, _ = replace(problem, moduli=best.problem.moduli)(place)
             found[factor] = LevelFit(
                 factor=float(factor),

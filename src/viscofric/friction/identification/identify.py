@@ -137,8 +137,8 @@ def identify_material(
     Raises
     ------
     InputError
-        If a value cannot be used, points are too few, friction is not above zero, loads differ where contacts are
-        not similar, or α(T) is neither given nor to be found because curves do not overlap.
+        If a value cannot be used, points are too few, friction without an error is not above zero, loads differ where
+        contacts are not similar, or α(T) is neither given nor to be found because curves do not overlap.
     ConvergenceError
         If contacts cannot be solved, or the identification does not settle.
 
@@ -153,6 +153,7 @@ def identify_material(
     to 1 % only.  A step that does not improve the fit as predicted is shortened (a trust region).  The uncertainty is
     that of fits to other errors, of the measurement and of the prior (randomised maximum likelihood).
 
+    Where friction is within four standard errors of zero anywhere, or below, μ itself is fitted, not its logarithm.
     Errors of the points are taken as independent.  Those of replicates are moderated towards a common scatter.  Points
     more than two standard errors off the others weigh less by the square of their distance; those off by more than
     chance explains, if they are a tenth at most, have a note.  Errors that points share cannot be seen in the
@@ -302,7 +303,7 @@ def with_shared_errors(points: Points, shifts: Shifts, shared: Array) -> tuple[P
     for one in np.unique(points.number):
         rows = points.number == one
         speed = points.log_speed[rows] - points.log_speed[rows].mean()
-        slope = abs(float(speed @ points.log_friction[rows])) / max(float(speed @ speed), 1e-300)
+        slope = abs(float(speed @ points.log_scale[rows])) / max(float(speed @ speed), 1e-300)
         moved[one] = OVERLAPPING * np.linalg.norm(away[rows].mean(axis=0)) / max(slope, LEAST_SLOPE)
     moved[shifts.temperatures == shifts.reference] = 0.0
     return points, shifts.widened(moved)

@@ -1,4 +1,4 @@
-"""Friction for an identification: logarithms at one load, with standard errors moderated by neighbours."""
+"""Friction for an identification, at one load, with standard errors moderated by neighbours."""
 
 from __future__ import annotations
 
@@ -11,7 +11,13 @@ from viscofric.arrays import Array, Integers, Mask
 from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
-from viscofric.friction.curve_checks import error_freedom, relative_errors, scatter_about_parabolas
+from viscofric.friction.curve_checks import (
+    clear_of_zero,
+    error_freedom,
+    friction_unit,
+    relative_errors,
+    scatter_about_parabolas,
+)
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
 from viscofric.friction.shifting.load_rule import LoadRule
@@ -29,15 +35,17 @@ class Points:
 
     log_speed: Array  # (n,), ln of the speed at which the rubber is deformed, of a similar contact under `load`; m/s
     log_load: Array  # (n,), ln of the load over `load`, zero where similarity accounts for it
-    log_friction: Array  # (n,), ln μ of that contact
-    error: Array  # (n,), standard error of log_friction
+    log_scale: Array  # (n,), ln of a scale of μ of that contact: μ itself, or the largest where some are near zero
+    friction: Array  # (n,), μ over the scale
+    logarithmic: bool  # whether ln μ is fitted: all points are clear of zero; else μ itself, which then may be below
+    error: Array  # (n,), standard error of μ over the scale
     temperatures: Array  # (t,), different ones, ascending, K
     number: Integers  # (n,), index of each point's temperature
     load: float  # N or N/m
     forces: Array  # (n,), measured loads, N or N/m
     raised: Array  # (n,), ln of the measured friction over that of the contact under `load`
     rows: Integers  # (n,), rows of the curves that the points come from
-    shared: Array  # (n, k), errors of log_friction that points have in common, k independent ones of one standard error
+    shared: Array  # (n, k), errors of ln μ that points have in common, k independent ones of one standard error
     notes: tuple[str, ...] = ()
 
     def __len__(self) -> int:
@@ -45,22 +53,30 @@ class Points:
 
     def at_one_load(self, curves: FrictionCurves) -> FrictionCurves:
         """Return the friction under `load` with the errors used, as curves."""
-        friction = np.exp(self.log_friction)
+        scale = np.exp(self.log_scale)
         return replace(
             curves.select(self.rows),
             speed=np.exp(self.log_speed),
             load=np.full(len(self), self.load),
-            viscoelastic=friction,
-            viscoelastic_error=self.error * friction,
+            viscoelastic=self.friction * scale,
+            viscoelastic_error=self.error * scale,
             viscoelastic_scatter=np.zeros(len(self)),
             replicates=np.ones(len(self), dtype=np.int64),
             viscoelastic_freedom=np.full(len(self), np.inf),
         )
 
+    def missed(self, log_friction: Array) -> tuple[Array, Array]:
+        """Return modelled minus measured friction over the scale, or of ln μ, and the derivative by ln μ, (n,) each."""
+        relative = log_friction - self.log_scale
+        if self.logarithmic:
+            return relative, np.ones(len(self))
+        ratio = np.exp(relative)
+        return ratio - self.friction, ratio
+
     def chosen(self, keep: Mask) -> Points:
         """Return some of the points, by a mask (n,)."""
-        columns = ("log_speed", "log_load", "log_friction", "error", "number", "forces", "raised", "rows", "shared")
-        return replace(self, **{name: getattr(self, name)[keep] for name in columns})
+        columns = ("log_speed", "log_load", "log_scale", "friction", "error", "number", "forces", "raised", "rows")
+        return replace(self, **{name: getattr(self, name)[keep] for name in (*columns, "shared")})
 
 
 def usable_points(
@@ -116,21 +132,16 @@ def usable_points(
             code="too-few-points",
         )
     friction = curves.viscoelastic[rows]
-    if not np.all(friction > 0.0):
-        worst = rows[int(np.argmin(friction))]
+    own = curves.viscoelastic_error[rows]
+    size, scale = np.maximum(np.abs(friction), own), friction_unit(curves.select(rows))
+    if not np.all(np.maximum(friction, own) > 0.0):
+        worst = rows[int(np.argmin(np.maximum(friction, own)))]
         raise InputError(
             f"viscoelastic friction is {shown_number(float(curves.viscoelastic[worst]), '.3g')} at "
             f"{shown_speed(float(curves.speed[worst]))} and "
-            f"{shown_celsius(float(curves.temperature[worst]))} °C: must be above zero; leave out its whole speed or "
-            "temperature",
+            f"{shown_celsius(float(curves.temperature[worst]))} °C, with a standard error of zero: no rubber has it; "
+            "give the standard error, or check the signs of the measurement.",
             code="friction-not-positive",
-            remedy=Remedy(" with curves.select()", "", page="")
-            + " (points below zero alone would be a biased choice), or check the signs of the measurement.",
-            values={
-                "viscoelastic": float(curves.viscoelastic[worst]),
-                "speed": float(curves.speed[worst]),
-                "temperature": float(curves.temperature[worst]),
-            },
         )
     forces = curves.load[rows] if load is None else np.full(len(rows), positive(load, unit, "load"))
     middle = float(np.exp(np.mean(np.log(forces))))
@@ -148,7 +159,9 @@ def usable_points(
     return Points(
         log_speed=np.log(curves.speed[rows]) - rule.size * relative,
         log_load=np.zeros(len(rows)) if alike else relative,
-        log_friction=np.log(friction) - rule.strain * relative,
+        log_scale=np.log(scale) - rule.strain * relative,
+        friction=friction / scale,
+        logarithmic=clear_of_zero(friction, own),
         error=np.hypot(relative_errors(curves.select(rows)), least_error),
         temperatures=temperatures,
         number=number.astype(np.int64),
@@ -156,7 +169,7 @@ def usable_points(
         forces=forces,
         raised=rule.strain * relative,
         rows=rows,
-        shared=shared[rows] / friction[:, None],
+        shared=shared[rows] / size[:, None],
         notes=tuple(notes),
     )
 
@@ -212,7 +225,8 @@ class SharedErrors(NamedTuple):
                     "leave it out.",
                     code="no-coulomb",
                 )
-            found.append(self.coulomb_level * measured.coulomb / measured.viscoelastic)
+            size = np.maximum(np.abs(measured.viscoelastic), measured.viscoelastic_error)
+            found.append(self.coulomb_level * measured.coulomb / size)
         if self.level > 0.0:
             found += [np.where(points.number == one, self.level, 0.0) for one in np.unique(points.number)]
         return np.array(found).reshape(-1, len(points)).T

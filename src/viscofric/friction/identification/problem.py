@@ -275,8 +275,9 @@ class Problem(SpectrumProblem):
         compliances, log_alpha = self.split(unknowns)
         points = self.points
         value, change = self.modelled(unknowns)
-        values = [(value - points.log_friction) / points.error]
-        changes = [change / points.error[:, None]]
+        missed, by_value = points.missed(value)
+        values = [missed / points.error]
+        changes = [change * (by_value / points.error)[:, None]]
         for together, whitening in self.moduli:
             found = [self._modulus(one, compliances, log_alpha) for one in together]
             values.append(whitening @ np.concatenate([away for away, _ in found]))

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from viscofric.arrays import Array, Indices, Integers, Mask
-from viscofric.friction.curve_checks import LEFT_OUT, error_freedom, scatter_of, with_tails
+from viscofric.friction.curve_checks import LEFT_OUT, clear_of_zero, error_freedom, scatter_of, with_tails
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import nominal_rows
 from viscofric.rheology.superposition.common_curve import Basis, Curves
@@ -22,8 +22,6 @@ from viscofric.rheology.uncertainty.material_samples import freedom_of_scatter
 
 #: Points of an isotherm whose speeds differ by less are one point.
 SAME_SPEED = 1e-3  # decades
-#: Within this many standard errors of zero the logarithm of friction is useless: the coefficient itself is then fitted.
-CLEAR_OF_ZERO = 4.0
 #: Smallest stated error that is used, relative to the typical one.
 SMALLEST_ERROR = 0.1
 #: Smallest scatter of points without errors, decades of friction: the precision of reading a curve.
@@ -104,8 +102,7 @@ class FrictionIsotherm:
 def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
     """Sort the points of friction curves at one load into isotherms of ascending temperature."""
     friction, error = curves.viscoelastic, curves.viscoelastic_error
-    finite = np.isfinite(error)
-    logarithmic = bool(np.all(friction > CLEAR_OF_ZERO * np.where(finite, error, 0.0)))
+    logarithmic = clear_of_zero(friction, error)
     largest = float(np.max(np.abs(friction), initial=np.finfo(float).tiny))
     unit = friction if logarithmic else np.full(friction.shape, largest)
     ordinate = np.log10(friction) if logarithmic else friction / (math.log(10.0) * largest)

@@ -16,6 +16,7 @@ from viscofric.friction.curve_checks import (
     LEAST_FREEDOM,
     LEFT_OUT,
     MEAN_SQUARE,
+    clear_of_zero,
     error_freedom,
     outliers,
     outlying_points,
@@ -24,7 +25,7 @@ from viscofric.friction.curve_checks import (
 from viscofric.friction.curve_words import LABELS
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.collapse import Collapse
-from viscofric.friction.shifting.isotherms import CLEAR_OF_ZERO, about_one_curve, nominal_temperatures
+from viscofric.friction.shifting.isotherms import about_one_curve, nominal_temperatures
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
@@ -168,7 +169,7 @@ class SmoothedPoints:
         # They are distances from one smooth curve of each stretch, of logarithms if all friction is clear of zero.
         known = np.isfinite(stated) & (stated > 0.0)
         larger, squares, freedom = np.ones(len(stated)), np.zeros(len(stated)), 0.0
-        logarithmic = bool(np.all(self.friction[known] > CLEAR_OF_ZERO * self.error[known]))
+        logarithmic = clear_of_zero(self.friction[known], self.error[known])
         for low, high in self.stretches:
             rows = np.flatnonzero(known & (self.decades >= low) & (self.decades <= high))
             unit = self.friction[rows] if logarithmic else np.ones(len(rows))
@@ -433,8 +434,7 @@ class FrictionMasterCurve(Plotted):
     @cached_property
     def _averaged(self) -> bool:
         """Whether the error of each point is averaged with its neighbours': all friction is clear of zero."""
-        error = np.where(np.isfinite(self.friction_error), self.friction_error, 0.0)
-        return bool(np.all(self.friction_coefficient > CLEAR_OF_ZERO * error))
+        return clear_of_zero(self.friction_coefficient, self.friction_error)
 
     def own_notes(self) -> tuple[Note, ...]:
         """Return notes on replicates that were inferred for averaged errors, and on points off the curve, if any."""
