@@ -247,42 +247,49 @@ class FactorTable(Table):
 
         `gradient` (n, k) are the derivatives of the law by its constants, `left` (n,) the residuals.
         """
-        # No law is exact: residuals bend along temperature, and constants of other temperatures differ by more than
-        # independent scatter explains. What remains is taken to be normal, with a covariance of one of several shapes:
-        # independent, correlated over a part of the range, or that of the stated errors, if these are too small. Shape
-        # and size are unknown: the mean over both, by the restricted likelihood (D. A. Harville, J. Am. Stat. Assoc. 72
-        # (1977) 320) and the density of `criterion_of` for sizes. A shape of size 1 leaves residuals of rms 1.
-        count, freedom = len(left), len(self) - gradient.shape[1]
-        if freedom == 0:
-            return np.zeros((count, count))
-        own = np.linalg.qr(gradient / np.linalg.norm(gradient, axis=0))[0]
-        seen = np.linalg.qr(np.column_stack([np.ones(count), own]))[0]
-        apart = (self.temperatures[:, None] - self.temperatures) / np.ptp(self.temperatures)
-        shapes = [np.eye(count), *(np.exp(-0.5 * (apart / length) ** 2) for length in MISFIT_LENGTHS)]
-        shapes.append(self.covariance)
+        # No law is exact.  Its misfit is taken to be normal, of unknown shape (`_shapes`) and size (decades, rms of the
+        # residuals): both are weighted by how likely they make the residuals, and by the density of `criterion_of` for
+        # sizes. The square of the mean size of each shape is taken: the mean square depends on sizes that few residuals
+        # hardly exclude.
+        if len(self) == gradient.shape[1]:  # the law passes through all values
+            return np.zeros((len(left), len(left)))
+        law = np.linalg.qr(gradient / np.linalg.norm(gradient, axis=0))[0]
+        shapes = self._shapes(law)
         size = np.geomspace(SMALLEST_ERROR, LARGEST_SCATTER, 100)
-        scaled, logarithms = [], []
-        for shape in shapes:
-            visible = np.trace(shape) - np.trace(seen.T @ shape @ seen)
-            if visible <= VISIBLE * np.trace(shape):  # errors of a few constants, or none
-                continue
-            scaled.append(shape * freedom / visible + ROUGHNESS * np.eye(count))
-            turned = FactorTable.of(self.temperatures, left, self.covariance, self.reference, scaled[-1])
-            weight = 1.0 / (turned.variance + size[:, None] ** 2)
-            X, r = turned.turn @ own, turned.turn @ left
-            # Not by the normal equations, which are singular where one factor is known exactly.
-            Q, R = np.linalg.qr(np.sqrt(weight)[..., None] * X)
-            whitened = np.sqrt(weight) * r
-            chi2 = np.sum(whitened**2, axis=1) - np.sum(np.einsum("smi,sm->si", Q, whitened) ** 2, axis=1)
-            log_det = 2.0 * np.sum(np.log(np.abs(np.diagonal(R, axis1=1, axis2=2))), axis=1)
-            log_det += turned.log_volume - np.sum(np.log(weight), axis=1)
-            logarithms.append(-0.5 * (chi2 + log_det))
-        weight = np.exp(logarithms - np.max(logarithms)) * size / (1.0 + (size / USUAL_MISFIT) ** 2)
-        weight[0] *= max(len(scaled) - 1.0, 1.0)  # independent scatter is as likely as all other shapes together
-        # The square of the mean size of each shape: the mean square depends on sizes that few residuals hardly exclude.
+        likelihood = np.array([self._likelihood(shape, size, law, left) for shape in shapes])
+        weight = np.exp(likelihood - likelihood.max()) * size / (1.0 + (size / USUAL_MISFIT) ** 2)
+        weight[0] *= max(len(shapes) - 1.0, 1.0)  # independent scatter is as likely as all other shapes together
         share = np.sum(weight, axis=1)
         typical = weight @ size / np.maximum(share, np.finfo(float).tiny)
-        return np.asarray(np.tensordot(share / np.sum(share) * typical**2, scaled, axes=1))
+        return np.asarray(np.tensordot(share / np.sum(share) * typical**2, shapes, axes=1))
+
+    def _shapes(self, law: Array) -> list[Array]:
+        """Return covariances (n, n) that a misfit may have: independent, alike at near temperatures, or as stated."""
+        # Residuals bend along temperature; constants of other temperatures differ by more than independent scatter
+        # explains; stated errors may be too small. Each covariance leaves residuals of rms 1 beside a law, whose
+        # constants, with orthonormal derivatives `law`, and level absorb the rest.
+        seen = np.linalg.qr(np.column_stack([np.ones(len(law)), law]))[0]
+        apart = (self.temperatures[:, None] - self.temperatures) / np.ptp(self.temperatures)
+        alike = [np.exp(-0.5 * (apart / length) ** 2) for length in MISFIT_LENGTHS]
+        found = []
+        for shape in (np.eye(len(law)), *alike, self.covariance):
+            visible = np.trace(shape) - np.trace(seen.T @ shape @ seen)
+            if visible > VISIBLE * np.trace(shape):  # else errors of a few constants, or none
+                scale = (len(self) - law.shape[1]) / visible
+                found.append(scale * shape + ROUGHNESS * np.eye(len(law)))
+        return found
+
+    def _likelihood(self, shape: Array, size: Array, law: Array, left: Array) -> Array:
+        """Return ln of the restricted likelihood of sizes (s,) of a misfit of one shape."""
+        # D. A. Harville, J. Am. Stat. Assoc. 72 (1977) 320.
+        turned = FactorTable.of(self.temperatures, left, self.covariance, self.reference, shape)
+        error = np.sqrt(turned.variance + size[:, None] ** 2)  # (s, m)
+        columns, residual = (turned.turn @ law) / error[..., None], (turned.turn @ left) / error
+        # Not by the normal equations, which are singular where one factor is known exactly.
+        Q, R = np.linalg.qr(columns)
+        chi2 = np.sum(residual**2, axis=1) - np.sum(np.einsum("smi,sm->si", Q, residual) ** 2, axis=1)
+        log_det = np.sum(np.log(np.abs(np.diagonal(R, axis1=1, axis2=2))), axis=1) + np.sum(np.log(error), axis=1)
+        return np.asarray(-0.5 * (chi2 + turned.log_volume) - log_det)
 
 
 class Solution(NamedTuple):
