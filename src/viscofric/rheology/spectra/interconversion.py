@@ -43,12 +43,10 @@ import numpy as np
 
 from viscofric.arrays import Array, Indices
 
-#: A distance is bracketed within e^±700 of its pole at worst: this many halvings determine all bits of its logarithm.
-_HALVINGS = 64
+#: A zero lies no closer to its pole than e^−700: so many halvings determine all bits of the logarithm of its distance.
+_WIDEST, _HALVINGS = 700.0, 64
 #: A mode weaker than this, relative to the strongest, is left out: it would underflow.
 _NO_STRENGTH = 1e-200
-#: Newton steps in the logarithm of the distance, after which only rounding is left.
-_POLISHING = 3
 
 
 def merged(strengths: Array, positions: Array) -> tuple[Array, Array]:
@@ -108,44 +106,18 @@ def _zeros(residues: Array, poles: Array) -> tuple[Indices, Array]:
     right = inside & beyond
     nearest = np.where(right, left + 1, left)
     side = np.where(right, -1.0, 1.0)
-    # Bracket of the logarithm of the distance: next to its pole that pole's term outweighs all the others together.
+    # Next to its pole that pole's term outweighs all the others together.
     high = np.log(np.where(inside, middle, np.sum(residues)))
-    low = np.log(_closest(residues, poles, nearest, side, np.exp(high)))
+    low = high - _WIDEST
     for _ in range(_HALVINGS):
         trial = 0.5 * (low + high)
         further = _imbalance(residues, poles, nearest, side, np.exp(trial)) * side > 0.0
         low, high = np.where(further, trial, low), np.where(further, high, trial)
-    log_distance = 0.5 * (low + high)
-    for _ in range(_POLISHING):
-        step = _newton_step(residues, poles, nearest, side, np.exp(log_distance))
-        log_distance = np.clip(log_distance + step, low - 1e-9, high + 1e-9)
-    return nearest, side * np.exp(log_distance)
-
-
-def _parts(residues: Array, poles: Array, nearest: Indices, side: Array, distance: Array) -> tuple[Array, Array, Array]:
-    """Return the terms of poles left and right of each point (both positive), and x − pole."""
-    away = (poles[nearest][:, None] - poles[None, :]) + (side * distance)[:, None]
-    terms = residues[None, :] / away
-    return np.sum(np.maximum(terms, 0.0), axis=1), 1.0 - np.sum(np.minimum(terms, 0.0), axis=1), away
+    return nearest, side * np.exp(0.5 * (low + high))
 
 
 def _imbalance(residues: Array, poles: Array, nearest: Indices, side: Array, distance: Array) -> Array:
     """Return ln of the terms of poles on the left over those of level and poles on the right: falls with x."""
-    below, above, _ = _parts(residues, poles, nearest, side, distance)
+    terms = residues / ((poles[nearest][:, None] - poles) + (side * distance)[:, None])
+    below, above = np.sum(np.maximum(terms, 0.0), axis=1), 1.0 - np.sum(np.minimum(terms, 0.0), axis=1)
     return np.asarray(np.log(below) - np.log(above))
-
-
-def _closest(residues: Array, poles: Array, nearest: Indices, side: Array, farthest: Array) -> Array:
-    """Return a lower bound of the distance of the zero."""
-    below, above, _ = _parts(residues, poles, nearest, side, farthest)
-    # Nearer to the pole, the other side of the balance only becomes smaller.
-    return np.asarray(np.minimum(residues[nearest] / np.where(side > 0.0, above, below), farthest) * 0.5)
-
-
-def _newton_step(residues: Array, poles: Array, nearest: Indices, side: Array, distance: Array) -> Array:
-    """Return the Newton step of ln(distance) for the logarithm of the imbalance."""
-    below, above, away = _parts(residues, poles, nearest, side, distance)
-    change = residues[None, :] / away * (distance[:, None] / away)  # −side · d(term)/d ln(distance)
-    left, right = np.sum(np.where(away > 0, change, 0.0), axis=1), np.sum(np.where(away < 0, change, 0.0), axis=1)
-    slope = -side * (left / below + right / above)
-    return np.asarray(-(np.log(below) - np.log(above)) / slope)
