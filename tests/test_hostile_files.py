@@ -233,6 +233,13 @@ def test_friction_and_heights_that_no_rubber_or_surface_has_are_noted(tmp_path: 
     assert "copied-rows" in codes(vf.read_friction_curves(path).notes)
     path.write_text(path.read_text("utf-8") + "301,20,1,1e-5\n", encoding="utf-8")
     assert "copied-rows" not in codes(vf.read_friction_curves(path).notes)  # one of three
+    random = np.random.default_rng(0)
+    precise = np.round(0.83 * np.exp(0.01 * random.standard_normal(12)), 4)
+    measured = 0.83 * np.exp(0.01 * random.standard_normal(24))  # two digits are as coarse as the scatter
+    for friction, copied in ((np.round(measured, 2), False), (precise.repeat(2), True)):
+        rows = [f"10,20,1,{one}" for one in friction]
+        path.write_text("\n".join(["speed (m/s),temperature (degC),load (N),viscoelastic friction", *rows]), "utf-8")
+        assert ("copied-rows" in codes(vf.read_friction_curves(path).notes)) == copied
     scan = tmp_path / "scan.csv"
     scan.write_text("8e298,0\n0,1\n", encoding="utf-8")
     with refused("implausible-height", DataFileError, naming="8e+298"):

@@ -118,15 +118,40 @@ def notes_on_friction(friction: ArrayLike, temperature: ArrayLike, speed: ArrayL
     return tuple(notes)
 
 
-def notes_on_copies(columns: Iterable[ArrayLike]) -> tuple[Note, ...]:
-    """Return a note on rows, (n,) of each column, of which at least half are equal to others."""
-    rows = np.stack([np.asarray(column, dtype=float) for column in columns], axis=1)
+#: Friction repeats no better, as a part of it.
+REPEATS = 0.01
+
+
+def notes_on_copies(measured: ArrayLike, *columns: ArrayLike) -> tuple[Note, ...]:
+    """Return a note on rows, at least half of them equal to others, unless rounding of what was measured (n,) does."""
+    rows = np.stack([np.asarray(column, dtype=float) for column in (measured, *columns)], axis=1)
     count = len(rows) - len(np.unique(rows, axis=0))
     if not count or 2 * count < len(rows):
+        return ()
+    expected = _equal_by_rounding(rows[:, 0], np.unique(rows[:, 1:], axis=0, return_inverse=True)[1].ravel())
+    if count <= expected + 3.0 * np.sqrt(expected):
         return ()
     said = f"{count} of {len(rows)} rows are equal to others in all columns and count as measurements of their own"
     remedy = "; if they are copies, leave them out: errors would be too small."
     return (Note("copied-rows", said + remedy, values={"rows": count, "of": len(rows)}),)
+
+
+def _equal_by_rounding(measured: Array, condition: Integers) -> float:
+    """Return how many of the readings (n,) rounding is expected to make equal to others of their condition (n,)."""
+    from scipy.special import ndtr
+
+    steps = np.diff(np.unique(measured))
+    steps = steps[steps > 1e-9 * np.abs(measured).max()]
+    if not steps.size:  # one value, rounded by an unknown amount
+        return 0.0
+    resolution, equal = float(steps.min()), 0.0
+    for one in np.unique(condition):
+        values = measured[condition == one]
+        scatter = max(float(np.std(values)), REPEATS * abs(float(np.mean(values))), 0.1 * resolution)
+        reach = min(np.ceil(5.0 * scatter / resolution), 1e5) + 0.5
+        ends = (np.arange(-reach, reach + 1.0) * resolution + values[0] - np.mean(values)) / scatter
+        equal += len(values) - float(np.sum(1.0 - (1.0 - np.diff(ndtr(ends))) ** len(values)))
+    return equal
 
 
 @dataclass(frozen=True, eq=False)

@@ -183,7 +183,7 @@ def read_friction_curves(
         _complete(found, kind, replicates, notes)
     coefficients = [found[name] for name in ("viscoelastic", "coulomb") if name in found]
     doubts = notes_on_friction(coefficients, found["temperature"], found["speed"])
-    doubts += notes_on_copies(found.values())
+    doubts += notes_on_copies(coefficients[0], *(column for column in found.values() if column is not coefficients[0]))
     try:
         return FrictionCurves(
             replicates=replicates.astype(np.int64),

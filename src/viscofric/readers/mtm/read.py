@@ -163,7 +163,9 @@ def _together(parts: Sequence[TractionReadings]) -> TractionRuns:
     replicate, numbering = _replicates(parts, columns, step)
     friction = columns["traction_force"] / columns["load"]
     doubts = notes_on_friction(friction, columns["temperature"], columns["disc_speed"])
-    doubts += notes_on_copies([*columns.values(), replicate, *([] if time is None else [np.nan_to_num(time)])])
+    settings = [column for name, column in columns.items() if name != "traction_force"]
+    settings += [replicate, *([] if time is None else [np.nan_to_num(time)])]
+    doubts += notes_on_copies(columns["traction_force"], *settings)
     several = len(parts) > 1
     own = [note_of(note).at(Path(part.source).name if several else "") for part in parts for note in part.notes]
     return TractionRuns(
