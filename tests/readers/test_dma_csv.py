@@ -127,6 +127,19 @@ def test_what_looks_like_a_wrong_unit_is_noted(tmp_path, header, rows, doubt):
     assert not plain & {"implausible-temperature", "implausible-modulus"}
 
 
+@pytest.mark.parametrize(
+    ("glass", "doubtful"),
+    [(6.0, False), (2e5, False), (1.5, True), (2e6, True)],  # MPa: a foam, a carbon composite, GPa and kPa as MPa
+)
+def test_a_glass_is_doubtful_where_its_unit_is_wrong_by_a_thousand(tmp_path, glass, doubtful):
+    rows = [f"{celsius},1,{part * glass},{part * loss * glass}" for celsius, part, loss in _TRANSITION]
+    assert ("implausible-modulus" in codes(read_dma(write(tmp_path, HEADER, *rows)).notes)) == doubtful
+
+
+#: °C, E' over that of the glass, tan δ.
+_TRANSITION = ((-40, 1.0, 0.02), (0, 0.06, 0.9), (20, 3e-3, 0.1))
+
+
 def test_repeated_readings_are_averaged(tmp_path):
     sweeps = read_dma(write(tmp_path, HEADER, "20,1,4,0.4", "20,1,6,0.8", "20,2,7,0.9"))
     assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 7e6])

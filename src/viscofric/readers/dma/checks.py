@@ -206,8 +206,9 @@ FALLS = 0.9
 
 #: Sweeps cross a glass transition where E' changes by this factor and tan δ is below this at both of its ends.
 TRANSITION, LITTLE_LOSS = 100.0, 0.3
-#: The glass is then as stiff as this: from a foam to a filled resin.
-GLASSY_MODULUS = (1e7, 1e11)  # Pa
+#: The glass is then as stiff as this: from a foam of a twentieth of the density of its polymer, whose modulus is the
+#: square of that part, to a carbon composite.  Glasses of 0.5 to 4 GPa with a unit that is wrong by a thousand are not.
+GLASSY_MODULUS = (4e6, 5e11)  # Pa
 
 
 def notes_on(points: Points, sweeps: Sequence[Sorted]) -> list[Note]:
@@ -232,7 +233,7 @@ def _on_glass(sweeps: Sequence[Sorted]) -> list[Note]:
     if not elastic or stiff < TRANSITION * soft or GLASSY_MODULUS[0] <= stiff <= GLASSY_MODULUS[1]:
         return []
     said = f"E' rises from {soft:.3g} to {stiff:.3g} Pa, as through a glass transition, but a glass has some 10⁹ Pa"
-    said += ", unless it is a foam; check the unit of the moduli."
+    said += ", unless it is a light foam; check the unit of the moduli."
     return [Note("implausible-modulus", said, values={"soft": soft, "stiff": stiff})]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import replace
 
@@ -146,6 +147,10 @@ def _is_held(values: Array) -> bool:
     return bool(late.size) and float(np.ptp(late)) <= HELD * float(np.abs(np.mean(late)))
 
 
+#: Between the rubber and the glass.
+USUAL_MODULUS = 1e7  # Pa
+
+
 def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) -> tuple[Array, str, bool]:
     """Return the response in SI units, its heading, and whether its unit is that of the user alone."""
     place = table.place(_COLUMN[kind])
@@ -153,10 +158,12 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
         column = table.columns[place]
         lacks_unit = bool(source.modulus_unit) and not column.unit
         if not column.unit and not source.modulus_unit:
-            example = "1/MPa" if kind == "creep" else "MPa"
+            example = _likely_unit(table.numbers_or_missing(place), kind)
             by = setting("material.modulus_unit", "Unit of the moduli", repr(example))
             remedy = replace(by, python=f"response_unit='{example}'") + "."
-            raise table.refused("no-unit", f"column {column.heading!r} has no unit; give it by ", remedy)
+            raise table.refused(
+                "no-unit", f"column {column.heading!r} has no unit; give that of the file, perhaps ", remedy
+            )
         if lacks_unit:  # an error names the argument
             unit_conversion(source.modulus_unit, _SI[kind], "response_unit")
         values = table.values(place, _SI[kind], or_missing=True, assumed=source.modulus_unit)
@@ -176,6 +183,16 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
     strains = fraction * table.numbers_or_missing(strain)
     above, below = (strains, stresses) if kind == "creep" else (stresses, strains)
     return above / np.where(below == 0.0, np.nan, below), table.columns[stress].heading, False
+
+
+def _likely_unit(values: Array, kind: StepKind) -> str:
+    """Return the unit in which values without one are nearest to those of a rubber."""
+    known = np.abs(values[np.isfinite(values) & (values != 0.0)])
+    usual = float(np.median(known)) if known.size else 1.0
+    pascal = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
+    sizes = {unit: one / usual if kind == "creep" else one * usual for unit, one in pascal.items()}
+    unit = min(sizes, key=lambda one: abs(math.log(sizes[one] / USUAL_MODULUS)))
+    return f"1/{unit}" if kind == "creep" else unit
 
 
 def temperature_of(table: Table, source: Source, name: str, notes: list[str]) -> Array:
