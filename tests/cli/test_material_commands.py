@@ -176,7 +176,7 @@ def test_a_card_that_cannot_be_written_keeps_no_other_from_it(tmp_path: Path) ->
         "convert", tmp_path / "out" / "rubber.json", tmp_path / "law.inp", "--format", "abaqus", "--card-law", "wlf"
     )
     assert law.exit_code == 0
-    assert "Note" not in law.stderr
+    assert "The card" not in law.stderr
     assert isinstance(vf.read_card(tmp_path / "law.inp").shift, vf.WLF)
 
 
@@ -219,7 +219,7 @@ def test_a_test_at_one_temperature_has_no_samples_and_says_so_in_words_of_comman
     assert "no-bands" in {one["code"] for one in json.loads(succeed(*fit, "--json").stdout)["note_records"]}
     tree = vf.open_results(tmp_path / "out").tree
     advised = Note("", "Too coarse", remedy=Remedy("; modes=12.", "; --modes 12.", "; modes = 12 under [material]."))
-    tree["spectrum"].attrs["statement_records"] = dumped(records([advised]))
+    tree["spectrum"].attrs["statements"] = dumped(records([advised]))
     page = write_report(tree, tmp_path).read_text(encoding="utf-8")
     assert "Too coarse; --modes 12." in page
     assert not says_synthetic(tmp_path / "out" / "spectrum.csv")

@@ -127,7 +127,7 @@ def test_isotherms_that_drift_to_one_side_make_superposition_doubtful():
     remedy = check.sentences[0].remedy
     assert len({remedy.words(reader) for reader in READERS}) == len(READERS)
     # The data set that results store has the words for every reader, too.
-    stored = notes_in(check.to_dataset().attrs, "sentence_records")
+    stored = notes_in(check.to_dataset().attrs, "sentences")
     assert [[one.words(reader) for reader in READERS] for one in stored[:1]] == [
         [check.sentences[0].words(reader) for reader in READERS]
     ]

@@ -303,3 +303,20 @@ def test_errors_of_all_temperatures_are_noted() -> None:
     kelvin = [one.values["kelvin"] for one in found if one.code == "factors-scatter"]
     # Each from some six degrees of freedom, and slopes change by a factor of two over the temperatures.
     assert np.median(kelvin) == pytest.approx(0.5, rel=0.6)
+
+
+def test_points_far_off_make_errors_large_and_no_refusal():
+    """A fifth of all points is too large or too small by a factor of three, in E' and in E''."""
+    planted = planted_sweeps(4, 0.05, celsius=np.arange(0.0, 61.0, 10.0), frequencies=np.logspace(-1.0, 1.0, 9))
+    random, isotherms = np.random.default_rng(4), []
+    for one in planted.sweeps.isotherms:
+        far = random.choice([-1.0, 1.0], (2, len(one))) * (random.uniform(size=len(one)) < 0.2)
+        moduli = 3.0 ** far[0] * one.storage_modulus, 3.0 ** far[1] * one.loss_modulus
+        isotherms.append(Isotherm(one.temperature, one.angular_frequency, *moduli))
+    fit = vf.superpose(IsothermalSweeps(tuple(isotherms)), "20 degC")
+    factors = fit.shift_factors
+    away = factors.log10_values - planted.log10_alpha(factors.temperatures, "20 degC")
+    assert "points-far-off" in codes(fit.notes)
+    assert len(factors.temperatures) == 7  # no isotherm is left out
+    assert np.all(np.abs(away) <= 1.96 * factors.standard_errors)
+    assert factors.standard_errors.max() > 0.5  # decades

@@ -98,7 +98,6 @@ def _content(tree: DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, A
     spectrum, agreement = group(tree, "spectrum"), group(tree, "agreement")
     checks = all_checks(tree)
     reader: Reader = "run_file" if attrs.get("study_text") else "shell"  # of a command that takes no run file
-    statements = {} if spectrum is None else spectrum.attrs
     (_, answer), *others = _figures(tree, images)
     return {
         "title": attrs.get("title") or "Viscoelastic friction",
@@ -111,9 +110,7 @@ def _content(tree: DataTree, images: dict[str, dict[str, bytes]]) -> dict[str, A
         "glance": friction_at_a_glance(tree),
         "agreement": agreement_table(tree),
         "agreement_words": [] if agreement is None else sentences(agreement.attrs, "sentences"),
-        "statements": _words(
-            statements, "statement_records" if "statement_records" in statements else "statements", reader
-        ),
+        "statements": _words({} if spectrum is None else spectrum.attrs, "statements", reader),
         "checks": [check.record(reader) for check in checks],
         "verdicts": counted(checks),
         "answer_figures": answer,

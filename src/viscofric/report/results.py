@@ -11,7 +11,7 @@ import numpy as np
 from viscofric.arrays import Array, Integers, Mask
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.datasets import Dataset, DataTree
-from viscofric.notes import from_json
+from viscofric.notes import from_json, notes_in
 
 #: Temperatures closer than this are one nominal temperature, K.
 SAME_TEMPERATURE = 0.5
@@ -62,10 +62,7 @@ def numbers(attributes: Mapping[Any, Any], name: str) -> list[float]:
 
 def sentences(attributes: Mapping[Any, Any], name: str) -> list[str]:
     """Return an attribute that is a list of sentences, written as JSON or as a list."""
-    found = from_json(attributes.get(name, []))
-    if isinstance(found, str):
-        return [found] if found else []
-    return [str(sentence) for sentence in found]
+    return [str(note) for note in notes_in(attributes, name)]
 
 
 def is_synthetic(tree: DataTree) -> bool:

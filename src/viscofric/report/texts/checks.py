@@ -111,7 +111,7 @@ def _superposition(tree: DataTree) -> Iterator[Check]:
     yield from _law(tree, str(factors.attrs.get("shift_used", "measured")) == "measured")
     whole = group(tree, "superposition")
     if whole is not None:
-        said = notes_in(whole.attrs, "sentence_records" if "sentence_records" in whole.attrs else "sentences")
+        said = notes_in(whole.attrs, "sentences")
         code = said[0].code if said else ""
         words = Note(code, "", remedy=by_reader(lambda reader: " ".join(one.words(reader) for one in said)))
         holds, roughly = (number(whole.attrs, name) == 1.0 for name in ("holds", "roughly"))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -224,8 +223,7 @@ class SpectrumFit(KnownFrequencies, Shown):
             "E0_remark": self.E0_remark,
             "E_inf_remark": self.E_inf_remark,
             "E_inf_at_limit": int(self.E_inf_at_limit),
-            "statements": json.dumps(list(self.notes), ensure_ascii=False),
-            "statement_records": dumped(records(self.notes)),
+            "statements": dumped(records(self.notes)),
         }
 
     def to_dataset(self) -> Dataset:
@@ -234,7 +232,7 @@ class SpectrumFit(KnownFrequencies, Shown):
         ``rms_log10_storage``, ``rms_log10_loss`` and ``rms_log10_step`` (decades), ``modes``, ``tau_ratio``,
         ``regularisation`` and ``measured_storage`` (Pa), where they are known; ``frequency_range`` and, along ``gap``
         and ``end``, ``gaps`` in it (rad/s); the attributes ``method``, ``E0_extrapolated``, ``E_inf_extrapolated``,
-        ``E0_remark``, ``E_inf_remark``, ``E_inf_at_limit``, ``statements`` and ``statement_records`` (JSON).
+        ``E0_remark``, ``E_inf_remark``, ``E_inf_at_limit``, ``statements``, the notes (JSON).
         """
         known: dict[str, tuple[Any, str, str]] = {
             "rms_log10_storage": (self.rms_storage, "1", "rms misfit of log10 of the storage modulus"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,7 +18,7 @@ from viscofric.notes import Note, Remedy, dumped, note_of, records
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
-from viscofric.rheology.superposition.joined_isotherms import LARGEST_MISFIT, ranges
+from viscofric.rheology.superposition.joined_isotherms import LARGEST_MISFIT, on_gaps, ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.rheology.superposition.overlap import LogSweep, OverlapQuality, OwnShifts, own_shifts
 from viscofric.showing import Plotted, Rows, Shown
@@ -255,8 +254,7 @@ class Judged(Shown):
                 "holds": int(self.holds),
                 "roughly": int(self.roughly),
                 "figure_of_merit": self.figure_of_merit,
-                "sentences": json.dumps(list(sentences), ensure_ascii=False),
-                "sentence_records": dumped(records(sentences)),
+                "sentences": dumped(records(sentences)),
                 **more,
             },
         )
@@ -373,7 +371,7 @@ def check(
         ),
         *others,
         *_overlap(figure, quality.joint),
-        *_gaps(isotherms, quality),
+        *on_gaps(temperatures, quality),
         causal_sentence,
     )
     return SuperpositionCheck(
@@ -492,20 +490,6 @@ def _overlap(figure: float, misfit: float) -> tuple[str, ...]:
     sentence = (
         f"The shifted isotherms miss each other by {_decades(misfit)} (joint rms) where they overlap: the master curve "
         "is a compromise."
-    )
-    return (sentence,)
-
-
-def _gaps(isotherms: tuple[Isotherm, ...], quality: OverlapQuality) -> tuple[str, ...]:
-    """Return a note that isotherms without overlap are not tested."""
-    if not quality.gaps:
-        return ()
-    at = [isotherms[place : place + 2] for place in quality.gaps[:_NAMED]]
-    where = ", ".join(_pair(one.temperature, other.temperature) for one, other in at)
-    more = " and others" if quality.without_overlap > _NAMED else ""
-    sentence = (
-        f"{quality.without_overlap} of {quality.neighbours} pairs of neighbours do not overlap once shifted (between "
-        f"{where}{more}): there no overlap tests the shift factors."
     )
     return (sentence,)
 

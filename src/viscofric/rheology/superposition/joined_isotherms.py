@@ -15,7 +15,15 @@ from viscofric.data import Isotherm
 from viscofric.errors import InputError, SuperpositionError, check_choice
 from viscofric.notes import Note, Remedy
 from viscofric.rheology.shifts.laws import ShiftLaw
-from viscofric.rheology.superposition.overlap import Join, LogSweep, failures, join, join_at
+from viscofric.rheology.superposition.overlap import (
+    Join,
+    LogSweep,
+    OverlapQuality,
+    failures,
+    join,
+    join_at,
+    join_of_most,
+)
 from viscofric.step_tests import StepTest
 from viscofric.units import shown_celsius
 
@@ -186,6 +194,22 @@ def ranges(steps: Iterable[tuple[float, float]]) -> str:
     return ", ".join(f"{shown(colder)} to {shown(warmer)}" for colder, warmer in runs)
 
 
+def steps_at(temperatures: Array, places: Iterable[int]) -> tuple[tuple[float, float], ...]:
+    """Return the two temperatures of each step from one isotherm to the next."""
+    return tuple((float(temperatures[place]), float(temperatures[place + 1])) for place in places)
+
+
+def on_gaps(temperatures: Array, quality: OverlapQuality) -> list[Note]:
+    """Return a note on the neighbours that do not overlap once shifted, none where all do."""
+    if not quality.gaps:
+        return []
+    sentence = (
+        f"{quality.without_overlap} of {quality.neighbours} pairs of neighbouring isotherms do not overlap once "
+        f"shifted, from {ranges(steps_at(temperatures, quality.gaps))}: nothing measured tests the shift there."
+    )
+    return [Note("no-overlap", sentence)]
+
+
 def usable(isotherms: Sequence[Isotherm | StepTest]) -> None:
     """Raise SuperpositionError unless there are at least two isotherms of at least two points."""
     if len(isotherms) < 2:
@@ -213,7 +237,10 @@ def join_isotherms(
 ) -> JoinedIsotherms[Tested]:
     """Join neighbours by their quantities, and leave out single isotherms at the ends that overlap no other."""
     joins = [join(colder, warmer) for colder, warmer in pairwise(quantities.of(logs))]
-    joined = np.array([found.misfit <= LARGEST_MISFIT for found in joins])
+    for place, (colder, warmer) in enumerate(pairwise(quantities.of(logs))):
+        if joins[place].misfit > LARGEST_MISFIT:
+            joins[place] = join_of_most(colder, warmer, LARGEST_MISFIT) or joins[place]
+    joined = np.array([found.misfit <= LARGEST_MISFIT or found.of_most for found in joins])
     if not joined.any():
         raise SuperpositionError(_gap(isotherms, 0), code="no-overlap")
     first, last = int(np.argmax(joined)), len(joined) - int(np.argmax(joined[::-1]))
@@ -226,6 +253,10 @@ def join_isotherms(
         Note("left-out", f"The isotherm at {shown(isotherms[place].temperature)} was left out: {_gap(isotherms, gap)}")
         for place, gap in [(p, p) for p in range(first)] + [(p, p - 1) for p in range(last + 1, len(isotherms))]
     )
+    temperatures = np.array([one.temperature for one in isotherms])
+    if of_most := steps_at(temperatures, [place for place in range(first, last) if joins[place].of_most]):
+        said = f"The isotherms from {ranges(of_most)} were joined by most of their points, for others are far off: "
+        notes += (Note("points-far-off", f"{said}errors are large; look for outliers among the readings."),)
     inside = slice(first, last + 1)
     return JoinedIsotherms(isotherms[inside], logs[inside], joins[first:last], notes)
 

@@ -34,6 +34,10 @@ COMMON_MODULI = 0.25
 #: … and where they are joined pair by pair, the best steps of E' and of E'' differ by about this.
 PAIR_UNCERTAINTY = 0.5  # decades
 SMALLEST_NOISE = 1e-6  # decades; keeps noise-free data from dividing by zero
+#: Half of normal errors are smaller than this many standard deviations …
+QUARTILE = 0.6745
+#: … which fewer points, or a smaller part of a sweep, do not show; and number of steps that are tried.
+FEWEST_OF_MOST, PART_OF_MOST, STEPS_OF_MOST = 4, 0.4, 201
 #: Sides of an interval that differ by more than this factor are not those of a parabola with noise.
 LOPSIDED = 1.5
 
@@ -81,6 +85,8 @@ class Join:
     # interval of steps whose χ² is within 1.96² of the best, over 1.96; or, if greater, the root mean square of the
     # differences from the best steps of E' and of E'' alone.
     uncertainty: float
+    # Whether most of the points overlap, and some are so far off that the misfit does not show it.
+    of_most: bool = False
 
 
 def join(colder: LogSweep, warmer: LogSweep, noise: float = 0.0) -> Join:
@@ -115,6 +121,23 @@ def join(colder: LogSweep, warmer: LogSweep, noise: float = 0.0) -> Join:
     means = np.where(np.isfinite(misfit)[:, None], squares, np.inf) / np.maximum(count, 1)[:, None]
     away = steps[np.argmin(means, axis=0)] - found.step
     return replace(found, uncertainty=max(found.uncertainty, half / LEVEL_95, float(np.sqrt(np.mean(away**2)))))
+
+
+def join_of_most(colder: LogSweep, warmer: LogSweep, largest: float) -> Join | None:
+    """Join two sweeps by most of their points, whatever the others are; None where these differ by more than given."""
+    steps = np.linspace(*steps_that_overlap(colder, warmer), STEPS_OF_MOST)
+    frequency = colder.frequency + steps[:, None]
+    away = np.abs(warmer.at(frequency) - colder.moduli)
+    inside = warmer.covers(frequency)
+    away[~inside] = np.nan
+    enough = np.count_nonzero(inside, axis=1) >= max(FEWEST_OF_MOST, PART_OF_MOST * min(len(colder), len(warmer)))
+    if not np.any(enough):
+        return None
+    scatter = np.max(np.nanmedian(away[enough], axis=1), axis=1) / QUARTILE
+    best = int(np.argmin(scatter))
+    found = join_at(colder, warmer, float(steps[enough][best]))
+    wide = replace(found, uncertainty=max(found.uncertainty, PAIR_UNCERTAINTY), of_most=True)
+    return wide if scatter[best] <= largest else None
 
 
 def steps_that_overlap(colder: LogSweep, warmer: LogSweep) -> tuple[float, float]:

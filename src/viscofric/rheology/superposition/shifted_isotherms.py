@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -26,14 +26,15 @@ from viscofric.rheology.superposition.joined_isotherms import (
     Tested,
     as_given,
     join_isotherms,
+    on_gaps,
     ranges,
     shown,
+    steps_at,
     usable,
 )
 from viscofric.rheology.superposition.overlap import (
     PAIR_UNCERTAINTY,
     LogSweep,
-    OverlapQuality,
     overlap_quality,
     own_shifts,
 )
@@ -184,20 +185,19 @@ def shifted_isotherms(
     unidentified: tuple[tuple[float, float], ...] = ()
     notes = [*joined.notes, *joined.disagreements(given=shift is not None)]
     if shift is None:
-        notes += joined_by_pairs(temperatures, found.parted, len(quantities.weights))
-        places = unidentified_places(found.values, found.covariance)
-        unidentified = steps_at(temperatures, places)
-        notes += unidentified_steps(unidentified, max(errors_of_steps(found.covariance)[places], default=0.0))
+        notes += _on_steps(temperatures, found, len(quantities.weights))
+        unidentified = steps_at(temperatures, unidentified_places(found))
         if not fixed:
             notes += course_notes(temperatures, found.values, found.covariance)
     if free:
         known = VerticalShiftFactors(temperatures, found.vertical, kelvin, found.vertical_covariance)
         joined = joined.less(known.log10_values)
-        notes += unidentified_vertical(temperatures, found.vertical_covariance)
-    if shift is not None or fixed:
-        notes += badly_given(joined.logs, factors.log10_values)
+        notes += _on_vertical(temperatures, found.vertical_covariance)
+    if (shift is not None or fixed) and (own := own_shifts(joined.logs, factors.log10_values)).wrong:
+        said = f"The given shift factors do not join the isotherms: {own.clause}."
+        notes.append(Note("given-factors-wrong", said))
     quality = overlap_quality(joined.logs, factors.log10_values)
-    notes += without_overlap(temperatures, quality)
+    notes += on_gaps(temperatures, quality)
     return joined, {
         "shift_factors": factors,
         "quality": quality,
@@ -250,75 +250,47 @@ SIGN_UNKNOWN = 0.1  # decades
 VERTICAL_UNIDENTIFIED = 0.02  # decades
 
 
-def badly_given(logs: list[LogSweep], log10_shifts: Array) -> list[str]:
-    """Return a note that the given shift factors join the isotherms badly on the whole."""
-    found = own_shifts(logs, log10_shifts)
-    text = f"The given shift factors do not join the isotherms: {found.clause}."
-    return [Note("given-factors-wrong", text)] if found.wrong else []
+def _on_steps(temperatures: Array, found: CommonShifts, quantities: int) -> Iterator[Note]:
+    """Yield notes on neighbours that a common curve moved apart, and on steps of α that are not identified."""
+    if found.parted:
+        one, why, cure = "moduli", "", ""
+        if quantities > 1:
+            one, why = "storage moduli", ", because E' and E'' do not agree on the shift"
+            cure = " Look for loss moduli that the instrument itself makes, as a resonance does at its highest "
+            cure += "frequencies."
+        yield Note(
+            "joined-by-pairs",
+            f"The isotherms from {ranges(steps_at(temperatures, found.parted))} were joined pair by pair: one common "
+            f"curve would move them apart although their {one} overlap{why}; each step there is uncertain by "
+            f"{PAIR_UNCERTAINTY:g} decades or more.{cure}",
+        )
+    places = unidentified_places(found)
+    if places:
+        yield Note(
+            "alpha-not-identified",
+            f"α is not identified from {ranges(steps_at(temperatures, places))}: the isotherms there join about as "
+            "well over a wide range of shifts, as where moduli change too little for their scatter (standard error of "
+            f"a step up to {max(errors_of_steps(found.covariance)[places]):.1g} decades).",
+        )
 
 
-def joined_by_pairs(temperatures: Array, places: tuple[int, ...], quantities: int) -> list[str]:
-    """Return a note on the temperatures where a common curve moved neighbours apart."""
-    if not places:
-        return []
-    one, why, cure = "moduli", "", ""
-    if quantities > 1:
-        one, why = "storage moduli", ", because E' and E'' do not agree on the shift"
-        cure = " Look for loss moduli that the instrument itself makes, as a resonance does at its highest frequencies."
-    sentence = (
-        f"The isotherms from {ranges(steps_at(temperatures, places))} were joined pair by pair: one common curve would "
-        f"move them apart although their {one} overlap{why}; each step there is uncertain by "
-        f"{PAIR_UNCERTAINTY:g} decades or more.{cure}"
-    )
-    return [Note("joined-by-pairs", sentence)]
-
-
-def without_overlap(temperatures: Array, quality: OverlapQuality) -> list[str]:
-    """Return a note on the neighbours that do not overlap once shifted."""
-    if not quality.gaps:
-        return []
-    sentence = (
-        f"{quality.without_overlap} of {quality.neighbours} pairs of neighbouring isotherms do not overlap once "
-        f"shifted, from {ranges(steps_at(temperatures, quality.gaps))}: nothing measured tests the shift there."
-    )
-    return [Note("no-overlap", sentence)]
-
-
-def unidentified_places(values: Array, covariance: Array) -> list[int]:
-    """Return the indices of steps of log10 α that the isotherms do not determine."""
-    errors = errors_of_steps(covariance)
-    either_sign = (errors > SIGN_UNKNOWN) & (np.abs(np.diff(values)) < 2.0 * errors)
-    return [int(place) for place in np.flatnonzero((errors > UNIDENTIFIED) | either_sign)]
-
-
-def unidentified_steps(steps: tuple[tuple[float, float], ...], error: float) -> list[str]:
-    """Return a note on the temperatures between which the isotherms do not determine α."""
-    if not steps:
-        return []
-    sentence = (
-        f"α is not identified from {ranges(steps)}: the isotherms there join about as well over a wide range of "
-        "shifts, as where moduli change too little for their scatter (standard error of a step up to "
-        f"{error:.1g} decades)."
-    )
-    return [Note("alpha-not-identified", sentence)]
-
-
-def unidentified_vertical(temperatures: Array, covariance: Array) -> list[str]:
-    """Return a note on the temperatures between which the isotherms do not determine b."""
+def _on_vertical(temperatures: Array, covariance: Array) -> Iterator[Note]:
+    """Yield a note on the temperatures between which the isotherms do not determine b."""
     errors = errors_of_steps(covariance)
     places = np.flatnonzero(errors > VERTICAL_UNIDENTIFIED)
-    if not places.size:
-        return []
-    sentence = (
-        f"b is not identified from {ranges(steps_at(temperatures, places))}: there the isotherms do not separate it "
-        f"from α (standard error of a step up to {100.0 * (10.0 ** errors[places].max() - 1.0):.0f} %)."
-    )
-    return [Note("vertical-not-identified", sentence)]
+    if places.size:
+        yield Note(
+            "vertical-not-identified",
+            f"b is not identified from {ranges(steps_at(temperatures, places))}: there the isotherms do not separate "
+            f"it from α (standard error of a step up to {100.0 * (10.0 ** errors[places].max() - 1.0):.0f} %).",
+        )
 
 
-def steps_at(temperatures: Array, places: Iterable[int]) -> tuple[tuple[float, float], ...]:
-    """Return the two temperatures of each step."""
-    return tuple((float(temperatures[place]), float(temperatures[place + 1])) for place in places)
+def unidentified_places(found: CommonShifts) -> list[int]:
+    """Return the indices of steps of log10 α that the isotherms do not determine."""
+    errors = errors_of_steps(found.covariance)
+    either_sign = (errors > SIGN_UNKNOWN) & (np.abs(np.diff(found.values)) < 2.0 * errors)
+    return [int(place) for place in np.flatnonzero((errors > UNIDENTIFIED) | either_sign)]
 
 
 def errors_of_steps(covariance: Array) -> Array:

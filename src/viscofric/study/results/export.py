@@ -12,7 +12,7 @@ from typing import Any, Literal, get_args
 from viscofric.datasets import Dataset, DataTree, plain
 from viscofric.errors import InputError, check_choice
 from viscofric.files import file_path, write_atomically
-from viscofric.notes import from_json, notes_in
+from viscofric.notes import from_json, note_of, notes_in
 from viscofric.study.results.columns import about, columns_of, table_text, tables
 from viscofric.study.results.file import RESULTS_FILE, cases_of
 from viscofric.study.results.netcdf import write_netcdf
@@ -142,11 +142,12 @@ class _Made:
 
 
 def _values(named: Iterable[tuple[str, Dataset]]) -> Iterator[tuple[str, str, Any]]:
-    """Yield the known attributes of tables: numbers and texts, each of a list by itself; no other JSON."""
+    """Yield the known attributes of tables: numbers, texts and notes, each of a list by itself; no other JSON."""
     for table, dataset in named:
         for name, value in dataset.attrs.items():
             held = plain(from_json(value), None)
             for one in held if isinstance(held, list) else [held]:
+                one = str(note_of(one)) if isinstance(one, dict) and "code" in one else one
                 if isinstance(one, str | int | float) and str(one):
                     yield table, str(name), one
 
