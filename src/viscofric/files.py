@@ -16,8 +16,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import DataFileError, InputError, brief, not_written
+from viscofric.notes import Note
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from os import PathLike
 
     import numpy as np
@@ -42,6 +44,8 @@ _HDF5 = b"\x89HDF\r\n\x1a\n"
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
 # In remarks of files, unless it is the kind of a substance, which may well be measured.
 _SYNTHETIC = re.compile(r"\bsynthetic\b(?!\s+(rubber|elastomer|polymer|oil|grease|lubricant))", re.IGNORECASE)
+#: Code of the note on such files, by which a material that is made of them is synthetic, too.
+SYNTHETIC = "synthetic"
 _OF_ELEMENT = re.compile(r">([^<]+)<")
 _REMARKED = 64_000  # bytes at the beginning of a file whose remarks say where its data come from
 
@@ -128,6 +132,13 @@ def says_synthetic(path: str | PathLike[str]) -> bool:
     except (OSError, DataFileError, zipfile.BadZipFile):
         return False
     return any(_SYNTHETIC.search(line) for line in lines if line.startswith("#"))
+
+
+def on_synthetic(paths: Iterable[str | PathLike[str]]) -> list[Note]:
+    """Return a note on files that say of themselves that they were not measured, none where no file does."""
+    found = [Path(path).name for path in paths if says_synthetic(path)]
+    named = f"{found[0]} says" if len(found) == 1 else f"{len(found)} files say"
+    return [Note(SYNTHETIC, f"{named} that the data are synthetic: nothing was measured.")] if found else []
 
 
 def _remarks_of_workbook(path: str | PathLike[str]) -> list[str]:

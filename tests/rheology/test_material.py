@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -128,3 +130,25 @@ def test_wlf_law_far_above_its_reference_is_noted_whether_or_not_its_range_is_kn
     material = vf.Material(vf.synthetic_fluoroelastomer().spectrum, shift=law.unbounded())
     assert "extrapolated" not in codes(material.notes_at([263.15, 353.15]))
     assert "extrapolated" in codes(material.notes_at([353.15, 423.15]))
+
+
+def test_the_law_of_an_assumed_material_is_exact_at_any_temperature():
+    rubber = vf.synthetic_fluoroelastomer()
+    assert rubber.synthetic
+    assert "extrapolated" not in codes(rubber.notes_at("150 degC"))  # 120 K above its reference
+    assert "extrapolated" in codes(replace(rubber, synthetic=False).notes_at("150 degC"))
+
+
+def test_a_material_made_step_by_step_of_files_that_say_so_is_synthetic(tmp_path):
+    omega, rows = np.logspace(-1.0, 1.0, 5), ["T (degC),omega (rad/s),E' (Pa),E'' (Pa)"]
+    for celsius in (20.0, 25.0, 30.0):
+        moduli = vf.synthetic_fluoroelastomer().complex_modulus(omega, celsius + 273.15)
+        rows += [f"{celsius},{one},{E.real},{E.imag}" for one, E in zip(omega, moduli, strict=True)]
+    for synthetic, remark in ((True, "# SYNTHETIC, not measured."), (False, "# a synthetic rubber, measured")):
+        path = tmp_path / f"{synthetic}.csv"
+        path.write_text("\n".join([remark, *rows]), encoding="utf-8")
+        fit = vf.superpose(vf.read_dma(path), reference="25 degC")
+        rubber = vf.Material(vf.fit_retardation_spectrum(fit), shift=fit.shift_factors)
+        assert rubber.synthetic == rubber.at_reference("30 degC").synthetic == synthetic
+        vf.write_card(rubber, tmp_path / "rubber.json", format="json")
+        assert vf.read_card(tmp_path / "rubber.json").synthetic == synthetic

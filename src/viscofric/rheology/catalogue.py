@@ -175,7 +175,7 @@ def synthetic_fluoroelastomer() -> Material:
         slow={"centre": 4.5, "long": 0.5, "short": 2.5},
     )
     shift = WLFArrhenius(C1=17.44, C2=51.6, glass_transition="-18 degC", reference="30 degC")
-    return Material(spectrum, shift, poisson_ratio=0.5, name="synthetic fluoroelastomer")
+    return Material(spectrum, shift, name="synthetic fluoroelastomer", synthetic=True)
 
 
 def _synthetic_tread_rubber() -> Material:
@@ -188,7 +188,7 @@ def _synthetic_tread_rubber() -> Material:
         slow={"centre": 0.5, "long": 2.5, "short": 2.5},
     )
     shift = WLFArrhenius(C1=17.44, C2=51.6, glass_transition="-15 degC", reference="20 degC")
-    return Material(spectrum, shift, poisson_ratio=0.5, name="synthetic tread rubber")
+    return Material(spectrum, shift, name="synthetic tread rubber", synthetic=True)
 
 
 def _two_transitions(

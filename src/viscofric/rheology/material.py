@@ -13,7 +13,8 @@ from viscofric.arguments import flag, insist_on, text
 from viscofric.arrays import Array, ComplexArray
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
-from viscofric.notes import Note, Remedy, without
+from viscofric.files import SYNTHETIC
+from viscofric.notes import Note, Remedy, codes, without
 from viscofric.rheology.shifts.laws import VFT, WLF, OneTemperature, ShiftLaw, WLFArrhenius
 from viscofric.rheology.shifts.shift_law import NOMINAL, in_kelvin
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
@@ -52,7 +53,8 @@ class Material(Plotted):
     citation : str
         Where the parameters were published or measured.
     synthetic : bool
-        Whether it is neither measured nor published; results and material files of it then say so.
+        Whether it is neither measured nor published; results and material files of it then say so.  True in any case
+        where a file that the spectrum was fitted to says so.
 
     Raises
     ------
@@ -115,6 +117,8 @@ class Material(Plotted):
         text(self.name, "name of a material")
         text(self.citation, "citation of a material")
         flag(self.synthetic, "synthetic")
+        if SYNTHETIC in codes(getattr(getattr(self.spectrum, "fit", None), "notes", ())):
+            object.__setattr__(self, "synthetic", True)
 
     def _shown(self) -> Rows:
         return (
@@ -285,7 +289,7 @@ class Material(Plotted):
             Where the sweeps do not superpose (codes from ``superposition-``), E' and E'' contradict each other
             (``kramers-kronig-fails``) or the spectrum does not follow them (``spectrum-misfit``), and where the shift
             law extrapolates beyond the temperatures that it was fitted to, or more than 100 K above the reference of a
-            WLF law for which they are not known (``extrapolated``).
+            WLF law for which they are not known (``extrapolated``), unless the material as a whole was assumed.
         """
         fit = getattr(self.spectrum, "fit", None)
         return (*(() if fit is None else fit.doubts), *self._extrapolated(temperature))
@@ -297,6 +301,8 @@ class Material(Plotted):
         beyond = every[np.asarray(self.shift.extrapolates(every))]
         said = "At {} the law extrapolates the shift factor beyond the temperatures that it was fitted to."
         if isinstance(self.shift, (WLF, VFT, WLFArrhenius)) and self.shift.fitted_range is None:
+            if self.synthetic and getattr(self.spectrum, "fit", None) is None:  # assumed, and so exact
+                return ()
             beyond = every[every > self.shift.reference + FREE_VOLUME_RANGE]
             said = (
                 f"At {{}}, more than {FREE_VOLUME_RANGE:g} K above its reference, the {self.shift.title} law may not "

@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.arrays import Array, Indices
 from viscofric.data import DEFORMATIONS, Deformation, Isotherm, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, check_choice, short_notes
+from viscofric.files import on_synthetic
 from viscofric.notes import Note, note_of
 from viscofric.readers.dma.checks import notes_on, of_one_amplitude, usable
 from viscofric.readers.dma.readings import AS_RAMPS, Points, Readings, Sorted, at, joined, listed
@@ -319,7 +320,16 @@ def _without(sweeps: list[Sorted], temperatures: Array) -> tuple[list[Sorted], l
 def opening(readings: Sequence[Readings], deformation: Deformation | None) -> tuple[str, Deformation, list[Note]]:
     """Return the name of the files, the kind of deformation, and the notes on both and of the readers."""
     kind, on_deformation = _deformation(readings, deformation)
-    return _source(readings), kind, [*_on_formats(readings), *on_deformation, *_own_notes(readings)]
+    return (
+        _source(readings),
+        kind,
+        [
+            *_on_formats(readings),
+            *on_synthetic(one.source for one in readings),
+            *on_deformation,
+            *_own_notes(readings),
+        ],
+    )
 
 
 def _source(readings: Sequence[Readings]) -> str:

@@ -19,6 +19,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.data import DEFORMATIONS, Deformation
 from viscofric.errors import DataFileError, check_choice, wrong_argument
+from viscofric.files import on_synthetic
 from viscofric.notes import Note
 from viscofric.readers.dma.checks import doubts
 from viscofric.readers.dma.instruments import trios_text
@@ -140,7 +141,8 @@ def read_step_tests(
             "response_unit", response_unit, "the files state their units; leave it out.", "unit-not-needed"
         )
     stated = _stated(parts, deformation)
-    notes: list[str] = list(dict.fromkeys(note for part in parts for note in part.notes))
+    notes: list[str] = [*on_synthetic(one.path for one in sources)]
+    notes += dict.fromkeys(note for part in parts for note in part.notes)
     tests = _tests(parts, notes)
     if not tests:
         raise DataFileError(sources[0].path, f"no test has {LEAST_POINTS} usable points or more.", code="no-points")

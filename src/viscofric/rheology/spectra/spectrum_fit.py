@@ -11,7 +11,8 @@ import numpy as np
 from viscofric.arguments import insist_on, whole_number
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice, wrong_argument
-from viscofric.notes import Note
+from viscofric.files import SYNTHETIC
+from viscofric.notes import Note, note_of
 from viscofric.rheology.spectra import mode_fits
 from viscofric.rheology.spectra.fit_verdict import Curve, judged, solid_modes
 from viscofric.rheology.spectra.misfit import (
@@ -126,10 +127,10 @@ def fit_retardation_spectrum(
 
 
 def _with_doubts(spectrum: RetardationSpectrum, *tests: object) -> RetardationSpectrum:
-    """Return the spectrum with notes on superpositions behind it that do not hold, which results repeat."""
-    return spectrum.noted(
-        *(note for one in tests if isinstance(one, Superposed) and one.isotherms for note in one.check.doubts)
-    )
+    """Return the spectrum with notes on what is behind it: superpositions that do not hold, synthetic measurements."""
+    behind = [one for one in tests if isinstance(one, Superposed) and one.isotherms]
+    made_up = (note for one in behind for note in map(note_of, one.notes) if note.code == SYNTHETIC)
+    return spectrum.noted(*(note for one in behind for note in one.check.doubts), *dict.fromkeys(made_up))
 
 
 @dataclass(frozen=True)
