@@ -83,6 +83,8 @@ def test_units_that_are_read_without_pint_are_those_of_pint(unit: str, text: str
         ("٣ N", "N", ("not-a-number",)),
         ("mm", "m", ("no-number",)),
         ("25", "N", ("no-unit",)),
+        ("5 Pas", "Pa", ("wrong-unit",)),  # no plural of pascal
+        ("5 kNs", "N", ("wrong-unit",)),
         ("", "N", ("empty",)),
         ("1e400 N", "N", ("not-finite",)),
         ("5 foo", "N", ("unknown-unit", "'foo'")),

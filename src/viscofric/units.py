@@ -84,6 +84,8 @@ _DECIMAL_COMMA = re.compile(
 _PARTED = re.compile(
     r"(?P<number>[+-]?[0-9]{1,3}(?:(?P<mark>[ ,'’\u00a0\u202f])[0-9]{3})+(?:\.[0-9]+)?)\s*(?P<unit>[^0-9,.\s][^,]*|)"
 )
+#: "mPas", "Ns": products with the second, in which pint would see the plurals of pascal and newton.
+_TIMES_SECOND = re.compile(r"(?<![^\W\d_])([munkhMG]?(?:Pa|N|Hz|J|K))s(?![^\W_])")
 # A unit is names with single-digit exponents, multiplied and divided; pint gets nothing else to evaluate.
 _LONGEST_UNIT = 40
 _TERM = r"[^\W\d]+(?:\s?(?:\*\*|\^)\s?(?:-?[0-9]|\(-?[0-9]\))|⁻?[¹²³])?(?![0-9⁻¹²³^])"
@@ -134,6 +136,7 @@ def _plain(text: str) -> str:
     """Replace the degree, micro, product and percent signs of instruments by those that pint reads."""
     text = text.strip().replace("µ", "u").replace("μ", "u").replace("·", "*").replace("℃", "°C").replace("%", "percent")
     text = re.sub(r"(?<=[^\W\d])\.(?=[^\W\d])", "*", text)
+    text = _TIMES_SECOND.sub(r"\1*s", text)
     return text.replace("°C", "degC").replace("°F", "degF").replace("°K", "K")
 
 

@@ -174,7 +174,9 @@ def test_reduced_frequencies_count_before_measured_ones(tmp_path):
     )
 
 
-@pytest.mark.parametrize("name", ["ω·aT", "aT·ω", "aT*ω", "ω_red", "ω_r", "Reduced angular frequency"])
+@pytest.mark.parametrize(
+    "name", ["ω·aT", "aT·ω", "aT*ω", "ω a_T", "omega × aT", "ω_red", "ω_r", "Reduced angular frequency"]
+)
 def test_reduced_frequencies_are_known_by_their_symbols(tmp_path, name):
     path = write(tmp_path, f"{name} (rad/s),E' (MPa),E'' (MPa)", "1,5,0.5", "20,6,0.6")
     assert read_master_curve(path, "30 degC").angular_frequency == pytest.approx([1.0, 20.0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 
@@ -11,6 +12,8 @@ from readers.refusal import refused
 from readers.samples import workbook
 from readers.written import write
 from viscofric import files, read_dma, read_friction_curves
+from viscofric.notes import codes
+from viscofric.readers.dma.names import temperature_in_name
 
 HEADER = "temperature (degC);frequency (Hz);tensile storage modulus (MPa);tensile loss modulus (MPa)"
 
@@ -67,6 +70,48 @@ def test_signs_that_look_alike_are_the_same(tmp_path, sign, degree):
 def test_a_line_that_shows_excel_the_delimiter_is_no_header(tmp_path, line):
     sweeps = read_dma(write(tmp_path, line, HEADER, "20;0,1;5,5;0,5", "20;1;6,5;0,5"))
     assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+
+
+@pytest.mark.parametrize("mark", ["#", "# ", "%", "% ", "// ", "! "])
+@pytest.mark.parametrize("end", ["End of data", "*** Ende ***", "[EOF]", "// ---"])
+def test_lines_under_a_mark_of_remarks_and_the_end_of_data_are_no_rows(tmp_path, mark, end):
+    rows = ["20;1;5.5;0.5", f"{mark}cooled", "20;2;6.5;0.5", end]
+    for head in (HEADER, mark + HEADER):
+        sweeps = read_dma(write(tmp_path, f"{mark}film of NR", head, *rows))
+        assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+
+
+@pytest.mark.parametrize("last", ["End of data; 12 points", "Operator: AB"])
+def test_other_words_below_a_table_are_refused(tmp_path, last):
+    with refused("row-length", 4):
+        read_dma(write(tmp_path, HEADER, "20;1;5.5;0.5", "20;2;6.5;0.5", last))
+
+
+@pytest.mark.parametrize(("heading", "unit"), [("% strain", ""), ("strain", "%")])
+def test_a_row_that_begins_with_per_cent_is_no_remark(tmp_path, heading, unit):
+    headings = f"{heading};T;f;E';E''"
+    path = write(tmp_path, headings, f"{unit};°C;Hz;MPa;MPa", "0.1;20;1;5.5;0.5", "0.1;20;2;6.5;0.5")
+    assert read_dma(path).isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+
+
+@pytest.mark.parametrize(
+    ("name", "kelvin"),
+    [
+        *(("0 - 5 °C", None), ("NR 10 – 15 °C", None), ("T = 0 to 5 °C", None), ("Sweep 3 - 25 °C", 298.15)),
+        *(("NR60 - 25 °C", 298.15), ("SBR 1500 - 25 °C", 298.15), ("T = - 25 °C", 248.15), ("NR - 25 °C", 298.15)),
+    ],
+)
+def test_the_end_of_a_range_is_no_temperature(name, kelvin):
+    assert temperature_in_name(name) == pytest.approx(kelvin)
+
+
+@pytest.mark.parametrize("unit", ["log Hz", "log10 Hz", "lg(Hz)"])
+@pytest.mark.parametrize("in_row", [True, False])
+def test_a_unit_may_be_that_of_a_logarithm(tmp_path, unit, in_row):
+    head = ["T;f;E';E''", f"°C;{unit};MPa;MPa"] if in_row else [f"T (°C);f [{unit}];E' (MPa);E'' (MPa)"]
+    sweeps = read_dma(write(tmp_path, *head, "20;0;5.5;0.5", "20;1;6.5;0.5"))
+    assert sweeps.isotherms[0].angular_frequency == pytest.approx([2 * math.pi, 20 * math.pi])
+    assert ("decadic-logarithms" in codes(sweeps.notes)) == unit.startswith("log ")
 
 
 def test_a_comma_in_a_remark_is_no_decimal_comma(tmp_path):

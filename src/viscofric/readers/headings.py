@@ -13,7 +13,9 @@ from typing import Any, Literal
 from viscofric.errors import InputError, brief, wrong_argument
 
 # "E' (MPa)", "T [degC]", "v / (mm/s)", then "E' / MPa", then "T_C", "f in Hz", "Temperature, °C": tried in this order.
-_BRACKETED = re.compile(r"^(?P<name>.*?)\s*(?:(?<!\d)/\s*)?[(\[{<]\s*(?P<unit>[^()\[\]{}<>]*?)\s*[)\]}>]$")
+_BRACKETED = re.compile(
+    r"^(?P<name>.*?)\s*(?:(?<!\d)/\s*)?[(\[{<]\s*(?P<unit>[^()\[\]{}<>]*?(?:\([^()\[\]]*\))?)\s*[)\]}>]$"
+)
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNIT = (
     r"(?i:°[CKFС]|℃|deg\.? ?[CFK]|[mkM]?Hz|Гц|rad[/_]?s(?:ec)?|[kMG]?Pa|[кМГ]?Па|[kM]?psi|bar|[mkM]?N/[mc]?m(?:\^?2|²)"
@@ -84,6 +86,22 @@ FREQUENCY_IN_NAME = re.compile(
     r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<minus>)(?P<dash>)(?P<number>\d+(?:[.,]\d+)?)\s?_?"
     rf"(?P<unit>[mk]?Hz|rad/s){_OF_A_RATE}"
 )
+#: "0 - 5" of "0 - 5 °C": a range, but not the number of a sweep or sample before a dash ("Sweep 3 - 25 °C").
+_RANGE = re.compile(
+    r"(?:^|(?P<word>[^\W\d_]+)[.\s#]+|[^\w.,-]\s*)[+−–-]?\d{1,3}(?:[.,]\d+)?\s*(?:[-–−—~…]|\.{2,3}|to|bis|à|до)\s*$"
+)
+#: Words before a number that counts; "NR" is natural rubber.
+_COUNTING = frozenset(
+    {"sweep", "step", "interval", "segment", "run", "set", "part", "no", "nr", "sample", "specimen", "test", "probe"}
+    | {"schritt", "messung", "échantillon", "muestra"}
+)
+
+
+def ends_range(text: str, start: int) -> bool:
+    """Return whether the number that begins there is the second one of a range, of which neither may be meant."""
+    found = _RANGE.search(text[:start])
+    word = (found["word"] or "") if found else ""
+    return bool(found) and (word == "NR" or word.lower() not in _COUNTING)
 
 
 def _positive_in_name(units: str) -> re.Pattern[str]:
@@ -134,6 +152,7 @@ class Column:
     quantity: str = ""  # of the vocabulary
     given: bool = False  # named by the user, not recognised
     base: float = 0.0  # of the logarithm that the numbers are, 0 where they are none
+    assumed_decadic: bool = False  # whether the base is not stated: "log f (Hz)"
     is_mean: bool = False  # "E' mean (MPa)", where no column is of the quantity itself
     stated: tuple[tuple[str, str], ...] = ()  # in the heading: ("temperature", "25 °C") of "E' 25 °C (MPa)"
     above: bool = False  # the heading is a line above the table, which states the value of all rows: "Load: 20 N"
@@ -146,10 +165,12 @@ class Column:
         match = _NUMBERED.fullmatch(self.name)
         return match["name"] if match else ""
 
-    @property
-    def assumed_decadic(self) -> bool:
-        """Whether the numbers are logarithms of a base that the heading does not state: "log f (Hz)"."""
-        return self.base == 10.0 and not re.match(r"lg|log[\s_]*10", self.heading.strip(), re.IGNORECASE)
+    def with_unit(self, unit: str, *, logarithms: bool = False) -> Column:
+        """Return the column with a unit, of logarithms where these are known and it is written so: ``log Hz``."""
+        of = _logarithm(unit) if logarithms and not self.base else None
+        if of is None or not of.name or of.unit:
+            return replace(self, unit=unit)
+        return replace(self, unit=of.name, base=of.base, assumed_decadic=of.assumed_decadic)
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,7 +225,7 @@ class Vocabulary:
         of = None if what or not self.logarithms else _logarithm(found.heading)
         if of and (inner := self.quantity(of.name)):
             return replace(of, quantity=inner)
-        return replace(found, quantity=what)
+        return replace(found, quantity=what).with_unit(found.unit, logarithms=self.logarithms)
 
     def missing(self, found: Iterable[str]) -> list[str]:
         """Return what a header of these quantities lacks, one word for each of `needed`."""
@@ -266,7 +287,10 @@ class Vocabulary:
             given = column.quantity in self.user_columns or column.quantity in self.constants
             found.append(replace(column, quantity="" if given else column.quantity))
         plain = {column.quantity for column in found if not column.base} & {*(self.needed[0] if self.needed else ())}
-        found = [replace(one, quantity="", base=0.0) if one.base and one.quantity in plain else one for one in found]
+        found = [
+            replace(one, quantity="", base=0.0, assumed_decadic=False) if one.base and one.quantity in plain else one
+            for one in found
+        ]
         first = {column.quantity for column in found if column.name.lower() not in _RATHER_OTHERS}
         doubled = [one.quantity in first and one.name.lower() in _RATHER_OTHERS for one in found]
         found = [replace(one, quantity="") if other else one for one, other in zip(found, doubled, strict=True)]
@@ -334,7 +358,8 @@ class Vocabulary:
         rest, stated = text, []
         for what, one in sorted(found, key=lambda value: value[1].start(), reverse=True):
             start = one.start("minus" if one["minus"] else "dash" if one["dash"] else "sign")
-            if one["dash"] or (what == "temperature" and _DASH_AT_END.search(text[:start])):  # or a minus sign
+            is_dash = one["dash"] or (what == "temperature" and _DASH_AT_END.search(text[:start]))  # or a minus sign
+            if is_dash or ends_range(text, one.start("number")):
                 return text, ()
             labels = [label for pattern in _LABELS if (label := pattern.search(rest[:start]))]
             start = next((one.start("label") for one in labels if self.quantity(one["label"]) == what), start)
@@ -375,7 +400,8 @@ def _logarithm(text: str) -> Column | None:
         return None
     argument = _ARGUMENT.fullmatch(log["of"])
     of = heading((argument["whole"] or f"{argument['first']} {argument['rest']}") if argument else log["of"])
-    return replace(of, heading=text, base=math.e if log["kind"].lower() == "ln" else 10.0)
+    kind = log["kind"].lower()
+    return replace(of, heading=text, base=math.e if kind == "ln" else 10.0, assumed_decadic=kind == "log")
 
 
 #: The vocabulary of a table whose columns are found by names alone.

@@ -74,6 +74,28 @@ def _marked(data: bytes) -> bytes:
     return data
 
 
+#: Marks of lines that are no part of a table: "# Operator", "% NR, film", "// 2020", "! cooled"; but "%" is a unit too,
+#: alone in its cell or before a strain.
+_REMARK = re.compile(
+    r"#|(?:%(?!\s?(?:strain|dehnung|deform|défor))|//|!)(?=\s?[^\W\d_]|\s?[\"'(\[|°])|(?:%|//|!)+[-=*_ ]*$",
+    re.IGNORECASE,
+)
+#: "End of data", "*** Ende ***": what closes a table.
+_END = re.compile(
+    r"\W*(?:(?:end|ende|fin|fine|einde|slut|konec|koniec|конец|结束|終了)\b[^\d:=]{0,40}|eof|datenende|dateiende)\W*",
+    re.IGNORECASE,
+)
+
+
+def remark(line: str) -> str | None:
+    """Return what a line says behind the mark of a remark, "" if it only closes a table, None if it is of a table."""
+    plain = line.lstrip()
+    if _REMARK.match(plain):
+        return plain.lstrip("# ") if plain.startswith("#") else plain.lstrip("%/! ")
+    return "" if len(plain) < _LONGEST_END and _END.fullmatch(plain) else None
+
+
+_LONGEST_END = 60
 COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*%?\s*")
 _GROUPED = re.compile(r"[+-]?\d{1,3}(?:[ \u00a0\u2009\u202f'’]\d{3})+(?:[.,]\d+)?\s*%?")
 LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}\s*%?")

@@ -37,6 +37,7 @@ from viscofric.readers.source import (
     converted,
     decimal_comma,
     plain_number,
+    remark,
     same_unit,
     to_rad_per_second,
 )
@@ -83,9 +84,9 @@ def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
     if found is None:
         raise no_header(source, words)
     remarks = [
-        (number, tuple(re.split(r"[\t;,]", line.lstrip("# "))))
-        for number, line in enumerate((source.text or "")[:_HEAD].splitlines(), start=1)
-        if line.lstrip().startswith("#")
+        (number, tuple(re.split(r"[\t;,]", line)))
+        for number, line, is_remark in lines_of((source.text or "")[:_HEAD], remarks=True)
+        if is_remark
     ]
     return {"": _table_under(source.path, found, words, remarks)}
 
@@ -175,7 +176,7 @@ def _table_under(path: str, found: Found, words: Vocabulary, remarks: Sequence[N
     if body and _names_again(columns, body[0][1], words):  # symbols below names
         body.pop(0)
     if body and _is_row_of_units(columns, body[0][1]):
-        columns = _with_units(path, columns, *body.pop(0))
+        columns = _with_units(path, columns, *body.pop(0), logarithms=words.logarithms)
     _insist_on_clear_headings(path, columns, words)
     blocks, titles = _stacked(path, body, list(rows[header][1]), columns, words)
     most = max([1, *map(len, titles)])  # lines above a table
@@ -649,7 +650,9 @@ def _stated(column: Column, cell: str) -> str:
     return unit if column.quantity and unit.lower() not in MISSING and not _VALUE.match(unit) else ""
 
 
-def _with_units(path: str, columns: Sequence[Column], row: int, cells: Sequence[str]) -> tuple[Column, ...]:
+def _with_units(
+    path: str, columns: Sequence[Column], row: int, cells: Sequence[str], *, logarithms: bool
+) -> tuple[Column, ...]:
     """Return columns with the units of the row below them; a unit that the heading has too must be the same."""
     found = []
     for column, cell in zip(columns, [*cells, *[""] * len(columns)], strict=False):
@@ -658,7 +661,7 @@ def _with_units(path: str, columns: Sequence[Column], row: int, cells: Sequence[
             problem = f"column {column.heading!r} has {column.unit!r} in its heading, but {stated!r} in the row below; "
             raise DataFileError(path, problem + "keep the unit that is right.", row, code="units-contradict")
         whole = _unit(column.unit) or cell.strip() == column.heading  # a merged cell
-        found.append(column if whole else replace(column, unit=_unit(cell)))
+        found.append(column if whole else column.with_unit(_unit(cell), logarithms=logarithms))
     return tuple(found)
 
 
@@ -678,7 +681,7 @@ def _in_text(source: Source, words: Vocabulary) -> Found | None:
 def _header_of_text(source: Source, words: Vocabulary) -> tuple[str, bool] | None:
     """Return the delimiter that makes most of a header, and whether the header is a remark."""
     # Where no line is a header, remarks (``# f (Hz), E' (MPa)``) are looked at too.
-    for remarks in (False, True) if "#" in (source.text or "") else (False,):
+    for remarks in (False, True):
         best: tuple[int, str] | None = None
         for delimiter in (*_DELIMITERS, _BLANKS):
             if delimiter == _BLANKS and best is not None:
@@ -694,7 +697,7 @@ def _header_of_text(source: Source, words: Vocabulary) -> tuple[str, bool] | Non
 
 def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> Found | None:
     """Return all rows of a text with its header; remarks below it are left out."""
-    lines = _lines(source.text or "", remarks)
+    lines = lines_of(source.text or "", remarks=remarks)
     rows: list[NumberedRow] = [(number, _cells(source.path, number, line, delimiter)) for number, line, _ in lines]
     found = header_of(_filled(rows), words)
     if found is None:
@@ -705,14 +708,13 @@ def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> 
     return Found([*above, *below], found.header)
 
 
-def _lines(text: str, remarks: bool) -> list[tuple[int, str, bool]]:
+def lines_of(text: str, *, remarks: bool = False) -> list[tuple[int, str, bool]]:
     """Return the lines that are not blank, with their numbers and whether they are remarks, which may be left out."""
     found = []
     for number, line in _joined(text.splitlines()):
-        plain = line.lstrip()
-        is_remark = plain.startswith("#")
-        if plain and (remarks or not is_remark) and not _FOR_EXCEL.fullmatch(line):
-            found.append((number, plain.lstrip("# ") if is_remark else line, is_remark))
+        said = remark(line)
+        if line.strip() and (remarks or said is None) and not _FOR_EXCEL.fullmatch(line):
+            found.append((number, line if said is None else said, said is not None))
     return found
 
 
@@ -731,7 +733,8 @@ def _joined(lines: Sequence[str]) -> Iterator[NumberedLine]:
 
 def _split_lines(source: Source, delimiter: str, remarks: bool = False) -> list[NumberedRow]:
     """Return the cells of the first lines that can be split."""
-    lines = _lines("\n".join((source.text or "")[:_HEAD].splitlines()[: 2 * DEEPEST_HEADER]), remarks)
+    head = "\n".join((source.text or "")[:_HEAD].splitlines()[: 2 * DEEPEST_HEADER])
+    lines = lines_of(head, remarks=remarks)
     found: list[NumberedRow] = []
     for number, line, _ in lines:
         with suppress(DataFileError):
@@ -772,7 +775,7 @@ def numbered_rows(path: str, cells: Sequence[Sequence[float | str]]) -> list[Num
     rows: list[NumberedRow] = []
     for number, row in enumerate(cells, start=1):
         shown = [_text(cell, comma=comma) for cell in row]
-        if any(cell.strip() for cell in shown) and not shown[0].lstrip().startswith("#"):
+        if any(cell.strip() for cell in shown) and remark(" ".join(filter(None, shown))) is None:
             rows.append((number, shown))
     return rows
 

@@ -16,6 +16,7 @@ from viscofric.readers.headings import (
     TEMPERATURE_IN_NAME,
     Column,
     Vocabulary,
+    ends_range,
     heading,
     plain_value,
     with_primes,
@@ -52,14 +53,21 @@ ANGULAR_FREQUENCY = frozenset(
     | {"frequenza angolare", "frequência angular", "hoekfrequentie", "vinkelfrekvens", "częstość kątowa"}
     | {"угловая частота", "角频率", "角周波数"}
 )
+
+
+def _shifted(symbol: str) -> set[str]:
+    """Return products of a frequency and the shift factor; names are the same without blanks, dots and brackets."""
+    return {mark.join(pair) for mark in ("", "*", "×") for pair in ((symbol, "at"), ("at", symbol))}
+
+
 #: Of a master curve: shifted to its reference temperature.
 REDUCED_FREQUENCY = frozenset(
     {"reduced frequency", "red. frequency", "shifted frequency", "reduzierte frequenz", "freq. (reduced)", "換算周波数"}
-    | {"f red", "f r", "f reduced", "f·aT", "aT·f", "f*at", "at*f"}
+    | {"f red", "f r", "f reduced", *_shifted("f"), *_shifted("freq"), *_shifted("frequency")}
 )
 REDUCED_ANGULAR_FREQUENCY = frozenset(
     {"reduced angular frequency", "red. ang. frequency", "shifted angular frequency", "reduzierte kreisfrequenz"}
-    | {"ω red", "ω r", "ω reduced", "ω·aT", "aT·ω", "ω*at", "at*ω"}
+    | {"ω red", "ω r", "ω reduced", *_shifted("ω"), *_shifted("omega")}
 )
 #: Of a master curve: the isotherm that each point was measured in.
 ISOTHERM = frozenset({"isotherm", "isotherm temperature", "temperature of the isotherm", "isotherme"})
@@ -219,7 +227,7 @@ def temperature_in_name(name: str) -> float | None:
     # A minus sign must follow a space or an underscore: in ``"foam-25C"`` it may be a dash, and ``"foam - 25C"`` has
     # one.
     found = list(TEMPERATURE_IN_NAME.finditer(name))
-    if len(found) != 1 or found[0]["dash"]:
+    if len(found) != 1 or found[0]["dash"] or ends_range(name, found[0].start("number")):
         return None
     one = found[0]
     below_zero = one["minus"] or one["sign"] in ("-", "−", "–")
