@@ -344,3 +344,46 @@ def test_any_bytes_are_refused_in_one_sentence(tmp_path, monkeypatch, data, star
     path.write_bytes(start + data)
     with contextlib.suppress(vf.DataFileError):
         vf.read_topography(path, spacing="1 um")
+
+
+GRID = np.array([[1.0, 2.0, 4.0], [-1.0, 0.5, 3.0]])  # (2, 3), along x and y, um
+LINES = ["1 -1", "2 0.5", "4 3"]
+SDF = "aBCR-1.0\nManufacID = A\nNumPoints = 2\nNumProfiles = 3\nXscale = 2e-6\nYscale = 2e-6\nZscale = 1e-6\n"
+KEYENCE = '"Date & Time","1/2/2020"\n"XY Calibration","2000","nm"\n"Horizontal","2"\n"Vertical","3"\n"Unit","um"\n'
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+@pytest.mark.parametrize(
+    ("head", "lines", "asked"),
+    [
+        ("ncols 2\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\nNODATA_value -99\n", LINES[::-1], {"unit": "um"}),
+        ("DSAA\n2 3\n0 2\n0 4\n-1 4\n", LINES, {"unit": "um"}),
+        (f"{SDF}Zresolution = -1\nDataType = 7\n*\n", [*LINES, "*", "remark", "*"], {}),
+        (KEYENCE + '\n"Height"\n', [",".join(f'"{cell}"' for cell in line.split()) for line in LINES], {}),
+        ("% heights\n", ["1 2 4", "-1 0.5 3", "End of data"], {"unit": "um", "spacing": "2 um"}),
+    ],
+)
+def test_matrices_behind_a_head_are_read_as_it_states(tmp_path, head, lines, asked, end):
+    path = write(tmp_path, (head + "\n".join(lines) + "\n").replace("\n", end))
+    found = vf.read_topography(path, **asked)
+    assert found.heights == pytest.approx(1e-6 * GRID)
+    assert found.spacing == pytest.approx((2e-6, 2e-6))
+
+
+@pytest.mark.parametrize(
+    ("lines", "asked", "code"),
+    [
+        (["BAD -1", "2 0.5", "4 3"], {}, ""),
+        (["1 -1", "2 0.5"], {}, "row-length"),
+        (["1 -1", "2 x", "4 3"], {}, "not-a-number"),
+        (LINES, {"unit": "um"}, "unit-not-needed"),
+        (LINES, {"spacing": "2 um"}, "spacing-not-needed"),
+    ],
+)
+def test_a_matrix_behind_a_head_is_checked(tmp_path, lines, asked, code):
+    path = write(tmp_path, SDF + "*", *lines, "*")
+    if code:
+        with refused(code):
+            vf.read_topography(path, **asked)
+    else:
+        assert np.argwhere(np.isnan(vf.read_topography(path).heights)).tolist() == [[0, 0]]

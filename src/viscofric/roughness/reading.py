@@ -50,10 +50,11 @@ def read_topography(
     """Read heights of a surface, or along a line, from a file.
 
     The format is recognised by content, not by the file's name.  Plain tables are read by viscofric itself: a matrix of
-    heights as text or as an .npy file, and columns x, z or x, y, z, each with its unit in the heading (as in
-    ``x (um)``) or all of them in `unit`.  Files of instruments (some forty formats: SUR, SDF, X3P, OPDX, PLU …)
-    are read by the package SurfaceTopography, which ``pip install 'viscofric[surfaces]'`` brings along, in a process of
-    their own with limits of time (120 s) and memory (6 GB).  Text may have 50 MB, other files 200 MB.
+    heights as text (also grids of Surfer and ESRI, SDF as text, Keyence's CSV) or as an .npy file, and columns x, z or
+    x, y, z, each with its unit in the heading (as in ``x (um)``) or all of them in `unit`.  Files of instruments (some
+    forty formats: SUR, SDF, X3P, OPDX, PLU …) are read by the package SurfaceTopography, which ``pip install
+    'viscofric[surfaces]'`` brings along, in a process of their own with limits of time (120 s) and memory (6 GB).  Text
+    may have 50 MB, other files 200 MB.
 
     Parameters
     ----------

@@ -20,7 +20,15 @@ from viscofric.errors import DataFileError, InputError, not_imported
 from viscofric.files import insist_on_size
 from viscofric.processes import LimitedProcess
 from viscofric.readers.source import Source
-from viscofric.readers.topography.tables import SPACING, UNIT, Scan, ScanOptions, name_of, scan_of_points
+from viscofric.readers.topography.tables import (
+    SPACING,
+    UNIT,
+    Scan,
+    ScanOptions,
+    insist_on_need,
+    name_of,
+    scan_of_points,
+)
 from viscofric.readers.workbook import is_workbook, sheets
 from viscofric.units import conversion
 
@@ -138,12 +146,9 @@ def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
                 remedy=UNIT + ", for instance.",
             )
         given["unit"] = options.unit
-    elif options.unit:
-        raise DataFileError(
-            source.path,
-            f"states that its heights are in {channel.unit!r}; leave unit = {options.unit!r} out.",
-            code="unit-not-needed",
-        )
+    insist_on_need(
+        source.path, options, "" if channel.unit is None else f"states that its heights are in {channel.unit!r}"
+    )
     factor, _ = conversion(str(channel.unit or options.unit), "m", "unit")
     if channel.physical_sizes is None:
         if options.spacing is None:
@@ -155,10 +160,8 @@ def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
             )
         points = channel.nb_grid_pts
         given["physical_sizes"] = tuple(n * d / factor for n, d in zip(points, options.spacing, strict=False))
-    elif options.spacing is not None:
-        raise DataFileError(
-            source.path, "states the spacing of its points; leave the spacing out.", code="spacing-not-needed"
-        )
+    else:
+        insist_on_need(source.path, options, spacing="states the spacing of its points")
     measured = channel.topography(**given)
     origin = f"read from {name_of(source)} ({reader.name()}), channel {channel.name!r}"
     heights = factor * np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), math.nan)

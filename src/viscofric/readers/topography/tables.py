@@ -18,7 +18,7 @@ from viscofric.readers.headings import Vocabulary, heading
 from viscofric.readers.one_table import only_table
 from viscofric.readers.source import Source, decimal_comma
 from viscofric.readers.table import MISSING, NUMBER
-from viscofric.readers.tables import holds_table
+from viscofric.readers.tables import holds_table, lines_of
 from viscofric.units import conversion
 
 #: What to give where a file does not state it.
@@ -53,6 +53,14 @@ def name_of(source: Source) -> str:
     return Path(source.path).name
 
 
+def insist_on_need(path: str, options: ScanOptions, unit: str = "", spacing: str = "") -> None:
+    """Raise `DataFileError` where the user gives a unit or a spacing that the file states, as the words say."""
+    if unit and options.unit:
+        raise DataFileError(path, f"{unit}; leave unit = {options.unit!r} out.", code="unit-not-needed")
+    if spacing and options.spacing is not None:
+        raise DataFileError(path, f"{spacing}; leave the spacing out.", code="spacing-not-needed")
+
+
 #: Positions belong to the same row of the grid up to this part of the distance of rows.
 _SAME = 0.05
 #: Positions of a line scan are even up to this part of their distance; others are interpolated.
@@ -65,10 +73,7 @@ def scan_of_points(
     source: Source, points: Array, options: ScanOptions, lines: list[int], notes: tuple[str, ...] = ()
 ) -> Scan:
     """Return points x, z or x, y, z, m (z is NaN without a reading), on their grid; `lines` are those of the file."""
-    if options.spacing is not None:
-        raise DataFileError(
-            source.path, "contains the positions of its points; leave the spacing out.", code="spacing-not-needed"
-        )
+    insist_on_need(source.path, options, spacing="contains the positions of its points")
     bad = np.flatnonzero(~np.all(np.isfinite(points[:, :-1]), axis=1))
     if bad.size:
         raise DataFileError(
@@ -162,11 +167,25 @@ def _rows(source: Source, positions: Array, axis: str) -> tuple[Integers, float,
 
 
 NUMPY = b"\x93NUMPY"
+_N = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
+#: Texts of one matrix behind a head: name -> the head without marks of quotation, which states numbers of points,
+#: distances or extents, units and the number for no reading.
+_GRIDS = {
+    "ESRI ASCII grid": rf"ncols\s+(?P<nx>\d+)\s+nrows\s+(?P<ny>\d+)\s+xll\w+\s+{_N}\s+yll\w+\s+{_N}"
+    rf"\s+cellsize\s+(?P<dx>{_N})\s+(?:nodata_value\s+(?P<missing>{_N})\s+)?",
+    "Surfer ASCII grid": rf"DSAA\s+(?P<nx>\d+)\s+(?P<ny>\d+)\s+(?P<x>{_N}\s+{_N})\s+(?P<y>{_N}\s+{_N})"
+    rf"\s+{_N}\s+{_N}\s+",
+    "SDF text": r"a(?:BCR|ISO)-1\.0\s(?>.*?NumPoints\s*=\s*(?P<nx>\d+))\s+NumProfiles\s*=\s*(?P<ny>\d+)"
+    rf"\s+Xscale\s*=\s*(?P<dx>{_N})\s+Yscale\s*=\s*(?P<dy>{_N})\s+Zscale\s*=\s*(?P<scale>{_N})(?>.*?\n\s*\*\s*\n)",
+    "Keyence CSV": rf"Date & Time(?>.*?\nXY Calibration,(?P<dx>{_N}),(?P<lateral>[^\s,]+))"
+    r"(?>.*?\nHorizontal,(?P<nx>\d+))(?>.*?\nVertical,(?P<ny>\d+))(?>.*?\nUnit,(?P<unit>[^\s,]+))(?>.*?\nHeight[,\s]*?\n)",
+}
+#: Of Surfer, for no reading.
+_BLANKED = 1.7e38
 _BLANKS = re.compile(r"\s+")
 _WHOLE = re.compile(r"[+-]?\d{1,15}")
 #: "# Width: 10.0 µm", as Gwyddion and others write above a matrix with lines along y, or above points.
-_REMARK = re.compile(r"#\s*(Width|Height|Value units|Z units|Lateral units|XY units)\s*:\s*(.+?)\s*$", re.IGNORECASE)
-_LATERAL = re.compile(r"^#\s*(Lateral|XY) units\s*:", re.IGNORECASE | re.MULTILINE)
+_REMARK = re.compile(r"(Width|Height|Value units|Z units|Lateral units|XY units)\s*:\s*(.+?)\s*$", re.IGNORECASE)
 #: Characters of a text that may hold such remarks.
 _HEAD = 5000
 _SAME_REMARK = {"z units": "value units", "xy units": "lateral units"}
@@ -225,6 +244,8 @@ def is_table(source: Source) -> bool:
     """Return whether a text is a table of numbers: columns with headings, or a matrix under remarks."""
     if source.text is None:
         return False
+    if _grid_in(source.text):
+        return True
     cells = _first_cells(source.text)
     is_matrix = any(cells) and all(map(_is_number, cells[1:] or cells))
     return (is_matrix and (_is_number(cells[0]) or _has_corner(source.text))) or holds_table(source, HEIGHTS)
@@ -232,8 +253,7 @@ def is_table(source: Source) -> bool:
 
 def _first_cells(text: str) -> list[str]:
     """Return the cells of the first line that is no remark."""
-    plain = (line.strip() for line in text.splitlines()[:200])
-    return _cells(next((line for line in plain if line and not line.startswith("#")), ""))
+    return _cells(next((line.strip() for _, line, _ in lines_of("\n".join(text.splitlines()[:200]))), ""))
 
 
 def read_array(source: Source, options: ScanOptions) -> Scan:
@@ -248,18 +268,17 @@ def read_array(source: Source, options: ScanOptions) -> Scan:
 def read_text_table(source: Source, options: ScanOptions) -> Scan:
     """Read a text table: a matrix of heights, or columns x, z or x, y, z, recognised by headings or by their grid."""
     assert source.text is not None
-    in_remarks = _LATERAL.search(source.text[:_HEAD]) and all(map(_is_number, _first_cells(source.text)))
+    if found := _grid_in(source.text):
+        return _grid_under(source, *found, options)
+    in_remarks = "lateral units" in _remarks(source.text[:_HEAD]) and all(map(_is_number, _first_cells(source.text)))
     if not in_remarks and holds_table(source, HEIGHTS):
         return _points(source, options)
     table = _parsed(source.path, source.text, are_points=options.spacing is None)
     are_points = options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3)
     if are_points and _without_positions(table.rows)[2] is None:
         stated = [table.remarks.get(name, "") for name in ("lateral units", "value units")]
-        if options.unit and all(stated):
-            problem = (
-                f"its remarks state the units {' and '.join(map(repr, stated))}; leave unit = {options.unit!r} out."
-            )
-            raise DataFileError(source.path, problem, code="unit-not-needed")
+        said = f"its remarks state the units {' and '.join(map(repr, stated))}"
+        insist_on_need(source.path, options, said * all(stated))
         if any(stated) and not all(stated) and not options.unit:
             what, other = ("heights", "positions") if stated[0] else ("positions", "heights")
             problem = f"states the unit of its {other} and not that of its {what}; give it by "
@@ -276,9 +295,7 @@ def _points(source: Source, options: ScanOptions) -> Scan:
     table = only_table(source, HEIGHTS)
     places = [place for what in ("x", "y", "height") if (place := table.place(what)) is not None]
     named = [table.columns[place] for place in places]
-    if options.unit and all(column.unit for column in named):
-        problem = f"its headings state their units; leave unit = {options.unit!r} out."
-        raise DataFileError(source.path, problem, code="unit-not-needed")
+    insist_on_need(source.path, options, "its headings state their units" * all(column.unit for column in named))
     units = [column if column.unit else replace(column, unit=options.unit) for column in named]
     factors = [table.conversion(column, "m", Remedy(", or give it by ") + UNIT)[0] for column in units]
     columns = [*map(table.numbers, places[:-1]), _read(table.numbers_or_missing(places[-1]), options)]
@@ -292,12 +309,8 @@ def _read(heights: Array, options: ScanOptions) -> Array:
 
 def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[str, str], kind: str) -> Scan:
     stated_unit = remarks.get("value units", "")
-    if options.unit and stated_unit:
-        raise DataFileError(
-            source.path,
-            f"states that its heights are in {stated_unit!r}; leave unit = {options.unit!r} out.",
-            code="unit-not-needed",
-        )
+    in_unit = f"states that its heights are in {stated_unit!r}" if stated_unit else ""
+    insist_on_need(source.path, options, in_unit, "states its width" * ("width" in remarks))
     unit = options.unit or stated_unit or remarks.get("corner", "m")
     factor, _ = conversion(unit, "m", "unit")
     table, notes, step = _without_positions(_read(table, options))
@@ -309,8 +322,6 @@ def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[st
         distances = None if distances is None else (distances[1], distances[0])
     spacing = options.spacing or distances
     if "width" in remarks:
-        if options.spacing is not None:
-            raise DataFileError(source.path, "states its width; leave the spacing out.", code="spacing-not-needed")
         width = _length(source.path, remarks["width"])
         height = _length(source.path, remarks["height"]) if "height" in remarks else width
         spacing = (width / heights.shape[0], height / heights.shape[1])
@@ -377,19 +388,51 @@ def _has_corner(text: str) -> bool:
         return False
 
 
+def _remarks(text: str) -> dict[str, str]:
+    """Return what remarks state, such as the width, by name in lower case."""
+    lines = (line for _, line, is_remark in lines_of(text, remarks=True) if is_remark)
+    found = [match for line in lines if (match := _REMARK.fullmatch(line))]
+    return {_SAME_REMARK.get(one[1].lower(), one[1].lower()): one[2] for one in found}
+
+
+def _grid_in(text: str) -> tuple[str, re.Match[str]] | None:
+    """Return the format of a text that is a matrix behind the head of a known one, and the head."""
+    start = text[:_HEAD].replace('"', "").lstrip()
+    heads = ((name, re.match(head, start, re.DOTALL | re.IGNORECASE)) for name, head in _GRIDS.items())
+    return next(((name, head) for name, head in heads if head), None)
+
+
+def _grid_under(source: Source, name: str, head: re.Match[str], options: ScanOptions) -> Scan:
+    """Read the heights behind a head; lines follow one another along y, those of ESRI from its end."""
+    said = {key: value for key, value in head.groupdict().items() if value is not None}
+    stated = said.get("unit", "m" if "scale" in said else "")
+    insist_on_need(
+        source.path, options, f"states its unit, {stated}" if stated else "", "states the spacing of its points"
+    )
+    nx, ny = int(said["nx"]), int(said["ny"])
+    text = (source.text or "").replace('"', "").lstrip()[head.end() :].partition("*")[0]
+    cells = [cell for cell in re.split(r"[\s,;]+", text) if cell]
+    if len(cells) != nx * ny or min(nx, ny) < 1:
+        problem = f"holds {len(cells)} heights where its head names {nx} × {ny}; save the file again."
+        raise DataFileError(source.path, problem, code="row-length")
+    values = np.array([_number(source.path, cell, None) for cell in cells])
+    values[(values == float(said.get("missing", -9999.0))) | (values >= _BLANKED)] = math.nan
+    unit = stated or options.unit or "m"
+    factor, along = (conversion(one, "m", "unit")[0] for one in (unit, said.get("lateral", unit)))
+    extents = [np.ptp(np.array(said[axis].split(), float)) for axis in "xy" if axis in said]
+    steps = [extent / max(count - 1, 1) for extent, count in zip(extents, (nx, ny), strict=False)]
+    steps = steps or [float(said["dx"]), float(said.get("dy", said["dx"]))]
+    heights = factor * float(said.get("scale", 1.0)) * _read(values, options).reshape(ny, nx)
+    heights = heights[::-1] if name.startswith("ESRI") else heights
+    assumed = Note("unit-assumed", f"positions and heights assumed to be in {unit}", values={"unit": unit})
+    notes = () if stated or options.unit else (assumed,)
+    return Scan(heights.T, (along * steps[0], along * steps[1]), f"read from {name_of(source)} ({name})", notes=notes)
+
+
 def _parsed(path: str, text: str, *, are_points: bool) -> _Text:
     """Return the numbers of a text; `are_points`: whether two columns are positions and heights."""
-    remarks: dict[str, str] = {}
-    found: list[tuple[int, list[str]]] = []
-    for number, line in enumerate(text.splitlines(), 1):
-        words = line.strip(" \r\n")
-        if not words.strip():
-            continue
-        if words.startswith("#"):
-            if match := _REMARK.match(words):
-                remarks[_SAME_REMARK.get(match[1].lower(), match[1].lower())] = match[2]
-            continue
-        found.append((number, _cells(words)))
+    remarks = _remarks(text)
+    found = [(number, _cells(line.strip(" \r\n"))) for number, line, _ in lines_of(text)]
     if not found:
         raise DataFileError(path, "contains no heights.", code="no-points")
     if all(len(cells) > 1 and not cells[-1] for _, cells in found):  # delimiters that close each row
@@ -421,7 +464,7 @@ def _insist_on_delimiters(path: str, found: list[tuple[int, list[str]]], *, are_
             raise DataFileError(path, problem, number, code="ambiguous-decimals")
 
 
-def _number(path: str, cell: str, line: int) -> float:
+def _number(path: str, cell: str, line: int | None) -> float:
     if cell.lower() in MISSING:
         return math.nan
     if NUMBER.fullmatch(cell) is None:
