@@ -505,3 +505,18 @@ def test_what_synthetic_runs_and_rubbers_give_is_synthetic_after_writing_and_rea
         assert says_synthetic(book) is synthetic
         vf.write_friction_curves(vf.read_friction_curves(book), other)
         assert says_synthetic(other) is synthetic
+
+
+@pytest.mark.parametrize("stroke", ["stroke", "Stroke length", "Hub"])
+def test_frequency_and_stroke_are_a_mean_speed(tmp_path: Path, stroke: str) -> None:
+    curves = read(tmp_path, f"frequency (Hz);{stroke} (mm);T (°C);load (N);COF\n10;2;25;20;0.3\n50;1;25;20;0.4")
+    assert curves.speed == pytest.approx([0.04, 0.1])  # there and back in one period
+    assert "speed-of-stroke" in codes(curves.notes)
+    assert "unused-columns" not in codes(curves.notes)
+
+
+def test_a_stroke_may_be_that_of_all_rows_and_is_asked_for(tmp_path: Path) -> None:
+    text = "frequency (Hz);T (°C);load (N);COF\n10;25;20;0.3"
+    assert read(tmp_path, text, columns={"stroke": "= 2 mm"}).speed == pytest.approx([0.04])
+    with refused("missing-columns"):
+        read(tmp_path, text)

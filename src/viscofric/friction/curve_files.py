@@ -21,7 +21,7 @@ from viscofric.readers.dma.names import FROM_TITLES, insist_on_one_specimen, joi
 from viscofric.readers.headings import OF_HEADINGS, Column, quantity_of
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.one_table import insist_on_columns, table_of
-from viscofric.readers.source import Source, bytes_of, is_revolutions
+from viscofric.readers.source import Source, bytes_of, is_revolutions, to_rad_per_second
 from viscofric.readers.table import Table
 from viscofric.readers.tables import find_tables
 from viscofric.readers.workbook import is_workbook
@@ -151,6 +151,7 @@ def read_friction_curves(
         problem = "this is a table of traction runs, whose friction is not separated yet"
         raise DataFileError(str(path), problem, code="traction-runs", remedy=AS_RUNS)
     table, notes = _with_temperatures(_with_coefficients(table))
+    table = _with_speeds(table, notes)
     places = _places(table)
     unit = table.load_unit(places["load"])
     _insist_on_absolute_errors(table, places)
@@ -174,7 +175,8 @@ def read_friction_curves(
             raise table.refused("both-directions", problem + "magnitude of both directions in one row.")
     radius = table.place("track radius") if is_revolutions(table.columns[places["speed"]].unit) else None
     force = table.place("friction force") if column.heading.startswith(_OF_FORCES) else None
-    unused = [column.heading for column in table.unused([*places.values(), radius, force])]
+    moved = [table.place(what) for what in _OF_STROKES if table.columns[places["speed"]].heading == _STROKES]
+    unused = [column.heading for column in table.unused([*places.values(), radius, force, *moved])]
     if unused:
         said = f"Columns of the file of friction curves that are not read: {', '.join(map(repr, unused))}."
         notes.append(Note("unused-columns", said, values={"headings": unused}))
@@ -260,6 +262,28 @@ def _with_coefficients(table: Table) -> Table:
     heading = f"{_OF_FORCES}: {table.columns[force].heading} / {table.columns[load].heading}"
     column = Column(heading, _OF_FORCES, "", "viscoelastic friction")
     return table.with_column(column, [repr(value) for value in coefficients.tolist()])
+
+
+#: Heading of the column of speeds, and the quantities that gave them.
+_STROKES, _OF_STROKES = "speeds of strokes", ("frequency", "stroke")
+
+
+def _with_speeds(table: Table, notes: list[str]) -> Table:
+    """Return the table with the mean speed of a motion to and fro where it has frequency and stroke, and add a note."""
+    frequency, stroke = (None if table.has("speed") else table.place(what) for what in _OF_STROKES)
+    if frequency is None:
+        return table
+    if stroke is None:
+        raise table.lacking(["speed", "stroke"])
+    angular = to_rad_per_second(table.columns[frequency].unit, angular=False)
+    if angular is None:
+        raise table.refused("wrong-unit", f"column {table.columns[frequency].heading!r} must be in 'Hz'.")
+    speeds = angular / math.pi * table.numbers(frequency) * table.values(stroke, "m")
+    said = (
+        "Speeds are means over a stroke, 2 · frequency · stroke; at the middle of a sinusoidal one it is π/2 of that."
+    )
+    notes.append(Note("speed-of-stroke", said))
+    return table.with_column(Column(_STROKES, "speed", "m/s", "speed"), [repr(value) for value in speeds.tolist()])
 
 
 def _places(table: Table) -> dict[str, int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from viscofric.readers.dma.names import TEMPERATURE
+from viscofric.readers.dma.names import FREQUENCY, TEMPERATURE
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.mtm.delimited import COEFFICIENT, FRICTION_FORCE, LOAD, LUBRICANT
 
@@ -45,7 +45,11 @@ COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "viscoelastic_upper": ("", "viscoelastic friction upper limit", ("viscoelastic upper", "friction upper")),
     "within_measured_frequencies": ("", "within measured frequencies", ()),
 }
-#: Without these there are no friction curves.
+#: From one end of a motion to and fro to the other; an amplitude may be half of it.
+_STROKE = frozenset(
+    {"stroke", "stroke length", "hub", "hublänge", "schwingweite", "course", "carrera", "corsa", "冲程", "行程"}
+)
+#: Without these there are no friction curves; a frequency and a stroke give the speed.
 _NEEDED = ("speed", "temperature", "load", "viscoelastic")
 
 #: The words of tables of friction curves.
@@ -53,14 +57,18 @@ CURVES = Vocabulary(
     "a table of friction curves",
     {heading.lower(): frozenset({heading, heading.lower(), *others}) for _, heading, others in COLUMNS.values()}
     | {"temperature": TEMPERATURE, "track radius": frozenset({"track radius", "wear track radius"})}
-    | {"friction force": FRICTION_FORCE, "lubricant": LUBRICANT},
-    needed=tuple((COLUMNS[name][1], *(["friction force"] * (name == "viscoelastic"))) for name in _NEEDED),
+    | {"friction force": FRICTION_FORCE, "lubricant": LUBRICANT, "frequency": FREQUENCY, "stroke": _STROKE},
+    needed=(
+        ("speed", "frequency"),
+        *((COLUMNS[name][1], *(["friction force"] * (name == "viscoelastic"))) for name in _NEEDED[1:]),
+    ),
     example="friction curves have 'speed (mm/s)', 'temperature (degC)', 'load (N)' and 'viscoelastic friction'",
     key="measurement.columns",
     offered=(
         ("speed", "mm/s"),
         ("temperature", "degC"),
         ("load", "N"),
+        ("stroke", "mm"),
         ("viscoelastic friction", ""),
         ("viscoelastic friction standard error", ""),
         ("coulomb friction", ""),
