@@ -223,3 +223,14 @@ def test_friction_of_ridges_at_rest_is_within_its_error_when_both_chains_touch_a
     one = vf.motion.solve_transient(rubber, surface, history)
     two = vf.motion.solve_transient(rubber, surface, history, accuracy=3e-4, times=one.time)
     assert np.all(np.abs(one.friction_force - two.friction_force) <= one.errors.friction_force)
+
+
+def test_friction_soon_after_steady_sliding_is_that_of_it_within_its_error():
+    """On cells that stay where they are the pressure is not quite that of cells that slide along."""
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="100 MPa", tau="10 ms")
+    contact = {"speed": 0.1143, "load": 500.0}
+    steady = vf.solve_steady(rubber, CYLINDER, **contact, accuracy=1e-3)
+    history = vf.motion.History([0.0, 1e-2], **contact, before="sliding")
+    run = vf.motion.solve_transient(rubber, CYLINDER, history, times=[1e-7, 1e-6, 1e-5], accuracy=3e-2)
+    off = np.abs(run.friction_force - steady.load * steady.friction_coefficient)
+    assert np.all(off < run.errors.friction_force - steady.load * steady.friction_error)

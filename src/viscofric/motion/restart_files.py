@@ -174,7 +174,7 @@ class _Reader:
             return origin(self.of(inner[0], one) for one in found)
         if parts := _parts(origin or kind):
             hints, record = _hints(origin or kind), dict(found)
-            return (origin or kind)(**{name: self.of(hints[name], record[name]) for name in parts})
+            return (origin or kind)(**{name: self.of(hints[name], record[name]) for name in parts if name in record})
         return Reading(found, 0.0) if kind is Reading else kind(found)
 
     def array(self, found: Any) -> Array:

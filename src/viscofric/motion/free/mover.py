@@ -67,9 +67,17 @@ class FreeMover(Cells, Mover[FreeState]):
         elif schedule.before == "at rest":
             state = rested(self, first)
         else:
-            state = slid(self, first, self.setting.first_speed)
+            state = self._unsettled(slid(self, first, self.setting.first_speed), first)
         self.datum = 0.0 if self.setting.is_levelled else state.depth
         return state
+
+    def _unsettled(self, state: FreeState, instant: Instant) -> FreeState:
+        """Return a state of steady sliding with the change of its friction if it meets its contact conditions again."""
+        # Its pressure is that of cells that move with the indenter, its memory that of cells fixed to the body, which
+        # responds at first as a stiffer solid.
+        both = state, self.step(state, instant, instant)
+        forces = np.array([(*one.force, *self._on_slopes(one, self._grid_of(one))) for one in both])
+        return replace(state, unsettled=float(np.hypot(*(forces[1] - forces[0]).reshape(2, 2).T).max()))
 
     def step(self, state: FreeState, start: Instant, end: Instant) -> FreeState:
         """Return the state at the end of a step."""
@@ -111,7 +119,9 @@ class FreeMover(Cells, Mover[FreeState]):
         force = self.force(solved[0], known)
         after = self._after(state, coefficients, duration, place, window, box, held, memory, past, far, solved, force)
         change = state.products.pressure - after.products.pressure
-        return replace(after, lagging=0.5 * self.grid.cell_area * lagging * change)
+        moved = math.hypot(*np.subtract(setting.turned(end.position), setting.turned(start.position)))
+        unsettled = state.unsettled * math.exp(-moved / self.grid.spacing)
+        return replace(after, lagging=0.5 * self.grid.cell_area * lagging * change, unsettled=unsettled)
 
     def _near(self, state: FreeState, window: Box) -> tuple[Box, Array, Past]:
         """Return the memory on cells that hold the window and all pieces near it, and the rest."""
@@ -170,7 +180,10 @@ class FreeMover(Cells, Mover[FreeState]):
         area, extents = self._footprint(state, window)
         work, stored = scale.force * scale.depth, self._stored(state)
         friction, energy = force * self._sheared(state, window), work * (stored + state.dissipated)
-        left_out = scale.force * load, scale.depth * abs(state.depth), friction, energy
+        left_out = Sizes(scale.force * load, scale.depth * abs(state.depth), friction, energy)
+        left_out = Sizes(*(setting.body.merged * one for one in left_out))
+        if state.duration > 0.0:
+            left_out = left_out._replace(friction=left_out.friction + force * state.unsettled)
         return Observation(
             load=scale.force * load,
             depth=scale.depth * (state.depth - self.datum),
@@ -179,7 +192,7 @@ class FreeMover(Cells, Mover[FreeState]):
             stored=work * stored,
             dissipated=work * state.dissipated,
             extents=extents,
-            left_out=Sizes(*(setting.body.merged * one for one in left_out)),
+            left_out=left_out,
             force_on_slopes=setting.unturned(*(force * one for one in self._on_slopes(state, window))),
         )
 
@@ -248,6 +261,7 @@ class FreeMover(Cells, Mover[FreeState]):
             memory=fields,
             past=NO_PAST,
             dissipated=0.0,
+            unsettled=0.0,
             products=Products(products.pressure, products.mixed, own),
         )
 

@@ -75,3 +75,5 @@ class FreeState:
     past: Past = NO_PAST  # memory on other cells, and on some of the same, where the contact returned
     wake: Wake | None = None  # memory far behind a contact that has slid for ever
     lagging: float = 0.0  # after a jump: energy of the modes without a field minus that after they have followed
+    #: After steady sliding: change of friction by the cells as soon as it moves on, which fades from cell to cell
+    unsettled: float = 0.0
