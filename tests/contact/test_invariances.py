@@ -125,3 +125,35 @@ def test_temperature_is_speed_and_a_vertical_shift_is_load(solve: Callable[..., 
     # Each of the two matters by itself.
     for other in (solve(material, temperature=293.15), solve(material, temperature=293.15, speed=alpha * SPEED)):
         assert abs(other.friction_coefficient / warm.friction_coefficient - 1.0) > 0.01
+
+
+@pytest.mark.parametrize(
+    "moved",
+    [
+        lambda z: np.roll(z, (5, 3), (0, 1)),
+        lambda z: z + 3.0 * z.std(),
+        lambda z: np.tile(z, (2, 2)),
+    ],
+    ids=["moved along and across", "lifted", "two periods each way"],
+)
+def test_where_a_period_begins_and_how_many_there_are_changes_no_friction(
+    moved: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+) -> None:
+    z = PERIOD * self_affine(POINTS, points_per_shortest_wave=6.0)
+    one, other = (
+        vf.solve_periodic(
+            vf.Material(rubber()),
+            vf.contact.PeriodicSurface(heights, PERIOD / POINTS),
+            speed=SPEED,
+            pressure=MEAN_PRESSURE,
+            direction=(2.0, 1.0),
+            tolerance=1e-10,
+        )
+        for heights in (z, moved(z))
+    )
+    # A hundred times the tolerance; the gap is a small difference of depths.
+    assert other.friction_coefficient == pytest.approx(one.friction_coefficient, rel=1e-8)
+    assert other.lateral_friction_coefficient == pytest.approx(
+        one.lateral_friction_coefficient, abs=1e-8 * one.friction_coefficient
+    )
+    assert other.mean_gap == pytest.approx(one.mean_gap, rel=1e-7)

@@ -349,7 +349,8 @@ def _assemble(
     else:
         error = max(error, _UNSURE_AT_EDGES * _load_at_edges(pressure) * abs(by_energy))
     floor = FRICTION_FLOOR * mean_pressure * 2.0 * math.pi * units.depth / max(surface.period)
-    mean_gap = float(gap.mean())
+    full_contact = bool(np.all(pressure > 0.0))
+    mean_gap = 0.0 if full_contact else max(0.0, float(gap.mean()))  # residuals are not gaps
     wanted, found = (given.pressure, mean_pressure) if given.gap is None else (given.gap, mean_gap)
     solution = PeriodicSolution(
         speed=velocity,
@@ -374,7 +375,7 @@ def _assemble(
             linear=result.linear,
             energy=(by_pressure - by_energy) / max(abs(by_pressure), abs(by_energy), floor),
             friction_error=error / mean_pressure,
-            full_contact=bool(np.all(pressure > 0.0)),
+            full_contact=full_contact,
             products=work.products,
             ffts=work.ffts,
             single_ffts=work.single_ffts,
