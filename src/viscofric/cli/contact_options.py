@@ -58,8 +58,10 @@ _HEIGHTS = (
 indenter_options = together(*_SMOOTH, _PUNCH, *_HEIGHTS, heading="Indenter")
 #: Of contacts in motion, for which a sharp edge is refused.
 sliding_indenter_options = together(*_SMOOTH, *_HEIGHTS, heading="Indenter")
+#: Option -> class of `viscofric.contact.indenters.shapes` that it makes.
+KINDS = {"ball": "Ball", "cylinder": "Cylinder", "ellipsoid": "Ellipsoid", "cone": "Cone", "punch": "FlatPunch"}
 #: Options, one of which says what shape it is.
-SHAPES = ("ball", "cylinder", "ellipsoid", "cone", "punch", "height_map", "profile")
+SHAPES = (*KINDS, "height_map", "profile")
 surface_options = together(
     click.option(
         "--surface",
@@ -143,16 +145,13 @@ def _spacing(parameters: dict[str, Any]) -> Any:
 
 
 def _simple(shape: str, text: str) -> NamedIndenter:
-    from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid, FlatPunch
+    from viscofric.contact.indenters import shapes
     from viscofric.study.cases.sweep import shown
 
     sizes = list_of(text) if shape == "ellipsoid" else [text]
     if shape == "ellipsoid" and len(sizes) != 2:
         raise click.UsageError(f"--ellipsoid {text!r}: give two radii, along x and y: '10 mm,40 mm'.")
-    kinds: dict[str, Any] = {
-        "ball": Ball, "cylinder": Cylinder, "ellipsoid": Ellipsoid, "cone": Cone, "punch": FlatPunch,
-    }  # fmt: skip
-    made = kinds[shape](*sizes)
+    made = getattr(shapes, KINDS[shape])(*sizes)
     lengths = {one.name: float(getattr(made, one.name)) for one in fields(made)}
     words = " and ".join(f"{name.replace('_', ' ')} {shown(name, size)}" for name, size in lengths.items())
     return NamedIndenter(made, f"{made.noun.capitalize()} of {words}", {"shape": shape, **lengths})

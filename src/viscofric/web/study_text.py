@@ -9,6 +9,7 @@ from typing import Any
 
 from viscofric.errors import StudyError, brief
 from viscofric.notes import Note
+from viscofric.study.cases.sweep import COORDINATES
 from viscofric.study.run_file.errors import keys
 from viscofric.study.run_file.study import FIELDS, TABLES, Study, parse_study
 
@@ -25,7 +26,7 @@ _LONGEST_LINE = 100
 _DEEPEST = 10
 #: Keys of a run file, in its order.
 KEYS = tuple(field.alias or name for name, field in FIELDS.items())
-_OF_INDENTERS = ("shape", "radius", "radius_x", "radius_y", "angle", "modulus", "poisson_ratio")
+_OF_INDENTERS = ("shape", *COORDINATES, "modulus", "poisson_ratio")
 
 
 class DocumentError(StudyError):

@@ -39,12 +39,16 @@ class Indenter(Shown, ABC):
         Whether its slope jumps at the lowest point.
     reach : float
         Half the largest width that a contact can have, m.
+    load_exponents : (float, float) or None
+        Of the load in the size of the contact and in its strain, where contacts of all loads on a half-space are
+        similar.
     """
 
     geometry: ClassVar[Geometry] = POINT
     noun: ClassVar[str]
     has_walls: ClassVar[bool] = False
     has_tip: ClassVar[bool] = False
+    load_exponents: ClassVar[tuple[float, float] | None] = None
 
     @abstractmethod
     def height(self, x: Array, y: Array) -> Array:
@@ -99,6 +103,10 @@ class Indenter(Shown, ABC):
             self.adhesion_warning(load, E0, poisson_ratio),
         )
         return [one for one in found if one is not None]
+
+    def similar(self) -> Indenter | None:
+        """Return the indenter of unit size whose contacts on a half-space are similar to its own; None if none is."""
+        return None
 
     @property
     def reach(self) -> float:

@@ -21,8 +21,14 @@ if TYPE_CHECKING:
     from viscofric.showing import Rows
 
 
+#: Slope of representative contacts: so low that none is wider than its indenter.
+LOW_SLOPE = 0.01
+
+
 class _Paraboloid(Indenter):
     """A surface x²/2R_x + y²/2R_y of two radii of curvature, of which the one across may be infinite."""
+
+    load_exponents = (1.0 / 3.0, 1.0 / 3.0)
 
     @property
     @abstractmethod
@@ -62,6 +68,10 @@ class _Round(_Paraboloid):
     def reach(self) -> float:
         """Half the largest width that a contact can have, m."""
         return float(self.radius)
+
+    def similar(self) -> Indenter:
+        """Return the one of unit radius."""
+        return type(self)(1.0)  # type: ignore[call-arg]
 
     def pull_off(self, work_of_adhesion: float, modulus: float) -> float:
         """Return the force (of a line contact, N/m) that pulls it off a solid of an E* at rest."""
@@ -135,6 +145,7 @@ class Cylinder(_Round):
 
     geometry: ClassVar[Geometry] = LINE
     noun: ClassVar[str] = "cylinder"
+    load_exponents = (0.5, 0.5)
     radius: Quantity
 
 
@@ -182,6 +193,10 @@ class Ellipsoid(_Paraboloid):
         """Half the largest width that a contact can have, m."""
         return max(self._radii)
 
+    def similar(self) -> Ellipsoid:
+        """Return the one of unit radius along x, and the same ratio of radii."""
+        return Ellipsoid(1.0, float(self.radius_y) / float(self.radius_x))
+
     def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
         """Return a note where the assumption of small strain is doubtful."""
         along = max(contact.rear, contact.front) / float(self.radius_x)
@@ -211,6 +226,7 @@ class Cone(Indenter):
 
     noun: ClassVar[str] = "cone"
     has_tip: ClassVar[bool] = True
+    load_exponents = (0.5, 0.0)
     angle: Quantity
 
     def __post_init__(self) -> None:
@@ -238,6 +254,10 @@ class Cone(Indenter):
     def slope_across(self, x: Array, y: Array) -> Array:
         """Slope of the height along y at (x, y); zero at the tip."""
         return self.slope(y, x)
+
+    def similar(self) -> Cone:
+        """Return a flat one: all are similar, since a linear contact is proportional to their slope."""
+        return Cone(LOW_SLOPE)
 
     @property
     def _steepness(self) -> float:

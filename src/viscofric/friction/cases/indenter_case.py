@@ -21,7 +21,7 @@ from viscofric.contact.free.geometry import LINE
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import Indenter
-from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
+from viscofric.contact.indenters.shapes import LOW_SLOPE, Ball, Cylinder, Ellipsoid
 from viscofric.contact.solution import ContactSolution
 from viscofric.contact.steady import solve_steady
 from viscofric.errors import InputError
@@ -48,9 +48,6 @@ _COLUMNS = (
 NAMES = tuple(name for name, _, _ in _COLUMNS)
 ERRORS = tuple(error for _, error, _ in _COLUMNS)
 LOGARITHMIC = np.array([logarithmic for *_, logarithmic in _COLUMNS])
-# Slope of the representative shapes: so low that no contact is wider than the indenter.
-_LOW_SLOPE = 0.01
-_BALL, _CYLINDER, _CONE = Ball(1.0), Cylinder(1.0), Cone(_LOW_SLOPE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,14 +135,14 @@ class IndenterCase(Case):
         """Return its place on the curve of its family; see `Case.place`."""
         self.insist_on_motion()
         alpha, b = rubbers.shifts(self)
-        indenter, load = None if self.layer is not None else representative(self.indenter), self.load / b
+        indenter, load = None if self.layer is not None else self.indenter.similar(), self.load / b
         modulus = None if self.modulus is None else self.modulus / b
         stiffness = _stiffness(rubbers.of(self), modulus, self.poisson_ratio)
         scale = rubbers.scale(self.indenter, stiffness, load)
         if indenter is None:
             indenter, own = self.indenter, scale
         else:
-            load = indenter.geometry.parabolic_load * rubbers.scale_at(indenter, stiffness, _LOW_SLOPE**2).force
+            load = indenter.geometry.parabolic_load * rubbers.scale_at(indenter, stiffness, LOW_SLOPE**2).force
             own = rubbers.scale(indenter, stiffness, load)
         at_zero = {"temperature": rubbers.reference(self), "speed": own.length, "load": load, "modulus": modulus}
         family = replace(self, indenter=indenter, **at_zero)  # type: ignore[arg-type]
@@ -188,20 +185,6 @@ class IndenterCase(Case):
             known = {"speed": case.speed, "temperature": case.temperature, "load": case.load}
             record = Record.of(**(known | numbers | shared), warnings=doubts)
             yield number, record if sensitivities is None else sensitivities.complete(record, row)
-
-
-def representative(indenter: Indenter) -> Indenter | None:
-    """Return the indenter of unit size on a half-space for all similar ones; None if sizes are not similar."""
-    match indenter:
-        case Ball():
-            return _BALL
-        case Cylinder():
-            return _CYLINDER
-        case Ellipsoid(radius_x=along, radius_y=across):
-            return Ellipsoid(1.0, float(across) / float(along))
-        case Cone():
-            return _CONE
-    return None
 
 
 def node_of(record: Record, scale: Scale) -> Node:

@@ -9,18 +9,10 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
-from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 
-# Exponents of the load in the size of the contact, and in its strain (load over modulus and size squared).
-_EXPONENTS: dict[type[Indenter], tuple[float, float]] = {
-    Ball: (1.0 / 3.0, 1.0 / 3.0),
-    Ellipsoid: (1.0 / 3.0, 1.0 / 3.0),
-    Cylinder: (0.5, 0.5),
-    Cone: (0.5, 0.0),
-}
 # Columns in proportion to viscoelastic friction.
 _OF_FRICTION = (
     "viscoelastic",
@@ -56,7 +48,7 @@ class LoadRule:
     @classmethod
     def of(cls, indenter: Any) -> LoadRule:
         """Return the rule of an indenter; InputError if it is not a ball, an ellipsoid, a cylinder or a cone."""
-        exponents = _EXPONENTS.get(type(indenter))
+        exponents = getattr(indenter, "load_exponents", None)
         if exponents is None:
             noun = indenter.noun if isinstance(indenter, Indenter) else type(indenter).__name__
             raise InputError(

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Iterator
-from typing import Annotated, ClassVar, Literal
+from functools import reduce
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag
 
@@ -117,13 +119,11 @@ def _shape(value: object) -> object:
     return f"<{shape}>" if isinstance(shape, str) else None
 
 
-IndenterTable = Annotated[
-    Annotated[BallTable, Tag("<ball>")]
-    | Annotated[CylinderTable, Tag("<cylinder>")]
-    | Annotated[EllipsoidTable, Tag("<ellipsoid>")]
-    | Annotated[ConeTable, Tag("<cone>")],
-    Discriminator(_shape),
-]
+if TYPE_CHECKING:
+    IndenterTable = AnyIndenterTable
+else:
+    tagged = (Annotated[table, Tag(f"<{shape}>")] for shape, table in SHAPES.items())
+    IndenterTable = Annotated[reduce(operator.or_, tagged), Discriminator(_shape)]
 
 
 class LayerTable(Table):
