@@ -540,3 +540,96 @@ def test_the_page_reads_no_sentences() -> None:
     found = [f"{path.name}: {one[0]}" for path in scripts for one in sought.finditer(path.read_text("utf-8"))]
     assert scripts
     assert not found
+
+
+def texts_of(room: str, pattern: str) -> set[str]:
+    """Return what a pattern finds in a module, or in those of a folder."""
+    paths = (SOURCE / room).rglob("*.py") if (SOURCE / room).is_dir() else [SOURCE / room]
+    return {one for path in paths for one in re.findall(pattern, path.read_text("utf-8"))}
+
+
+def test_a_new_coordinate_of_a_study_has_its_unit_name_and_place() -> None:
+    from viscofric.study.cases.sweep import COORDINATES
+    from viscofric.study.run_file.contact import SHAPES
+    from viscofric.study.run_file.surface import SurfaceTable
+
+    bodies = [*SHAPES.values(), SurfaceTable]
+    varied = {name for body in bodies for name in body.CONDITIONS} | {"material", "sample", "thickness", "seed"}
+    varied |= {name for body in SHAPES.values() for name in body.AXES} | {"temperature", "speed"}
+    assert varied == set(COORDINATES)
+
+
+def test_a_new_shape_is_offered_by_run_files_commands_and_page() -> None:
+    from viscofric.cli.contact_options import KINDS
+    from viscofric.contact.indenters import shapes
+    from viscofric.contact.indenters.indenter import Indenter
+    from viscofric.study.run_file.contact import SHAPES
+    from viscofric.web.forms import contact
+
+    kinds = {name for name, one in vars(shapes).items() if isinstance(one, type) and issubclass(one, Indenter)}
+    assert {name for name in kinds if name[0] != "_"} - {"Indenter"} == set(KINDS.values())
+    sliding = {name for name, kind in KINDS.items() if not getattr(shapes, kind).has_walls}
+    assert {name: table.KIND.__name__ for name, table in SHAPES.items()} == {name: KINDS[name] for name in sliding}
+    assert sliding <= set(contact.SHAPES)
+    page = str(contact.SHAPE)
+    assert all(f"'{name}'" in page for name in sliding)
+    assert all(f"'indenter.{axis}'" in page for table in SHAPES.values() for axis in table.AXES)
+    for table in SHAPES.values():  # similarity at all loads: both or none
+        one = table.KIND(*[0.01] * len(table.AXES))
+        assert (one.load_exponents is None) == (one.similar() is None)
+
+
+def test_a_new_shift_law_is_offered_by_run_files_commands_and_page() -> None:
+    from typing import get_args
+
+    from viscofric.cli.master import _LAWS
+    from viscofric.rheology.shifts.law_fitting import LAWS, TITLES
+    from viscofric.study.run_file.material import RAMP_LAWS, MaterialTable
+    from viscofric.web.forms import others
+    from viscofric.web.jobs import master
+
+    laws = set(LAWS)
+    assert set(TITLES) == laws
+    assert set(RAMP_LAWS) < laws
+    assert set(get_args(MaterialTable.model_fields["shift"].annotation)) == laws | {"measured", "best"}
+    assert {value for value, _ in others._LAWS} == laws | {"best"}
+    assert set(_LAWS) == set(get_args(master.Options.model_fields["law"].annotation)) == laws | {"best", "none"}
+
+
+def test_a_new_format_of_sweeps_is_documented() -> None:
+    from viscofric.readers.dma.read import FORMATS
+
+    page = (ROOT / "docs" / "reference" / "dma_files.md").read_text("utf-8")
+    first = [line.split("|")[1].strip() for line in page.splitlines() if line.startswith("| ")]
+    makers = {one.NAME: " ".join(one.NAME.split()[:2]) for one in FORMATS}
+    assert [name for name, maker in makers.items() if not any(row.startswith(maker) for row in first)] == []
+
+
+def test_a_new_number_of_a_contact_has_a_meaning_wherever_it_is_shown() -> None:
+    """The page's definitions; results, report, page and commands take name, unit and error from the number itself."""
+    from viscofric.contact.periodic.solution import NUMBERS as PERIODIC
+    from viscofric.contact.solution import ERRORS, LINE_NUMBERS, NUMBERS
+    from viscofric.report.texts.contact import _NOT_SHOWN
+    from viscofric.web.start import GLOSSARY
+
+    for numbers in (NUMBERS, LINE_NUMBERS, PERIODIC):
+        names = {words for name, (_, words) in numbers.items() if name not in (*ERRORS.values(), *_NOT_SHOWN)}
+        assert {one[0].upper() + one[1:] for one in names} <= set(GLOSSARY)
+        assert {name for name in numbers if name.endswith("_error")} <= set(ERRORS.values())
+
+
+def test_a_new_note_on_contacts_has_words_at_the_points_of_the_page() -> None:
+    from viscofric.web.jobs.curve import _DOUBTS
+
+    places = ("contact/indenters", "contact/bodies.py")
+    codes = {code for place in places for code in texts_of(place, r'Note\(\s*"([a-z-]+)"')}
+    assert len(codes) > 4
+    assert codes <= set(_DOUBTS)
+
+
+def test_a_new_group_of_results_is_documented() -> None:
+    from viscofric.study.results.tree import GROUPS
+
+    made = texts_of("study", r'"(/[a-z_]+)"')
+    assert len(made) > 15
+    assert made <= set(GROUPS)

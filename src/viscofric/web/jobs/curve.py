@@ -54,17 +54,17 @@ _OF_HEATING = {
     "interface_friction": "interface_friction",
     "total_friction": "total_friction",
 }
+#: What is doubtful about a case, in words: codes of notes on contacts, and what is found here.
 _DOUBTS = {
     "extrapolated": "it depends on frequencies at which the material was not measured",
     "shift": "the shift factor is extrapolated beyond the temperatures that its law was fitted to",
-    "strain": "the contact is wide or steep: the small-strain assumption is doubtful",
-    "unresolved": "the points of the surface do not resolve its peaks",
+    "large-strain": "the contact is wide or steep: the small-strain assumption is doubtful",
+    "deep-in-layer": "the indentation is not small beside the thickness of the layer",
+    "heights-unresolved": "the points of the surface do not resolve its peaks",
     "adhesion": "adhesion, which is left out, may matter",
-    "inertia": "inertia, which is left out, may matter",
+    "quasi-static": "inertia, which is left out, may matter",
     "inaccurate": "its estimated numerical error exceeds the requested accuracy",
 }
-#: Of notes on contacts, by code; others are about large strain.
-_OF_CODES = {"heights-unresolved": "unresolved", "adhesion": "adhesion", "quasi-static": "inertia"}
 #: Drawn beside a quantity: column, dashes and words.
 _BESIDE = {
     "heated_friction": [("friction", "6px,4px", "isothermal")],
@@ -189,7 +189,7 @@ def _parts(found: dict[str, Any]) -> dict[str, Any]:
         style: Spec = {"mode": "lines", "width": 1.2, "legend": False}
         beside = [{**style, "y": other, "dash": dash, "text": words} for other, dash, words in _BESIDE.get(name, [])]
         parts[name] = [main, *beside]
-    remarks = ["<br>".join(_DOUBTS.get(word, word) for word in words) for words in found["doubts"]]
+    remarks = ["<br>".join(_DOUBTS.get(word, word.replace("-", " ")) for word in words) for words in found["doubts"]]
     known = [one for one in found["friction"] if one is not None]
     summary = f"μ {quantity(min(known), digits=2)} to {quantity(max(known), digits=2)}" if known else ""
     return {"parts": parts, "remarks": remarks, "summary": summary}
@@ -257,7 +257,7 @@ def doubts(contacts: Contacts, requested: Solved) -> list[list[str]]:
 def _doubts(contacts: Contacts, case: Case, outcome: Record, *, inaccurate: bool) -> list[str]:
     """Name what is doubtful about a point."""
     rubber: StudyRubber = contacts.rubbers[case.material]
-    found = {_OF_CODES.get(note.code, "strain") for note in outcome.warnings}
+    found = {note.code for note in outcome.warnings}
     found |= {
         name
         for name, doubtful in {
@@ -267,7 +267,7 @@ def _doubts(contacts: Contacts, case: Case, outcome: Record, *, inaccurate: bool
         }.items()
         if doubtful
     }
-    return [name for name in _DOUBTS if name in found]
+    return sorted(found, key=[*_DOUBTS, *found].index)
 
 
 def master_curve(tree: DataTree) -> dict[str, Any] | None:
