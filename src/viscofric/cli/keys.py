@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Callable, Mapping
-from functools import cached_property, lru_cache
+from functools import cached_property
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,36 +19,6 @@ if TYPE_CHECKING:
 _HOMES = {"impact": "history", "solver": "settings"}
 
 
-#: Simple types of keys -> their types in JSON.
-_TYPES = {"Words": "string", "Number": "number", "Count": "integer"}
-
-
-@lru_cache
-def _source(home: str) -> ast.Module:
-    loader = getattr(find_spec(home), "loader", None)
-    return ast.parse(getattr(loader, "get_source", lambda _: "")(home) or "")
-
-
-def _written(home: str, table: str, key: str) -> dict[str, Any] | None:
-    """Return description, default and choices of a key of a simple type from the source of its table, else None."""
-    # Help of a command needs no more; importing pydantic and the tables takes longer than all else of its start.
-    classes = (one for one in _source(home).body if isinstance(one, ast.ClassDef) and one.name == table)
-    fields = (one for each in classes for one in each.body if isinstance(one, ast.AnnAssign))
-    field = next((one for one in fields if isinstance(one.target, ast.Name) and one.target.id == key), None)
-    if field is None or not isinstance(field.value, ast.Call) or not field.value.args:
-        return None
-    kind = ast.unparse(field.annotation).removesuffix(" | None")
-    try:
-        found = {one.arg: ast.literal_eval(one.value) for one in field.value.keywords if one.arg == "description"}
-        found["default"] = ast.literal_eval(field.value.args[0])
-        if kind.startswith("Literal"):
-            return found | {"type": "string", "enum": list(ast.literal_eval(kind.removeprefix("Literal")))}
-    except ValueError:  # what it is follows from other code
-        return None
-    kind = kind.removeprefix("Annotated[").partition(",")[0]
-    return found | {"type": _TYPES[kind]} if kind in _TYPES else None
-
-
 class Key(click.types.StringParamType):
     """A key of a run file, such as ``material.shift_by``, as the type of an option.
 
@@ -62,13 +30,11 @@ class Key(click.types.StringParamType):
 
     @cached_property
     def about(self) -> dict[str, Any]:
-        """The key in the JSON schema of its table, or as much of it as the source of the table says."""
+        """The key in the JSON schema of its table."""
         # One module: importing all tables takes a second.
-        home = f"viscofric.study.run_file.{_HOMES.get(self.table, self.table)}"
-        table = f"{self.table.capitalize()}Table"
-        if (written := _written(home, table, self.key)) is not None:
-            return written
-        found: dict[str, Any] = getattr(import_module(home), table).model_json_schema()["properties"][self.key]
+        home = import_module(f"viscofric.study.run_file.{_HOMES.get(self.table, self.table)}")
+        table = getattr(home, f"{self.table.capitalize()}Table")
+        found: dict[str, Any] = table.model_json_schema()["properties"][self.key]
         return {**found, **found.get("anyOf", [{}])[0]}
 
     @property

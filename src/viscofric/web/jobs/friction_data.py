@@ -14,19 +14,6 @@ from viscofric.report.data import Predicted
 from viscofric.report.results import nearest, nominal_temperatures
 from viscofric.report.texts.tables import Table
 
-_MEASURED = (
-    "replicates",
-    "viscoelastic",
-    "viscoelastic_error",
-    "viscoelastic_scatter",
-    "coulomb",
-    "coulomb_error",
-    "coulomb_scatter",
-    "consistency",
-    "consistency_error",
-    "offset",
-)
-
 
 def by_temperature(temperature: Array, speed: Array, **columns: Any) -> list[dict[str, Any]]:
     """Sort points (n,) of temperatures (K) and speeds (m/s) into isotherms, their columns in ascending speed."""
@@ -43,9 +30,10 @@ def by_temperature(temperature: Array, speed: Array, **columns: Any) -> list[dic
 
 def measured_points(curves: FrictionCurves) -> list[dict[str, Any]]:
     """Return measured friction by temperature; NaN where it is not determined."""
-    columns = {name: getattr(curves, name) for name in _MEASURED if getattr(curves, name) is not None}
+    data = curves.points_dataset().reset_coords()
+    columns = {str(name): column.values for name, column in data.items() if name not in ("speed", "temperature")}
     for name in ("viscoelastic", "coulomb"):
-        if getattr(curves, name) is not None:
+        if name in columns:
             not_found = (columns[name] == 0.0) & np.isinf(columns[f"{name}_error"])
             columns[name] = np.where(not_found, np.nan, columns[name])
     return by_temperature(curves.temperature, curves.speed, **columns)
