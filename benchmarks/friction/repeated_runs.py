@@ -1,13 +1,19 @@
 """Whether the standard errors of separated friction are honest where steps, not readings, are the repetitions.
 
-Usage: python benchmarks/friction/repeated_runs.py [--seeds N] [--first SEED] [--case WORD] [--check PERCENT]
-       [--json FILE]
+Usage: python benchmarks/friction/repeated_runs.py [--orders] [--seeds N] [--first SEED] [--case WORD]
+       [--check PERCENT] [--json FILE]
 
 Sweeps over five speeds are made in the four sign configurations, eight readings a step, and read from a table with
 step and time and no replicate.  Friction varies from run to run by a factor that all speeds of a run share, or anew
 from step to step; readings scatter by 1 % of Coulomb friction, independently or with an autocorrelation.  For each
 case the share of the planted coefficients that 95 % intervals hold is printed, and the width of the intervals over
 that of a normal one made with the true standard deviation of the estimate.
+
+With --orders, zero or Coulomb friction change in the course of random tests of two to eight speeds, one to three
+temperatures and two to four replicates, of single readings that scatter by 0.01 N.  The cases are the orders in time,
+what changes slowest first: of temperature (t), speed (s), configuration (c) and replicate (r), with the configurations
+in random order.  The zero drifts by 0.05 to 0.5 N in the test, with either sign; Coulomb friction falls by half (wear),
+or is 10 % higher in the first replicate (running in); ± is the standard error of a share over the tests.
 """
 
 from __future__ import annotations
@@ -16,7 +22,7 @@ import argparse
 import json
 import os
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +30,7 @@ os.environ.update(OPENBLAS_NUM_THREADS="1", VISCOFRIC_FFT_THREADS="1")
 import numpy as np
 
 import viscofric as vf
+from viscofric.traction import TractionRuns
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -115,6 +122,54 @@ def true_errors(case: Case) -> dict[str, Array]:
     return {name: np.sqrt(variance * inverse[k, k]) for name, k in (("viscoelastic", 1), ("coulomb", 2))}
 
 
+#: What changes in tests made in different orders.
+CHANGES = ("nothing", "drift", "wear", "running in")
+ORDERS = ("trsc", "tsrc", "rtsc", "trcs", "tscr", "tcrs", "ctsr")
+CONSTANT = 0.03
+
+
+def changing(order: str, change: str, seed: int) -> TractionRuns:
+    """Return a test with something that changes, and a viscoelastic coefficient of `CONSTANT`."""
+    random = np.random.default_rng([seed, 20261130])
+    counts = {"t": random.integers(1, 4), "s": random.integers(2, 9), "c": 4, "r": random.integers(2, 5)}
+    signs = random.permutation(CONFIGURATIONS)
+    grids = np.meshgrid(*(np.arange(counts[one]) for one in order), indexing="ij")
+    place = {one: grid.ravel() for one, grid in zip(order, grids, strict=True)}
+    disc_sign, slip_sign = signs[place["c"]].T
+    speed = np.geomspace(0.02, 0.2, counts["s"])[place["s"]]
+    time = 10.0 * np.arange(speed.size)
+    course = time / time[-1]
+    level = COULOMB * np.ones(speed.size)
+    zero = ZERO + 0.01 * random.standard_normal(speed.size)
+    drift = random.choice([-1.0, 1.0]) * 0.05 * 10.0 ** random.uniform()
+    if change == "drift":
+        zero += drift * course
+    elif change == "wear":
+        level *= 1.0 - 0.5 * course
+    elif change == "running in":
+        level *= 1.0 + 0.1 * (place["r"] == 0)
+    load = LOAD * (1.0 + 0.01 * random.standard_normal(speed.size))
+    force = zero + load * (CONSTANT * disc_sign + level * slip_sign)
+    disc = disc_sign * speed
+    kelvin = 303.15 + 10.0 * place["t"]
+    runs = TractionRuns(disc, disc - slip_sign * SLIP * speed, force, load, kelvin, replicate=place["r"] + 1)
+    return replace(runs, time=time)
+
+
+def held_in(order: str, seeds: range) -> dict[str, dict[str, float]]:
+    """Return for each change the share of viscoelastic coefficients that is held, its error, and the median width."""
+    found = {}
+    for change in CHANGES:
+        shares, widths = [], []
+        for seed in seeds:
+            low, high = vf.separate(changing(order, change, seed)).interval(0.95)
+            shares.append(np.mean((low <= CONSTANT) & (high >= CONSTANT)))
+            widths.append(np.median(high - low))
+        error = float(np.std(shares, ddof=1) / np.sqrt(len(shares)))
+        found[change] = {"held": float(np.mean(shares)), "error": error, "width": float(np.median(widths))}
+    return found
+
+
 def measured(case: Case, seeds: range) -> dict[str, dict[str, float]]:
     """Return for each coefficient the share that is held, and the median and mean width over the necessary one."""
     planted = {"viscoelastic": VISCOELASTIC, "coulomb": np.full(SPEEDS.size, COULOMB)}
@@ -140,26 +195,51 @@ def measured(case: Case, seeds: range) -> dict[str, dict[str, float]]:
     }
 
 
+def of_cases(seeds: range, word: str) -> dict[str, Any]:
+    """Print and return the results of the cases whose names hold a word."""
+    results: dict[str, Any] = {}
+    print("held by 95 % intervals, and their width (median, mean) over the necessary one")
+    print(f"{'':52} {'viscoelastic':>24} {'Coulomb':>24}")
+    for name, case in CASES.items():
+        if word not in name:
+            continue
+        found = measured(case, seeds)
+        shown = [
+            f"{100 * one['held']:6.1f} % {one['median width']:7.2f} {one['mean width']:7.2f}" for one in found.values()
+        ]
+        print(f"{name:52} {shown[0]:>24} {shown[1]:>24}", flush=True)
+        results[name] = found
+    return results
+
+
+def in_orders(seeds: range, word: str) -> dict[str, Any]:
+    """Print and return the results of the orders whose names hold a word."""
+    results: dict[str, Any] = {}
+    print("viscoelastic friction held by 95 % intervals, and half their median width (1e-4)")
+    print(f"{'':6}" + "".join(f"{change:>24}" for change in CHANGES))
+    for order in ORDERS:
+        if word not in order:
+            continue
+        found = results[order] = held_in(order, seeds)
+        shown = [
+            f"{100 * one['held']:6.1f} ± {100 * one['error']:.1f} %{0.5e4 * one['width']:7.1f}"
+            for one in found.values()
+        ]
+        print(f"{order:6}" + "".join(f"{one:>24}" for one in shown), flush=True)
+    return results
+
+
 def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--orders", action="store_true", help="tests in different orders, in which something changes")
     parser.add_argument("--seeds", type=int, default=30)
     parser.add_argument("--first", type=int, default=0, help="seed of the first")
     parser.add_argument("--case", default="", help="only cases whose names hold this")
     parser.add_argument("--check", type=float, default=0.0, help="least share that must be held, %%")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args(arguments)
-    results: dict[str, Any] = {}
-    print("held by 95 % intervals, and their width (median, mean) over the necessary one")
-    print(f"{'':52} {'viscoelastic':>24} {'Coulomb':>24}")
-    for name, case in CASES.items():
-        if options.case not in name:
-            continue
-        found = measured(case, range(options.first, options.first + options.seeds))
-        shown = [
-            f"{100 * one['held']:6.1f} % {one['median width']:7.2f} {one['mean width']:7.2f}" for one in found.values()
-        ]
-        print(f"{name:52} {shown[0]:>24} {shown[1]:>24}", flush=True)
-        results[name] = found
+    seeds = range(options.first, options.first + options.seeds)
+    results: dict[str, Any] = in_orders(seeds, options.case) if options.orders else of_cases(seeds, options.case)
     if options.json:
         options.json.parent.mkdir(parents=True, exist_ok=True)
         options.json.write_text(json.dumps(results, indent=1, ensure_ascii=False), encoding="utf-8")

@@ -219,7 +219,8 @@ def test_what_configurations_leave_over_is_in_the_errors_where_runs_are_not_repe
         assert "errors-from-left-over" in codes(curves.notes)
         assert curves.coulomb_error is not None
         assert curves.viscoelastic_freedom is not None
-        assert np.all((curves.viscoelastic_freedom >= 1.0) & (curves.viscoelastic_freedom <= 5.0))
+        # Those of five residuals, and of five zeros along a line, of which the error of a drift follows.
+        assert np.all((curves.viscoelastic_freedom >= 1.0) & (curves.viscoelastic_freedom <= 8.0))
         errors.append(np.mean(curves.coulomb_error**2))
         left.append((curves.coulomb - 0.045) ** 2)
     # Mean squares of 20 runs, of one degree of freedom each, scatter by √(2/20) = .3, their ratio by .45.

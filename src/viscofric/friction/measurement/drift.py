@@ -57,10 +57,15 @@ class Rate(NamedTuple):
             return _NONE
         if self.significant:
             return self
-        # Where it exceeds its error, it is expected to be more than that: normal with the variance by which its square
-        # does so.
-        sure = 1.0 - (self.error / self.value) ** 2 if abs(self.value) > self.error else 0.0
-        return Rate(0.0, math.hypot(sure * self.value, math.sqrt(sure) * self.error), self.freedom)
+        # Its expected square, of a rate that is normal with any variance: the share of the error in the variance of its
+        # estimate is as likely to be one number from zero to one as another (W. E. Strawderman, Ann. Math. Stat. 42
+        # (1971) 385).  A rate below its error counts too: it may be as large as the error by chance.
+        from scipy.special import hyp1f1
+
+        square = (self.value / self.error) ** 2 if self.error > 0.0 else 0.0
+        of_none, once, twice = (float(hyp1f1(n + 1.5, n + 2.5, -0.5 * square)) / (n + 1.5) for n in range(3))
+        expected = 1.0 - once / of_none + square * (1.0 - (2.0 * once - twice) / of_none)
+        return Rate(0.0, math.sqrt(expected) * self.error, self.freedom)
 
 
 _NONE = Rate()

@@ -129,7 +129,7 @@ def separate(
     taken out of viscoelastic friction, unless the consistency contradicts it; where replicates of a condition follow
     each other at once, from those of each condition.  Where the consistency would not show it, it may be running in
     that repeats itself: half of it is taken out and the errors include the other half.  Errors include the expected
-    squares of rates that exceed their errors without being significant.
+    squares of rates that are not significant.
 
     Readings of one step and time are one point of the test and count at their mean speed.  Where the disc's speeds
     put no reversed slips together, those of equal mean speed of disc and ball are.  Viscoelastic friction is then the
