@@ -42,7 +42,7 @@ measured = vf.FrictionCurves(
 
 master = vf.shift_friction(measured, reference="60 degC")
 found = master.shift_factors
-print(master.overlap_sentence)
+print(master.overlap.sentence)
 
 figure, (above, below) = plt.subplots(2, 1, figsize=(7.5, 7.4), layout="constrained")
 report.plot_friction_curves(above, measurement=measured)

@@ -237,8 +237,8 @@ def test_errors_that_are_not_known_go_through_master_curves(tmp_path: Path) -> N
     middle = float(np.sqrt(np.prod(master.reduced_range)))
     assert master.standard_error(middle) == np.inf
     assert master(middle) == pytest.approx(vf.shift_friction(curves, shift=planted_law())(middle), rel=0.02)
-    assert master.overlap_error == np.inf
-    assert master.overlap_sentence.values["expected"] == np.inf
+    assert master.overlap.error == np.inf
+    assert master.overlap.sentence.values["expected"] == np.inf
     assert vf.compare(master, master).share_within_error is None
 
 

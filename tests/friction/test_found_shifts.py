@@ -93,7 +93,7 @@ def test_planted_shift_factors_are_found_without_noise() -> None:
     assert master.notes == ()
     assert len(factors.temperatures) == 9
     np.testing.assert_allclose(deviation(factors, planted_law()), 0.0, atol=1e-3)
-    assert master.overlap_rms == pytest.approx(0.0, abs=1e-3)
+    assert master.overlap.rms == pytest.approx(0.0, abs=1e-3)
     law, planted = factors.law("wlf"), planted_law().at_reference(factors.reference)
     assert law.log10("70 degC") == pytest.approx(planted.log10("70 degC"), abs=2e-3)
     # Read half way between temperatures: what is found serves like what is given.

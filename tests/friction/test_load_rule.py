@@ -69,11 +69,11 @@ def test_loads_and_vertical_shifts_make_one_curve() -> None:
     curves = FrictionCurves.from_solutions(solutions)
     master = shift_friction(curves, shift=rubber.shift, vertical_shift=rubber.vertical_shift, indenter=BALL, load=25.0)
     # The points of both loads lie on one curve, b(T) or not: a cubic spline through four points a decade misses 0.5 %.
-    assert master.overlap_rms is not None
-    assert master.overlap_rms < 0.005
+    assert master.overlap.rms is not None
+    assert master.overlap.rms < 0.005
     one_load = shift_friction(curves, shift=rubber.shift, indenter=BALL)
-    assert one_load.overlap_rms is not None
-    assert one_load.overlap_rms > 0.01
+    assert one_load.overlap.rms is not None
+    assert one_load.overlap.rms > 0.01
     asked = {"speed": 0.07, "temperature": "43 degC", "load": 18.0}
     direct = solve_steady(rubber, BALL, accuracy=1e-3, **asked)  # type: ignore[arg-type]
     # Two per cent of friction is a tenth of a decade of speed: the regression through eight points is true to 1 %.

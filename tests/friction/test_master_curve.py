@@ -354,34 +354,34 @@ def test_many_outliers_of_many_points_are_found_without_smoothing_again(places: 
 def test_overlap_is_exact_without_noise_and_shows_noise() -> None:
     exact = shift_friction(shifted_curves(), shift=LAW)
     # A cubic spline through 9 intervals of a decade; h⁴/384 of the fourth derivative, more at the ends.
-    assert exact.overlap_rms == pytest.approx(0.0, abs=1e-3)
-    assert exact.overlap_error == 0.0  # no errors were given
+    assert exact.overlap.rms == pytest.approx(0.0, abs=1e-3)
+    assert exact.overlap.error == 0.0  # no errors were given
     noisy = shift_friction(shifted_curves(noise=0.02), shift=LAW)
     # Of some 20 points, and the spline averages a little: within 40 %.
-    assert noisy.overlap_rms == pytest.approx(0.02 * np.sqrt(2), rel=0.4)
-    assert noisy.overlap_error == pytest.approx(0.02 * np.sqrt(2), rel=0.05)
-    assert noisy.overlap_sentence.code == "curves-coincide"
-    assert noisy.overlap_sentence.values == {
-        "rms": noisy.overlap_rms,
-        "points": noisy.overlap_points,
-        "expected": noisy.overlap_error,
+    assert noisy.overlap.rms == pytest.approx(0.02 * np.sqrt(2), rel=0.4)
+    assert noisy.overlap.error == pytest.approx(0.02 * np.sqrt(2), rel=0.05)
+    assert noisy.overlap.sentence.code == "curves-coincide"
+    assert noisy.overlap.sentence.values == {
+        "rms": noisy.overlap.rms,
+        "points": noisy.overlap.points,
+        "expected": noisy.overlap.error,
     }
 
 
 def test_overlap_reveals_wrong_shift_factors() -> None:
     right = shift_friction(shifted_curves(noise=0.01), shift=LAW)
     wrong = shift_friction(shifted_curves(noise=0.01), shift=Arrhenius("60 kJ/mol", "50 degC"))
-    assert right.overlap_rms is not None
-    assert wrong.overlap_rms is not None
-    assert wrong.overlap_rms > 5 * right.overlap_rms
+    assert right.overlap.rms is not None
+    assert wrong.overlap.rms is not None
+    assert wrong.overlap.rms > 5 * right.overlap.rms
 
 
 def test_without_overlap_it_says_so_and_bridges_no_gap() -> None:
     """The paper's temperatures are so far apart that a decade of speed leaves gaps between the curves."""
     master = shift_friction(shifted_curves(np.array([313.15, 338.15])), shift=LAW)
-    assert master.overlap_rms is None
-    assert master.overlap_points == 0
-    assert codes([master.overlap_sentence]) == {"curves-apart"}
+    assert master.overlap.rms is None
+    assert master.overlap.points == 0
+    assert codes([master.overlap.sentence]) == {"curves-apart"}
     assert len(master.stretches) == 2
     low, high = master.stretches[0][1], master.stretches[1][0]
     with refused("not-covered"):
@@ -420,7 +420,7 @@ def test_unknown_errors_give_no_nan() -> None:
     )
     assert master("0.1 m/s") == pytest.approx(0.03, rel=0.005)
     assert master.standard_error("0.1 m/s") == np.inf
-    assert master.overlap_error == np.inf
+    assert master.overlap.error == np.inf
 
 
 @pytest.mark.parametrize("shift", [LAW, None])

@@ -56,7 +56,7 @@ class Measurement:
         self.notes = [*assumed, *map(note_of, curves.notes)]
         self._rule: dict[str, Any] = {"indenter": ball, "load": load, "vertical_shift": material.vertical_shift}
         self._master = shift_friction(curves, shift=material.shift, **self._rule)
-        self.notes += map(note_of, [*self._master.notes, self._master.overlap_sentence])
+        self.notes += map(note_of, [*self._master.notes, self._master.overlap.sentence])
         self._found = self._shifted_by_itself()
 
     @property

@@ -17,7 +17,10 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Collapse:
-    """Differences of neighbouring curves where they overlap; None without overlap."""
+    """Differences of curves at neighbouring temperatures where they overlap; None without overlap.
+
+    The other curve is interpolated by a cubic spline at each point of one.
+    """
 
     rms: float | None  # root mean square of the relative differences
     error: float | None  # the value expected from the standard errors alone

@@ -443,29 +443,6 @@ class FrictionMasterCurve(Plotted):
         off = outlying_points(speed, self.temperature, smoothed.outlying, relative=not smoothed.stated)
         return *inferred, *off
 
-    @property
-    def overlap_rms(self) -> float | None:
-        """Root mean square of the relative difference of curves at neighbouring temperatures where they overlap.
-
-        The other curve is interpolated by a cubic spline at each point of one.  None without overlap.
-        """
-        return self.overlap.rms
-
-    @property
-    def overlap_error(self) -> float | None:
-        """The value of `overlap_rms` expected from the standard errors alone."""
-        return self.overlap.error
-
-    @property
-    def overlap_points(self) -> int:
-        """Number of points in `overlap_rms`."""
-        return self.overlap.points
-
-    @property
-    def overlap_sentence(self) -> str:
-        """How well the curves coincide, in words."""
-        return self.overlap.sentence
-
     def __call__(
         self, speed: Quantities, temperature: Quantities | None = None, *, load: Quantity | None = None
     ) -> Any:

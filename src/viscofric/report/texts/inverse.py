@@ -59,7 +59,7 @@ def shift_words(
         lines.append(("law", str(law)))
     if why:
         lines.append(("", why))
-    lines.append(("overlap", master.overlap_sentence))
+    lines.append(("overlap", master.overlap.sentence))
     if agreement is not None:
         lines.append(("comparison", agreement.sentence))
     return lines

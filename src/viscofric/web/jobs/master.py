@@ -89,7 +89,7 @@ def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
         "reference": master.reference,
         "points": by_temperature(master.temperature, master.reduced_speed, **columns),
         "line": drawn_line(measured_line(master)),
-        "overlap": master.overlap_sentence,
+        "overlap": master.overlap.sentence,
     }
 
 
