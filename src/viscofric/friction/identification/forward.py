@@ -148,6 +148,20 @@ class _Table:
         return np.asarray(((a * away + b) * away + c) * away + d)
 
 
+def extrapolated(away: Array, slopes: Array, weights: Array) -> tuple[Array, Array, Array]:
+    """Return changes of n logarithms to another material over J, and their derivatives by ln C and by w, (n, p) each.
+
+    With `away` d (p,) the changes of ln C, `slopes` J (n, p), and `weights` w (n, p) of the modes in the compliance
+    that is felt, they change by Σ J_k (e^{d_k}/M − 1 + ln M), M = Σ w_k e^{d_k}: linear in the level and in the share
+    of each mode.  It is exact if all moduli change by one factor; what a mode contributes vanishes with it.
+    """
+    grown = np.exp(np.minimum(away, _FARTHEST))
+    level = weights @ grown
+    relative = grown / level[:, None]
+    by_weight = relative * np.sum(slopes * (1.0 - relative), axis=1)[:, None]
+    return np.log(level)[:, None] + relative - 1.0, slopes * relative + weights * by_weight, by_weight
+
+
 class Solved(NamedTuple):
     """Results of solved contacts of one material, at k nodes."""
 
@@ -163,10 +177,8 @@ class CorrectedFriction:
     """ln μ at any speed and compliances, exact with its derivatives at the nodes of the solved material.
 
     The error of the closed form in ln μ and in its derivatives varies so slowly with ln v that a cubic spline through a
-    few nodes per decade represents it.  For other materials it is extrapolated linearly in the level (ln) of the
-    compliances that the contact sees and in the share of each mode in them: what a mode contributes vanishes with it,
-    and is bounded where it dominates.  This is space mapping: J. W. Bandler et al., IEEE Trans. Microw. Theory Tech. 42
-    (1994) 2536.  Without `solved`, the first-order form is not corrected.
+    few nodes per decade represents it.  For other materials it is `extrapolated`: space mapping (J. W. Bandler et al.,
+    IEEE Trans. Microw. Theory Tech. 42 (1994) 2536).  Without `solved`, the first-order form is not corrected.
     """
 
     def __init__(self, first: FirstOrder, solved: Solved | None = None) -> None:
@@ -194,14 +206,13 @@ class CorrectedFriction:
         rising, growing = np.moveaxis(self._missing(inside, 1), -1, 0)
         alone, alone_rising = self._alone(inside), self._alone(inside, 1)
         shares = np.maximum(shares, 0.0)  # which a spline does not observe
-        grown = np.exp(np.minimum(compliances - self.solved.compliances, _FARTHEST))
-        level = shares @ grown
-        relative = grown / level[:, None]
-        moved = np.log(level)[:, None] + relative - 1.0
-        by_level = np.sum(missing * (1.0 - relative), axis=1)
-        slope = alone_rising[:, 0] + alone_rising[:, 1] * log_load + np.sum(rising * moved, axis=1)
+        away = compliances - self.solved.compliances
+        moved, change, by_weight = extrapolated(away, missing, shares)
+        slope = (
+            alone_rising[:, 0] + alone_rising[:, 1] * log_load + np.sum(rising * moved + growing * by_weight, axis=1)
+        )
         return (
             crude.log_friction + alone[:, 0] + alone[:, 1] * log_load + np.sum(missing * moved, axis=1),
-            crude.change + missing * relative + shares * relative * by_level[:, None],
-            crude.slope + within * (slope + np.sum(growing * relative, axis=1) * by_level),
+            crude.change + change,
+            crude.slope + within * slope,
         )

@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, FlatPunch
+from viscofric.friction.identification.forward import extrapolated
 from viscofric.friction.identification.moduli import compliance, log_modulus
 from viscofric.motion.springs import Springs, both_sides, disc_profile
 
@@ -122,11 +123,9 @@ class Contact(Points, ABC):
 
 @dataclass(frozen=True, eq=False)
 class Nearby:
-    """The response of materials near one for which it was solved.
+    """The response of materials near one for which it was solved, `extrapolated`.
 
-    With d = x − x₀ the changes of ln C and weights w of the modes by their part in the compliance at the contact's
-    frequency, ln r = ln r₀ + Σ J_k (e^{d_k}/M − 1) + (Σ J_k) ln M, M = Σ w_k e^{d_k}, has the derivatives J of the
-    solved material, is exact if all moduli change by one factor, and where r is proportional to Σ w_k C_k.
+    The weights of the modes are their parts in the compliance at the contact's frequency.
     """
 
     trial: Trial
@@ -145,14 +144,10 @@ class Nearby:
     def __call__(self, trial: Trial) -> Answer:
         """Return the response of a material."""
         there = self.solved
-        grown = np.exp(np.minimum(trial.compliances - self.trial.compliances, 200.0))
-        mean = self.weights @ grown
-        terms = there.change * grown / mean[:, None]
-        degree, shares = there.change.sum(axis=1), self.weights * grown / mean[:, None]
-        total = terms.sum(axis=1)
+        moved, change, _ = extrapolated(trial.compliances - self.trial.compliances, there.change, self.weights)
         away = trial.log_alpha - self.trial.log_alpha
-        value = there.log_value + total - degree + degree * np.log(mean) + there.by_alpha * away
-        return there._replace(log_value=value, change=terms + (degree - total)[:, None] * shares)
+        value = there.log_value + np.sum(there.change * moved, axis=1) + there.by_alpha * away
+        return there._replace(log_value=value, change=change)
 
 
 def logarithm(value: Array, measured: Array) -> tuple[Array, Array]:
