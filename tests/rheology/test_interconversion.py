@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from refusals import refused
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
+from viscofric.rheology.spectra.response import FrequencyResponse
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 
 OMEGA = np.logspace(-15, 15, 1000)
@@ -231,16 +232,27 @@ def test_impossible_series_are_refused(arguments, code):
         RelaxationSpectrum(**{"E0": 1e6, "E": [1e6], "tau": [1.0], **arguments})
 
 
-@pytest.mark.parametrize("exponent", [0.2, 0.5, 0.7])
-def test_densities_are_exact_for_power_laws(exponent):
-    ratio = math.exp(0.2)  # so dense that a sum over modes is an integral, to (exp(−2π²/0.2·…)) below 1e-12
-    log_tau = np.arange(-150.0, 150.0, math.log(ratio))
-    H = 1e6 * np.exp(-exponent * log_tau)
-    prony = RelaxationSpectrum(1e-30, H * math.log(ratio), np.exp(log_tau))
-    # The lattice ends 65 decades away on both sides: what is cut off is below 1e-10.
-    assert prony.relaxation_density([1e-2, 1.0, 30.0]) == pytest.approx(
-        1e6 * np.array([1e-2, 1.0, 30.0]) ** -exponent, rel=1e-9
-    )
+class PowerLaw(FrequencyResponse):
+    """A spring-pot, E = (iω)ⁿ in Pa and rad/s."""
+
+    def __init__(self, n):
+        self.n = n
+
+    def complex_modulus(self, angular_frequency):
+        return (1j * np.asarray(angular_frequency)) ** self.n
+
+    def compliance(self, angular_frequency):
+        return 1.0 / self.complex_modulus(angular_frequency)
+
+
+@pytest.mark.parametrize("n", [0.1, 0.5, 0.8])
+def test_densities_of_a_power_law_are_power_laws_of_time(n):
+    """∫ xⁿ⁻¹/(1 + x) dx from 0 to ∞ is π/sin nπ: L = (sin nπ/π) τⁿ makes S = (iω)⁻ⁿ, H = (sin nπ/π) τ⁻ⁿ its inverse."""
+    tau = np.logspace(-6, 6, 13)
+    size = math.sin(n * math.pi) / math.pi
+    # Exact but for rounding: δ = nπ/2 at all frequencies, and (2/π) sin δ cos δ = sin(2δ)/π.
+    assert PowerLaw(n).retardation_density(tau) == pytest.approx(size * tau**n, rel=1e-12, abs=0.0)
+    assert PowerLaw(n).relaxation_density(tau) == pytest.approx(size * tau**-n, rel=1e-12, abs=0.0)
 
 
 def test_densities_of_discrete_modes_hold_their_strength():

@@ -18,7 +18,6 @@ from viscofric.rheology.ramps.common_law import EQUALLY_LIKELY, CorrelatedSmooth
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.showing import Plotted, Rows, Shown
 from viscofric.threads import one_blas_thread
-from viscofric.units import number
 
 #: Points that the constants of both moduli, six, need.
 FEWEST = 6
@@ -282,11 +281,8 @@ def _freedom(slope: Array) -> Array:
     return np.asarray(np.maximum(np.sum(1.0 - leverage, axis=1), 1.0))
 
 
-def linear_range(sweep: AmplitudeSweep, drop: float = 0.05) -> LinearRange:
+def linear_range(sweep: AmplitudeSweep, part: float) -> LinearRange:
     """Return the amplitude where the storage modulus has fallen by a part, from a smooth curve without a law."""
-    insist_on(sweep, "sweep", AmplitudeSweep)
-    if not 0.0 < (part := number(drop, "drop")) < 1.0:
-        raise InputError(f"drop = {part:g}: must lie between 0 and 1, such as 0.05.", code="out-of-range")
     logarithm = np.log10(sweep.strain_amplitude)
     storage = np.log10(sweep.storage_modulus)
     same = np.ones(len(logarithm) - 1, dtype=bool)

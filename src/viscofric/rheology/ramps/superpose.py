@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from viscofric.rheology.ramps.common_law import CommonLaw, RampPoints, common_la
 from viscofric.rheology.ramps.result import GlassTransition, RampCheck, RampSuperposition, glass_transition
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
+from viscofric.rheology.shifts.vertical_shift import VerticalShift, known_vertical
 from viscofric.rheology.superposition.common_curve import Basis
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.threads import one_blas_thread
@@ -202,7 +202,7 @@ def superpose_ramps(
             code="outside-measured",
             remedy=kelvin_hint(kelvin),
         )
-    b = _vertical(vertical, kelvin)
+    b = known_vertical(vertical, kelvin)
     peaks = tuple(
         peak
         for one in tensile.ramps
@@ -231,15 +231,6 @@ def superpose_ramps(
     return RampSuperposition(
         shift, _table(shift, tensile, kelvin), curve, tensile, peaks, assumption, check, causality, b, tuple(notes)
     )
-
-
-def _vertical(vertical: Any, kelvin: float) -> VerticalShift | None:
-    if vertical is None:
-        return None
-    if vertical == "density":
-        return DensityShift(kelvin)
-    insist_on(vertical, "vertical", VerticalShift, right="'density', a VerticalShift or None")
-    return vertical.at_reference(kelvin)  # type: ignore[no-any-return]
 
 
 def _insist_on_several(ramps: TemperatureRamps) -> None:

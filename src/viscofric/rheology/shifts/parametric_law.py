@@ -284,24 +284,20 @@ class ParametricLaw(ShiftLaw):
         if not self.bounded or self.fitted_range is None or not np.any(self._outside(kelvin)):
             return
         low, high = self.fitted_range
-        if float(kelvin.min()) < low * (1 - SAME_TEMPERATURE):
-            reach, wanted = self._cold(), float(kelvin.min())
-            if wanted < reach.limit * (1 - SAME_TEMPERATURE):
-                raise self._too_far(wanted, low - wanted, "below", "down", reach)
-        if float(kelvin.max()) > high * (1 + SAME_TEMPERATURE):
-            reach, wanted = self._hot(), float(kelvin.max())
-            if wanted > reach.limit * (1 + SAME_TEMPERATURE):
-                raise self._too_far(wanted, wanted - high, "above", "up", reach)
-
-    def _too_far(self, wanted: float, gap: float, side: str, direction: str, reach: Reach) -> InputError:
-        low, high = self.fitted_range or (wanted, wanted)
-        return InputError(
-            f"temperature = {shown_celsius(wanted)} °C lies {gap:.3g} K {side} the {shown_celsius(low)} to "
-            f"{shown_celsius(high)} °C that this {self.title} law was fitted on. It is valid {direction} to "
-            f"{shown_celsius(reach.limit)} °C only, because {reach.reason}; {self._remedy()}",
-            code="outside-fitted",
-            remedy=kelvin_hint(wanted),
-        )
+        for end, side, direction, sign in ((low, "below", "down", -1.0), (high, "above", "up", 1.0)):
+            wanted = sign * float(np.max(sign * kelvin))
+            if sign * wanted <= sign * end * (1.0 + sign * SAME_TEMPERATURE):
+                continue
+            reach = self._cold() if sign < 0.0 else self._hot()
+            if sign * wanted > sign * reach.limit * (1.0 + sign * SAME_TEMPERATURE):
+                raise InputError(
+                    f"temperature = {shown_celsius(wanted)} °C lies {abs(wanted - end):.3g} K {side} the "
+                    f"{shown_celsius(low)} to {shown_celsius(high)} °C that this {self.title} law was fitted on. It is "
+                    f"valid {direction} to {shown_celsius(reach.limit)} °C only, because {reach.reason}; "
+                    f"{self._remedy()}",
+                    code="outside-fitted",
+                    remedy=kelvin_hint(wanted),
+                )
 
     def _remedy(self) -> str:
         return "measure isotherms there, or lift the limit with unbounded() of the law, in Python"

@@ -26,9 +26,7 @@ from viscofric.units import (
     CELSIUS_ZERO,
     Quantities,
     Quantity,
-    kelvin_hint,
     positive,
-    shown_celsius,
 )
 
 
@@ -112,24 +110,16 @@ class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
             return self._dataset(self.temperatures, self.log10_values, self.standard_errors)
         return super().to_dataset(temperatures)
 
-    def _refuse(self, kelvin: Array) -> None:
-        outside = ~self._valid(kelvin)
-        if np.any(outside):
-            low, high = self.temperatures[0], self.temperatures[-1]
-            wanted = float(kelvin[outside][0])
-            raise InputError(
-                f"temperature = {shown_celsius(wanted)} °C lies outside the measured "
-                f"{shown_celsius(low)} to {shown_celsius(high)} °C",
-                code="outside-measured",
-                remedy=Remedy(
-                    "; fit a law (such as WLF or Arrhenius) to extrapolate",
-                    "; leave it out, or, with sweeps, fit a law with viscofric material fit --shift wlf to extrapolate",
-                    "; leave it out, or, with sweeps, give a law, shift = 'wlf' under [material], to extrapolate",
-                    page="; leave it out, or, with sweeps, use a law under “Shift” to extrapolate",
-                    field="conditions.temperature",
-                )
-                + kelvin_hint(wanted),
-            )
+    _beyond = (
+        "the measured {} to {} °C",
+        Remedy(
+            "; fit a law (such as WLF or Arrhenius) to extrapolate",
+            "; leave it out, or, with sweeps, fit a law with viscofric material fit --shift wlf to extrapolate",
+            "; leave it out, or, with sweeps, give a law, shift = 'wlf' under [material], to extrapolate",
+            page="; leave it out, or, with sweeps, use a law under “Shift” to extrapolate",
+            field="conditions.temperature",
+        ),
+    )
 
     def _log10(self, kelvin: Array) -> Array:
         from scipy.interpolate import PchipInterpolator

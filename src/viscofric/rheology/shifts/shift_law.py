@@ -6,7 +6,7 @@ import inspect
 import math
 from abc import ABC, abstractmethod
 from dataclasses import fields, replace
-from typing import Any, Self, TypeAlias, overload
+from typing import Any, ClassVar, Self, TypeAlias, overload
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from viscofric.arguments import LARGEST, numbers
 from viscofric.arrays import Array, Mask
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
+from viscofric.notes import Remedy
 from viscofric.showing import Plotted
 from viscofric.units import (
     Quantities,
@@ -141,6 +142,8 @@ class ShiftTable(Shift):
     temperatures: Array
     log10_values: Array
     covariance: Array
+    #: How its ends are called in a sentence, and how to go beyond them.
+    _beyond: ClassVar[tuple[str, Remedy]]
 
     def _set_table(
         self, what: str, temperatures: Quantities, log10_values: Any, reference: Quantity, covariance: Any
@@ -178,6 +181,18 @@ class ShiftTable(Shift):
     def _valid(self, kelvin: Array) -> Mask:
         low, high = self.temperatures[0] - NOMINAL, self.temperatures[-1] + NOMINAL
         return np.asarray((kelvin >= low) & (kelvin <= high))
+
+    def _refuse(self, kelvin: Array) -> None:
+        outside = kelvin[~self._valid(kelvin)]
+        if not outside.size:
+            return
+        measured, further = self._beyond
+        ends = map(shown_celsius, self.temperatures[[0, -1]])
+        raise InputError(
+            f"temperature = {shown_celsius(outside[0])} °C lies outside {measured.format(*ends)}",
+            code="outside-measured",
+            remedy=further + kelvin_hint(float(outside[0])),
+        )
 
     def _standard_error(self, kelvin: Array) -> Array:
         """Return the standard error of linear interpolation, without the error of the interpolation itself."""

@@ -11,10 +11,11 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset, plain
-from viscofric.errors import InputError, wrong_argument
+from viscofric.errors import InputError, brief, wrong_argument
+from viscofric.notes import Remedy
 from viscofric.rheology.shifts.shift_law import Shift, ShiftTable, as_record
 from viscofric.showing import Rows
-from viscofric.units import Quantities, Quantity, kelvin_hint, positive, shown_celsius, to_si, to_si_array
+from viscofric.units import Quantities, Quantity, positive, to_si, to_si_array
 
 #: Volume expansivity of a pure-gum vulcanizate of natural rubber at 25 °C, 1/K.
 NATURAL_RUBBER_EXPANSION = 6.6e-4
@@ -166,18 +167,10 @@ class VerticalShiftFactors(ShiftTable, VerticalShift):
             ("standard error", self.standard_errors),
         )
 
-    def _refuse(self, kelvin: Array) -> None:
-        outside = ~self._valid(kelvin)
-        if np.any(outside):
-            low, high = self.temperatures[0], self.temperatures[-1]
-            wanted = float(kelvin[outside][0])
-            raise InputError(
-                f"temperature = {shown_celsius(wanted)} °C lies outside {shown_celsius(low)} to {shown_celsius(high)} "
-                f"°C, where the vertical shift was measured; a density shift, ρT/(ρ0 T0), is "
-                "valid beyond",
-                code="outside-measured",
-                remedy=kelvin_hint(wanted),
-            )
+    _beyond = (
+        "{} to {} °C, where the vertical shift was measured",
+        Remedy("; a density shift, ρT/(ρ0 T0), is valid beyond"),
+    )
 
     def to_dataset(self, temperatures: Any = None) -> Dataset:
         """Return log10 b as a labelled data set, at the temperatures of the table unless others are given."""
@@ -196,3 +189,17 @@ def with_vertical_shift(factors: Dataset, vertical: VerticalShift | None, temper
         return factors
     found = vertical.to_dataset(temperatures)
     return factors.assign(found.data_vars).assign_attrs(vertical_shift=found.attrs["vertical_shift"])
+
+
+def known_vertical(vertical: object, kelvin: float, *, free: bool = False) -> VerticalShift | None:
+    """Return b(T) about a temperature, K, as users choose it; None where there is none, or, if `free`, it is fitted."""
+    if isinstance(vertical, VerticalShift):
+        return vertical.at_reference(kelvin)
+    if vertical == "density":
+        return DensityShift(kelvin)
+    if vertical is None or (free and vertical == "free"):
+        return None
+    choices = "'free', 'density'" if free else "'density'"
+    raise InputError(
+        f"vertical shift {brief(vertical)}: must be {choices}, a VerticalShift or None.", code="wrong-choice"
+    )

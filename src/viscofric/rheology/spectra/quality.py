@@ -64,7 +64,17 @@ class KnownFrequencies:
 
     def beyond_note(self, subject: str, **values: float) -> Note:
         """Return the note on results at frequencies that are not known; `subject` begins its sentence."""
-        raise NotImplementedError
+        low, high = self.frequency_range
+        said = (
+            f"{subject} {'outside' if self.gaps else 'beyond'} those at which the material was {self._known_by}, "
+            f"{shown_range(self.frequency_range, self.gaps)}: the result there rests on the extrapolated "
+            f"{'or interpolated ' if self.gaps else ''}modulus, and so do its limits, which may be far from the truth."
+        )
+        return Note(BEYOND, said, values={**values, "low": low, "high": high})
+
+    @property
+    def _known_by(self) -> str:
+        return "measured"
 
 
 @dataclass(frozen=True)
@@ -185,10 +195,9 @@ class SpectrumFit(KnownFrequencies, Shown):
         """Whether the spectrum was identified from friction or indentation, without a master curve."""
         return self.method in (FROM_FRICTION, FROM_INDENTATION)
 
-    def beyond_note(self, subject: str, **values: float) -> Note:
-        """Return the note on results at frequencies that were not measured; `subject` begins its sentence."""
-        known = "identified" if self.from_contact else "measured"
-        return beyond_note(self.frequency_range, subject, known, self.gaps, **values)
+    @property
+    def _known_by(self) -> str:
+        return "identified" if self.from_contact else "measured"
 
     @property
     def E0_remark(self) -> str:
@@ -290,23 +299,6 @@ def shown_range(frequency_range: tuple[float, float], gaps: tuple[tuple[float, f
     low, high = frequency_range
     without = " or ".join(f"{first:.3g} to {last:.3g}" for first, last in gaps)
     return f"{low:.3g} to {high:.3g} rad/s{f', but not at {without} rad/s' if gaps else ''}"
-
-
-def beyond_note(
-    frequency_range: tuple[float, float],
-    subject: str,
-    known: str = "measured",
-    gaps: tuple[tuple[float, float], ...] = (),
-    **values: float,
-) -> Note:
-    """Return the note on results at frequencies beyond a range at which the material is known, or in a gap of it."""
-    low, high = frequency_range
-    said = (
-        f"{subject} {'outside' if gaps else 'beyond'} those at which the material was {known}, "
-        f"{shown_range(frequency_range, gaps)}: the result there rests on the extrapolated "
-        f"{'or interpolated ' if gaps else ''}modulus, and so do its limits, which may be far from the truth."
-    )
-    return Note(BEYOND, said, values={**values, "low": low, "high": high})
 
 
 def _misfit(**rms: float | None) -> dict[str, float]:

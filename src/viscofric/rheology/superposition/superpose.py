@@ -13,7 +13,7 @@ from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
-from viscofric.rheology.shifts.vertical_shift import DensityShift, VerticalShift
+from viscofric.rheology.shifts.vertical_shift import VerticalShift, known_vertical
 from viscofric.rheology.superposition.joined_isotherms import STEP, JoinedIsotherms, Quantities, ShiftBy
 from viscofric.rheology.superposition.joint import JointSuperposition, insist_on_kinds, joined_kinds
 from viscofric.rheology.superposition.overlap import LogSweep
@@ -187,7 +187,7 @@ def superpose(
         raise InputError(
             "shift and fixed: give one of them; with shift no factor is left to be fitted.", code="give-one"
         )
-    known = _known_vertical(vertical, kelvin)
+    known = known_vertical(vertical, kelvin, free=True)
     if isinstance(sweeps, StepTests):
         if by != "both" or weights is not None:
             raise InputError(
@@ -214,19 +214,6 @@ def superpose(
     unequal = None if weights is None else (float(quantities.weights[0]), float(quantities.weights[1]))
     curve = _master_curve(joined, found["shift_factors"])
     return Superposition(master_curve=curve, shifted_by=quantities.by, weights=unequal, **found)
-
-
-def _known_vertical(vertical: Literal["free", "density"] | VerticalShift | None, kelvin: float) -> VerticalShift | None:
-    """Return b(T) where it need not be fitted."""
-    if isinstance(vertical, VerticalShift):
-        return vertical.at_reference(kelvin)
-    if vertical == "density":
-        return DensityShift(kelvin)
-    if vertical not in (None, "free"):
-        raise InputError(
-            f"vertical shift {vertical!r}: must be 'free', 'density', a VerticalShift or None.", code="wrong-choice"
-        )
-    return None
 
 
 def _master_curve(joined: JoinedIsotherms[Isotherm], factors: ShiftFactors) -> MasterCurve:

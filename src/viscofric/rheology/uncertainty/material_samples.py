@@ -16,7 +16,7 @@ from viscofric.arrays import Array, Integers
 from viscofric.datasets import Dataset, dataset
 from viscofric.notes import Note
 from viscofric.rheology.material import Material
-from viscofric.rheology.spectra.quality import beyond_note, covers
+from viscofric.rheology.spectra.quality import KnownFrequencies, covers
 from viscofric.showing import Items, Plotted, Rows
 from viscofric.units import Quantity, in_si, share
 
@@ -212,7 +212,7 @@ class StandardErrors(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class MaterialSamples(Plotted, Items["Material"]):
+class MaterialSamples(KnownFrequencies, Plotted, Items["Material"]):
     """Uncertainty samples of a material, bootstrap or posterior; their spread is the uncertainty.
 
     Parameters
@@ -329,7 +329,7 @@ class MaterialSamples(Plotted, Items["Material"]):
             "lowest": float(beyond.min()),
             "highest": float(beyond.max()),
         }
-        return (beyond_note(self.frequency_range, f"{subject}, lie", gaps=self.gaps, **values),)
+        return (self.beyond_note(f"{subject}, lie", **values),)
 
     def to_dataset(
         self, angular_frequency: ArrayLike, temperature: Quantity | None = None, level: float = 0.95
