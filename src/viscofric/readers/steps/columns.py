@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from dataclasses import replace
 
@@ -186,13 +185,12 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
 
 
 def _likely_unit(values: Array, kind: StepKind) -> str:
-    """Return the unit in which values without one are nearest to those of a rubber."""
+    """Return the unit in which values without one are nearest to those of a rubber, at their stiffest."""
     known = np.abs(values[np.isfinite(values) & (values != 0.0)])
-    usual = float(np.median(known)) if known.size else 1.0
-    pascal = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
-    sizes = {unit: one / usual if kind == "creep" else one * usual for unit, one in pascal.items()}
-    unit = min(sizes, key=lambda one: abs(math.log(sizes[one] / USUAL_MODULUS)))
-    return f"1/{unit}" if kind == "creep" else unit
+    creep = kind == "creep"
+    stiffest = 1.0 if not known.size else float(1.0 / known.min() if creep else known.max())
+    # Midway, it is as far from the usual modulus in Pa as in MPa.
+    return ("1/" if creep else "") + ("Pa" if stiffest > 1e-3 * USUAL_MODULUS else "MPa")
 
 
 def temperature_of(table: Table, source: Source, name: str, notes: list[str]) -> Array:
