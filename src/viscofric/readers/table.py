@@ -46,6 +46,7 @@ MISSING = frozenset(
 
 #: A number as printed, with a decimal point or comma.
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_PLAIN, _NEVER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,2})?", re.ASCII), re.compile(r"(?!)")
 #: "1,234.5", "1.234.567": with marks between thousands.
 _THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,]\d{3})+(?:[.,]\d+)?")
 #: Written for MPa; moduli and stresses of solids are not measured in millipascals.
@@ -103,14 +104,14 @@ class Table:
     def numbers(self, column: int, *, or_missing: bool = False) -> Array:
         """Return a column as printed, NaN for a missing number where that is allowed, or raise `DataFileError`."""
         one = self._plain(column)
-        return np.array(
-            [
-                math.nan
-                if or_missing and row[column].strip().lower() in MISSING
-                else self._number(row[column], one, line)
-                for row, line in zip(self.rows, self.lines.tolist(), strict=True)
-            ]
-        )
+        quick = _PLAIN.fullmatch if not (one.base or self.decimal_comma) else _NEVER.fullmatch  # for long files
+
+        def number(cell: str, line: int) -> float:
+            is_missing = or_missing and cell.strip().lower() in MISSING
+            return math.nan if is_missing else self._number(cell, one, line)
+
+        cells = zip((row[column] for row in self.rows), self.lines.tolist(), strict=True)
+        return np.array([float(cell) if quick(cell) else number(cell, line) for cell, line in cells])
 
     def numbers_or_missing(self, column: int) -> Array:
         """Return a column as printed, NaN for a missing number."""

@@ -3,67 +3,61 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 
-from viscofric.errors import DataFileError, InputError
-from viscofric.readers.headings import heading
-from viscofric.readers.source import decimal_comma, unit_conversion
-from viscofric.readers.table import MISSING
+import numpy as np
+
+from viscofric.errors import DataFileError
+from viscofric.readers.header_rows import is_number
+from viscofric.readers.headings import Column, Vocabulary, heading
+from viscofric.readers.source import decimal_comma
+from viscofric.readers.table import Table
 
 _START = re.compile(r"\s*Step\s+(\d{1,6})(?:\s+\"[^\"]{0,200}\")?\s+started\s+at\b(.*)", re.IGNORECASE)
-NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?\s*", re.ASCII)
-#: Above every force, speed, temperature or time of a tribometer, in printed units.
-LARGEST = 1e9
-_NUMBERED = tuple(f"{what} {place}" for what in ("ball speed", "disc speed") for place in (1, 2, 3, 4))
-#: Column -> SI unit.
+#: Column -> SI unit, "" of a number.
 UNITS = {
     "step time": "s",
     "pot rtd temp": "K",
     "lube rtd temp": "K",
     "ball load": "N",
     "pin load": "N",
-    **dict.fromkeys(_NUMBERED, "m/s"),
+    **{f"{body} speed {place}": "m/s" for body in ("ball", "disc") for place in (1, 2, 3, 4)},
     "sliding speed": "m/s",
     **dict.fromkeys(("tf1", "tf2", "tf3", "tf4"), "N"),
     "traction force": "N",
     "traction coeff": "",
 }
 _ALSO = {
-    "lube temp": "lube rtd temp",
-    "lubricant temp": "lube rtd temp",
-    "pot temp": "pot rtd temp",
-    **{f"traction force {place}": f"tf{place}" for place in (1, 2, 3, 4)},  # as an EHD rig names them
-    "ball speed": "ball speed 1",
-    "disc speed": "disc speed 1",
+    "lube rtd temp": {"lube temp", "lubricant temp"},
+    "pot rtd temp": {"pot temp"},
+    **{f"tf{place}": {f"traction force {place}"} for place in (1, 2, 3, 4)},  # as an EHD rig names them
+    "ball speed 1": {"ball speed"},
+    "disc speed 1": {"disc speed"},
+    "rolling speed": set(),
 }
-_SPEED_UNITS = ("rolling speed", "sliding speed")
 
 
-@dataclass(frozen=True)
-class Place:
-    """A column of a table: its place, its heading, and the conversion to SI units."""
+def _spelt(names: set[str]) -> frozenset[str]:
+    return frozenset(
+        one.replace("disc", disc).replace("temp", temp)
+        for one in names
+        for disc in ("disc", "disk")
+        for temp in ("temp", "temperature")
+    )
 
-    place: int
-    heading: str
-    factor: float
-    offset: float
 
-
-@dataclass(frozen=True)
-class Layout:
-    """The number of columns of a table, and the known ones by name."""
-
-    width: int
-    places: dict[str, Place]
+_WORDS = Vocabulary(
+    "a traction test", {one: _spelt({one, *_ALSO.get(one, ())}) for one in (*UNITS, "rolling speed")}, ()
+)
 
 
 @dataclass(eq=False)
 class Block:
     """One table of a step, still as text; `first` is the number of its first row within the step."""
 
-    layout: Layout
+    columns: tuple[Column, ...]
     first: int
     rows: list[list[str]] = field(default_factory=list)
     lines: list[int] = field(default_factory=list)
@@ -104,7 +98,7 @@ class Export:
 def parse(path: str, text: str) -> Export:
     """Return the parts of an export, or raise `DataFileError`."""
     export = Export(path)
-    layouts: dict[str, Layout | None] = {}
+    layouts: dict[str, tuple[Column, ...] | None] = {}
     lines = text.splitlines()
     for number, line in enumerate(lines, start=1):
         if not line.strip():
@@ -122,7 +116,7 @@ def parse(path: str, text: str) -> Export:
         step = export.steps[-1]
         if len(cells) > 2 and line.lstrip()[:1].isalpha():
             if line not in layouts:
-                layouts[line] = _layout(path, step, number, cells)
+                layouts[line] = _columns(cells)
             layout = layouts[line]
             if layout is not None:
                 _begin(step, layout)
@@ -130,8 +124,10 @@ def parse(path: str, text: str) -> Export:
         if not _is_header_line(path, step, number, cells):
             _take_row(export, step, number, cells, last=number == len(lines))
     _insist_on_width(export)
-    comma = any("," in cell for _, row, _ in _all_rows(export) for cell in row)
-    export.decimal_comma = comma and decimal_comma(path, ((c, line) for _, row, line in _all_rows(export) for c in row))
+    blocks = [block for step in export.steps for block in step.blocks]
+    rows = [(row, line) for block in blocks for row, line in zip(block.rows, block.lines, strict=True)]
+    commas = [(cell, line) for row, line in rows for cell in row if "," in cell]
+    export.decimal_comma = decimal_comma(path, commas)
     return export
 
 
@@ -140,37 +136,10 @@ def at(step: Step, row: int) -> str:
     return f"step {step.number}, row {row}: "
 
 
-def number_of(export: Export, cell: str, where: str, line: int) -> float | None:
-    """Return a cell as a number, None if it is missing, or raise `DataFileError`."""
-    if not NUMBER.fullmatch(cell):
-        if cell.strip().lower() in MISSING:
-            return None
-        plain = cell.replace(",", ".", 1) if export.decimal_comma and "." not in cell else cell
-        if not NUMBER.fullmatch(plain):
-            raise DataFileError(
-                export.path,
-                f"{where} holds {cell.strip()[:40]!r}, which is not a finite number.",
-                line,
-                code="not-a-number",
-            )
-        cell = plain
-    elif export.decimal_comma and "." in cell:
-        problem = f"{where} holds {cell.strip()!r} with a point, but other numbers of the file have a comma; "
-        raise DataFileError(
-            export.path,
-            problem + "write all decimals in one way, without thousands separators.",
-            line,
-            code="mixed-decimals",
-        )
-    value = float(cell)
-    if abs(value) > LARGEST:
-        raise DataFileError(
-            export.path,
-            f"{where} holds {cell.strip()!r}, which is too large for a measurement.",
-            line,
-            code="too-large",
-        )
-    return value
+def table_of(export: Export, step: Step, columns: Sequence[Column], rows: list[list[str]], lines: list[int]) -> Table:
+    """Return rows of a step under their columns."""
+    path, cells = f"{export.path}, step {step.number}", tuple(map(tuple, rows))
+    return Table(path, tuple(columns), cells, np.array(lines, dtype=np.int64), export.decimal_comma, vocabulary=_WORDS)
 
 
 def _key(cell: str) -> str:
@@ -193,54 +162,37 @@ def _is_header_line(path: str, step: Step, line: int, cells: list[str]) -> bool:
     return True
 
 
-def _layout(path: str, step: Step, line: int, cells: list[str]) -> Layout | None:
+def _columns(cells: list[str]) -> tuple[Column, ...] | None:
     """Return the columns of a row of headings, None for another row."""
-    found: dict[str, tuple[int, str, str]] = {}
-    for place, cell in enumerate(cells):
-        column = heading(cell)
-        name = column.name.lower().replace("disk", "disc").replace("temperature", "temp")
-        name = _ALSO.get(name, name)
-        # The first column repeats one of the others: the last of a name is the one in its own place.
-        found[name] = (place, cell.strip(), column.unit)
-    if len(found.keys() & UNITS.keys()) < 2:
+    found = [_WORDS.column(cell) for cell in cells]
+    # The first column repeats one of the others: the last of a name is the one in its own place.
+    last = {column.quantity: place for place, column in enumerate(found)}
+    if len(last.keys() & UNITS.keys()) < 2:
         return None
-    speed = next((found[name][2] for name in _SPEED_UNITS if name in found and found[name][2]), "mm/s")
-    places = {}
-    for name in found.keys() & UNITS.keys():
-        place, shown, unit = found[name]
-        wanted = UNITS[name]
-        unit = unit or (speed if wanted == "m/s" else "")
-        said = f"step {step.number}: column {shown!r}"
-        places[name] = Place(place, shown, *(unit_of(path, unit, wanted, said, line) if wanted else (1.0, 0.0)))
-    return Layout(len(cells), places)
+    speeds = [column.unit for name in ("sliding speed", "rolling speed") for column in found if column.quantity == name]
+    speed = next(filter(None, reversed(speeds)), "mm/s")
+    for place, column in enumerate(found):
+        unit = column.unit or (speed if UNITS.get(column.quantity) == "m/s" else "")
+        found[place] = replace(column, unit=unit, quantity=column.quantity if last[column.quantity] == place else "")
+    return tuple(found)
 
 
-def unit_of(path: str, unit: str, wanted: str, said: str, line: int) -> tuple[float, float]:
-    """Return factor and offset from a unit to one of SI; `said` is what has the unit."""
-    try:
-        return unit_conversion(unit, wanted, said)
-    except InputError:
-        example = {"K": "degC", "m/s": "mm/s", "m": "mm"}.get(wanted, wanted)
-        problem = f"{said} must have a unit like {example!r}."
-        raise DataFileError(path, problem, line, code="wrong-unit") from None
-
-
-def _begin(step: Step, layout: Layout) -> None:
+def _begin(step: Step, columns: tuple[Column, ...]) -> None:
     """Begin a table, or continue the last one if its headings are repeated."""
-    if not step.blocks or step.blocks[-1].layout is not layout:
-        step.blocks.append(Block(layout, step.rows + 1))
+    if not step.blocks or step.blocks[-1].columns is not columns:
+        step.blocks.append(Block(columns, step.rows + 1))
 
 
 def _take_row(export: Export, step: Step, number: int, cells: list[str], *, last: bool) -> None:
     """Store a row of cells, or a remark."""
-    if not step.blocks or (len(cells) == 1 and not NUMBER.fullmatch(cells[0])):
+    if not step.blocks or (len(cells) == 1 and not is_number(cells[0])):
         export.remarks.append("\t".join(cells).strip())
         return
     block = step.blocks[-1]
-    if len(cells) > block.layout.width:
-        problem = f"{at(step, step.rows + 1)}{len(cells)} cells where the header names {block.layout.width} columns."
+    if len(cells) > len(block.columns):
+        problem = f"{at(step, step.rows + 1)}{len(cells)} cells where the header names {len(block.columns)} columns."
         raise DataFileError(export.path, problem, number, code="row-length")
-    width = len(block.rows[-1]) if block.rows else block.layout.width
+    width = len(block.rows[-1]) if block.rows else len(block.columns)
     if last and len(cells) < width:
         export.cut = f"step {step.number}, row {step.rows + 1}"
         return
@@ -254,21 +206,14 @@ def _insist_on_width(export: Export) -> None:
         for block in step.blocks:
             widths = [len(row) for row in block.rows]
             common = max(set(widths), key=widths.count, default=0)
-            needed = max(place.place for place in block.layout.places.values())
+            needed = max(place for place, column in enumerate(block.columns) if column.quantity)
             short = next((i for i, width in enumerate(widths) if width != common or width <= needed), None)
             if short is not None:
                 problem = (
                     f"{at(step, block.first + short)}{widths[short]} cells where the header names "
-                    f"{block.layout.width} columns."
+                    f"{len(block.columns)} columns."
                 )
                 raise DataFileError(export.path, problem, block.lines[short], code="row-length")
-
-
-def _all_rows(export: Export) -> Iterator[tuple[Step, list[str], int]]:
-    for step in export.steps:
-        for block in step.blocks:
-            for row, line in zip(block.rows, block.lines, strict=True):
-                yield step, row, line
 
 
 _PRINTED = re.compile(

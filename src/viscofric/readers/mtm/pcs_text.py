@@ -16,20 +16,16 @@ from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.headings import heading
 from viscofric.readers.mtm.pcs_steps import (
-    LARGEST,
-    NUMBER,
     UNITS,
-    Block,
     Export,
-    Step,
     at,
-    number_of,
     parse,
     start_times,
-    unit_of,
+    table_of,
 )
 from viscofric.readers.mtm.readings import Thermometer, TractionReadings
 from viscofric.readers.source import Source
+from viscofric.readers.table import Table
 from viscofric.traction import TractionStep
 from viscofric.units import shown_celsius
 
@@ -77,6 +73,7 @@ class Rows:
 def rows_of(export: Export) -> Rows:
     """Convert the cells of an export to numbers, or raise `DataFileError` for the first that is none."""
     blocks = [(place, step, block) for place, step in enumerate(export.steps) for block in step.blocks if block.rows]
+    tables = [table_of(export, step, block.columns, block.rows, block.lines) for _, step, block in blocks]
     empty = np.empty(0)
 
     def joined(parts: list[Array]) -> Array:
@@ -84,34 +81,24 @@ def rows_of(export: Export) -> Rows:
 
     return Rows(
         export,
-        {name: joined([_column(export, step, block, name) for _, step, block in blocks]) for name in UNITS},
+        {name: joined([_column(table, name, unit) for table in tables]) for name, unit in UNITS.items()},
         joined([np.full(len(block.rows), float(place)) for place, _, block in blocks]).astype(np.int64),
         joined([block.first + np.arange(float(len(block.rows))) for _, _, block in blocks]).astype(np.int64),
         joined([np.array(block.lines, dtype=float) for _, _, block in blocks]).astype(np.int64),
     )
 
 
-def _column(export: Export, step: Step, block: Block, name: str) -> Array:
-    place = block.layout.places.get(name)
-    cells = [] if place is None else [row[place.place] for row in block.rows]
-    if place is None or not any(cells):
-        return np.full(len(block.rows), np.nan)
-
-    def checked(row: int) -> float:
-        where = f"{at(step, block.first + row)}column {place.heading!r}"
-        value = number_of(export, cells[row], where, block.lines[row])
-        return np.nan if value is None else value
-
-    if export.decimal_comma:
-        values = np.array([checked(row) for row in range(len(cells))])
-    else:
-        plain = NUMBER.fullmatch
-        values = np.array([float(cell) if plain(cell) else checked(row) for row, cell in enumerate(cells)])
-        for row in np.flatnonzero(np.abs(values) > LARGEST):
-            checked(int(row))
-    return np.asarray(place.factor * values + place.offset)
+def _column(table: Table, name: str, unit: str) -> Array:
+    place = table.place(name)
+    if place is None or not any(row[place] for row in table.rows):
+        return np.full(len(table.rows), np.nan)
+    values = table.values(place, unit, or_missing=True)
+    table.insist(~(np.abs(values) > _LARGEST), place, f"at most {_LARGEST:g}", "too-large")
+    return values
 
 
+#: Above every force, speed, temperature or time of a tribometer, in SI units.
+_LARGEST = 1e9
 _ABORTED = re.compile(r"abort|stopped|terminat|interrupt|suspend|fail|error|incomplete", re.IGNORECASE)
 #: Above the rounding of printed forces (N) and coefficients of friction.
 _FORCE_AGREES = 2e-3
@@ -438,18 +425,9 @@ def _header_values(export: Export, key: str, unit: str) -> Array:
         if key not in step.header:
             continue
         printed, cell, line = step.header[key]
-        value = number_of(export, cell, f"step {step.number}: {key!r}", line)
-        if value is None:
-            continue
-        said = f"step {step.number}: {printed.strip()[:60]!r}"
-        values[place] = unit_of(export.path, heading(printed).unit, unit, said, line)[0] * value
-        if unit == "m" and value <= 0.0:
-            raise DataFileError(
-                export.path,
-                f"step {step.number}: the track radius {cell} must be above zero.",
-                line,
-                code="not-positive",
-            )
+        table = table_of(export, step, [heading(printed)], [[cell]], [line])
+        values[place : place + 1] = table.values(0, unit, or_missing=True)
+        table.insist(~((unit == "m") & (values[place : place + 1] <= 0.0)), 0, "above zero")
     return values
 
 
