@@ -22,8 +22,8 @@ import stated_errors
 from stated_errors import DURATION, PERIODIC, measuring
 
 import viscofric as vf
+from viscofric.motion.mover import Problem
 from viscofric.motion.periodic import PeriodicMover
-from viscofric.motion.problem import Problem
 
 STEPS, TURNS = 48, 8
 FINER = 0.05

@@ -31,8 +31,8 @@ import others
 import problems
 
 import viscofric as vf
+from viscofric.motion.mover import Problem
 from viscofric.motion.periodic import PeriodicMover
-from viscofric.motion.problem import Problem
 
 ACCURACY = 1e-3
 STEPS = 1000

@@ -15,9 +15,8 @@ from motion.dense_wave import displacement_matrix, marched
 from refusals import refused
 from viscofric.contact.reference import westergaard
 from viscofric.motion.memory import Modes
-from viscofric.motion.mover import Observation
+from viscofric.motion.mover import Observation, Problem
 from viscofric.motion.periodic import PeriodicMover
-from viscofric.motion.problem import Problem
 from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, stored_energy
 from viscofric.notes import note_of
 from viscofric.rheology.spectra.quality import SpectrumFit

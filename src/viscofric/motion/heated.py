@@ -21,8 +21,8 @@ from viscofric.heat.heating import Heating
 from viscofric.heat.path import Passage, PathRise, path_rise
 from viscofric.heat.result import TransientHeating
 from viscofric.motion.history import History, dense_times
-from viscofric.motion.problem import Problem
-from viscofric.motion.progress import Progress
+from viscofric.motion.march import Progress
+from viscofric.motion.mover import Problem
 from viscofric.motion.shear import contact_sizes, with_coulomb
 from viscofric.motion.solution import TransientErrors, TransientSolution
 from viscofric.notes import Note

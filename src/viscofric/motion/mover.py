@@ -1,4 +1,4 @@
-"""Protocol of all movers, the contacts that a march advances: begin, step and observe."""
+"""A checked contact problem, and the protocol of movers, the contacts that a march advances by steps."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viscofric.arrays import Array
-from viscofric.motion.schedule import Instant
+from viscofric.contact.bodies import Layer
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.periodic.surface import PeriodicSurface
+from viscofric.motion.schedule import Instant, Schedule
+from viscofric.rheology.material import Material
 
 State = TypeVar("State")
 
@@ -18,6 +22,29 @@ State = TypeVar("State")
 QUICK = 100.0
 #: First part of the accuracy that one step may add to the difference of the chains; see `viscofric.motion.march`.
 SHARE = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A contact in motion."""
+
+    material: Material  # its Poisson ratio; the modes are those of the schedule
+    indenter: Indenter | PeriodicSurface
+    schedule: Schedule
+    accuracy: float  # relative, of friction, depth, load and energy
+    layer: Layer | None
+    counterface: float  # (1 − ν_i²)/E_i of an elastic indenter, 1/Pa
+
+    @property
+    def plane_strain(self) -> float:
+        """1 − ν²."""
+        return 1.0 - self.material.poisson_ratio**2
+
+    @property
+    def kind(self) -> str:
+        """Kind of contact: "point", "line" or "periodic"."""
+        geometry = getattr(self.indenter, "geometry", None)
+        return "periodic" if geometry is None else ("line", "point")[geometry.dimension - 1]
 
 
 class Sizes(NamedTuple):

@@ -26,8 +26,7 @@ from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import ConvergenceError
 from viscofric.motion.memory import StepParts, quickest_time, recovery_at_depth, step_parts
-from viscofric.motion.mover import QUICK, Field, Mover, Observation, Sizes
-from viscofric.motion.problem import Problem
+from viscofric.motion.mover import QUICK, Field, Mover, Observation, Problem, Sizes
 from viscofric.motion.schedule import Instant, Schedule
 from viscofric.motion.springs import Springs, both_sides, elastic_radius, graded_row, quadrature_error
 

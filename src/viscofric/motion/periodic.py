@@ -25,8 +25,7 @@ from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.surface import PeriodicSurface, flattening_pressure
 from viscofric.motion.memory import Modes, quickest_time, recovery_at_depth
-from viscofric.motion.mover import QUICK, Field, Mover, Observation, Sizes
-from viscofric.motion.problem import Problem
+from viscofric.motion.mover import QUICK, Field, Mover, Observation, Problem, Sizes
 from viscofric.motion.schedule import Instant
 from viscofric.motion.wave_contact import StepContact, Target
 from viscofric.motion.wave_memory import StepResponse, advance, merged_modes, stored_energy

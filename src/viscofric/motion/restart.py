@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from viscofric.motion.chains import Reached, Track
     from viscofric.motion.free.stored import Basis, Level
     from viscofric.motion.history import History
-    from viscofric.motion.mover import Mover
-    from viscofric.motion.problem import Problem
+    from viscofric.motion.mover import Mover, Problem
 
 # Relative difference that is rounding: of values, and of modes that may have been fitted on another machine.
 _ROUNDING, _FITTED = 1e-9, 1e-6

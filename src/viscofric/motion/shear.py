@@ -9,7 +9,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.contact.coupling import ShearedContact, SurfaceCoupling, coupling_notes, sheared_compliance
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.motion.problem import Problem
+from viscofric.motion.mover import Problem
 from viscofric.motion.solution import TransientSolution
 from viscofric.notes import Note
 

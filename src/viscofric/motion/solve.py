@@ -22,7 +22,7 @@ from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
 from viscofric.errors import InputError, wrong_argument
 from viscofric.motion.history import History
 from viscofric.motion.march import march
-from viscofric.motion.problem import Problem
+from viscofric.motion.mover import Problem
 from viscofric.motion.restart import Restart
 from viscofric.motion.shear import with_coulomb
 from viscofric.motion.solution import TransientErrors, TransientSolution

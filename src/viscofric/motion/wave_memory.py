@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 from viscofric.arrays import Array, ComplexArray
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.motion.memory import Modes, StepCoefficients, phi
-from viscofric.motion.problem import Problem
+from viscofric.motion.mover import Problem
 
 # Error by merging modes, as a part of the accuracy; the shortest time that is resolved, as a part of each interval; and
 # that part of it in which a point is passed from which on the passage is the shortest time.

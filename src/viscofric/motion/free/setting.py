@@ -19,8 +19,7 @@ from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.motion.free.response import Response, response_of
 from viscofric.motion.memory import Modes, StepCoefficients, quickest_time, step_coefficients
-from viscofric.motion.mover import Sizes
-from viscofric.motion.problem import Problem
+from viscofric.motion.mover import Problem, Sizes
 from viscofric.motion.schedule import Instant, Schedule
 
 

@@ -24,11 +24,9 @@ from viscofric.motion.chains import Moment, Reached, Track
 from viscofric.motion.free.mover import FreeMover
 from viscofric.motion.free.setting import Setting, with_fewer_kinks
 from viscofric.motion.free.stored import Level
-from viscofric.motion.march import march
+from viscofric.motion.march import Progress, march
 from viscofric.motion.memory import Modes, step_parts
-from viscofric.motion.mover import Sizes
-from viscofric.motion.problem import Problem
-from viscofric.motion.progress import Progress
+from viscofric.motion.mover import Problem, Sizes
 from viscofric.notes import Note
 
 logger = logging.getLogger(__name__)

@@ -12,8 +12,7 @@ from viscofric.motion.chains import Track
 from viscofric.motion.free.mover import FreeMover
 from viscofric.motion.free.setting import Setting
 from viscofric.motion.memory import Modes
-from viscofric.motion.mover import Sizes
-from viscofric.motion.problem import Problem
+from viscofric.motion.mover import Problem, Sizes
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,8 +13,8 @@ from viscofric.contact.indenters.indenter import Indenter
 from viscofric.friction.identification.indentation.contact import EXACT, Answer, Shared, Trial, logarithm, wider
 from viscofric.friction.identification.indentation.rows import Reduced, RowsContact
 from viscofric.motion.march import march
+from viscofric.motion.mover import Problem
 from viscofric.motion.normal import NormalMotion
-from viscofric.motion.problem import Problem
 from viscofric.motion.schedule import make_schedule
 from viscofric.motion.tangents import follow
 from viscofric.rheology.material import Material
