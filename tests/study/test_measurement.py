@@ -73,6 +73,7 @@ def test_friction_that_its_file_calls_synthetic_is_not_called_measured(results: 
 def test_friction_curves_that_are_ready_are_the_measurement(results: StudyResults) -> None:
     measured, given = results.tree["measurement"], curves()
     np.testing.assert_array_equal(measured["viscoelastic"].values, given.viscoelastic)
+    assert set(given.points_dataset().variables) <= set(measured.variables)  # and no column is left out
     # Noise of 1 % in the mean; the contacts are solved to 1 %.
     assert np.abs(measured["predicted"].values / given.viscoelastic - 1.0).max() < 0.05
 

@@ -86,11 +86,6 @@ _PREDICTED: dict[str, Meaning] = {
     "predicted_upper": ("1", "upper end of the 95 % band of the predicted friction coefficient"),
     _WITHIN: _OTHER[_WITHIN],
 }
-# Columns of a measurement, in their order.
-_MEASURED = (
-    *("speed", "temperature", "load", "replicates", "viscoelastic", "viscoelastic_error", "viscoelastic_scatter"),
-    *("coulomb", "coulomb_error", "coulomb_scatter", "consistency", "consistency_error"),
-)
 # Name of a coordinate besides a field of the same name.
 _BESIDE_FIELDS = {"pressure": "mean_pressure"}
 
@@ -192,8 +187,7 @@ def measurement_data(
         columns[name][solved] = column
     if within is not None:
         columns[_WITHIN] = np.array(within, dtype=np.int8)
-    known = measured.points_dataset().reset_coords()
-    known = known[[name for name in _MEASURED if name in known]].drop_attrs(deep=False)
+    known = measured.points_dataset().reset_coords().drop_attrs(deep=False).drop_vars(columns, errors="ignore")
     return as_measured(known).merge(
         dataset("point", {name: (values, *_PREDICTED[name]) for name, values in columns.items()})
     )
