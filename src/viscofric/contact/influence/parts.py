@@ -111,9 +111,9 @@ def beyond(around: Around, modes: Modes, rows: Array) -> tuple[Inexact, Array]:
     tail = applied(panel_weights(panels, modes.rate), around.at(start + panel_points(panels), nodes))
     # The convolution knows the lattice up to nx − 1 + last node, and interpolates there in a few cells of its own.
     places = np.arange(nx + FIRST, nx + float(_LAST))
-    spurious = np.zeros((len(modes.rate), len(places)), modes.rate.dtype)
-    for cell in range(len(places)):
-        spurious[:, cell:] += modes.fading[:, cell, None] * modes.interpolated[:, : len(places) - cell]
+    spurious, decay = modes.interpolated[:, : len(places)].copy(), faded(modes.rate)
+    for before, here in pairwise(spurious.T):
+        here += decay * before
     return tail - applied(spurious, around.at(places, nodes)), interpolation
 
 
