@@ -16,7 +16,8 @@ With --few, 13 rubbers are drawn and measured at four temperatures and nine spee
 same).  Their spectra are smooth; or what the prior does not expect: they end at 100 s, among the contact's
 frequencies (ending), or have one mode per decade (modes).  The row ± has the standard error of the mean over the
 measurements: what is found at the frequencies of one measurement errs together.  "lowest" is the share of E'' at the
-lowest of the contact's frequencies, and "± E'' %" half the median width of the intervals of E''.
+lowest of the contact's frequencies, "in μ" that of friction at the speeds and temperatures measured, under a fifth,
+once and four times the load, to first order in the loss, and "± E'' %" half the median width of the intervals of E''.
 
 With --shared, friction also has errors that points share: of all points (5 %), per decade of speed (3 %) and of each
 temperature (2 %), drawn anew for each measurement; they are given to the identification (declared) or not.  With
@@ -59,6 +60,7 @@ HEADINGS = (
     "in E'",
     "in E''",
     "in α",
+    "in μ",
     "lowest",
     "± E'' %",
 )
@@ -67,6 +69,8 @@ HEADINGS = (
 #: Temperatures, speeds, scatter and replicates of few measurements.
 FEW_KELVIN, FEW_SPEEDS = np.array([30.0, 40.0, 52.0, 66.0]) + 273.15, np.geomspace(0.01, 0.5, 9)
 FEW_SCATTER, FEW_REPLICATES = 0.03, 4
+#: Loads of the measurement, and of friction predicted with the material found, N.
+LOAD, LOADS = 25.0, (5.0, 25.0, 100.0)
 #: Decades between the modes of drawn rubbers, and where they end, log10 s.
 SPECTRA = {"smooth": (0.37, 5.0), "ending": (0.37, 2.0), "modes": (1.0, 5.0)}
 
@@ -167,6 +171,7 @@ def identified(material: vf.Material, curves: vf.FrictionCurves, **settings: Any
         "in E'": float(np.mean((band.lower.real <= planted.real) & (planted.real <= band.upper.real))),
         "in E''": float(np.mean((band.lower.imag <= planted.imag) & (planted.imag <= band.upper.imag))),
         "in α": float(np.mean(np.abs(away) <= 1.96 * factors.standard_errors, where=measured_ones)),
+        "in μ": friction_held(material, found.samples),
         "lowest": float(band.lower.imag[0] <= planted.imag[0] <= band.upper.imag[0]),
         "width": float(np.median(0.5 * np.log(band.upper.imag / band.lower.imag))),
     }
@@ -199,11 +204,29 @@ def solved(rubber: vf.Material) -> vf.FrictionCurves:
 def of_first_order(rubber: vf.Material) -> vf.FrictionCurves:
     """Return the friction of a drawn rubber to first order in the loss."""
     kelvin, speed = (column.ravel() for column in np.meshgrid(FEW_KELVIN, FEW_SPEEDS, indexing="ij"))
-    spectrum = rubber.modes_at()
-    first = FirstOrder(BALL, 25.0, 0.75, spectrum.tau)
-    found = first(np.log([1.0 / spectrum.E_inf, *spectrum.C]), np.log(speed * rubber.shift(kelvin)))
+    first = FirstOrder(BALL, LOAD, 0.75, rubber.modes_at().tau)
     none, ones = np.zeros(speed.size), np.ones(speed.size, int)
-    return vf.FrictionCurves(speed, kelvin, 25.0 * ones, np.exp(found.log_friction), none, none, ones)
+    return vf.FrictionCurves(speed, kelvin, LOAD * ones, first_order(rubber, first, kelvin, speed), none, none, ones)
+
+
+def first_order(rubber: vf.Material, first: FirstOrder, kelvin: Any, speed: Any) -> Any:
+    """Return the friction of a rubber to first order in the loss."""
+    spectrum = rubber.modes_at()
+    reduced = np.log(speed * rubber.shift(kelvin))
+    return np.exp(first.at_times(spectrum.tau)(np.log([1.0 / spectrum.E_inf, *spectrum.C]), reduced).log_friction)
+
+
+def friction_held(material: vf.Material, samples: Any) -> float:
+    """Return the share of friction at several loads that the 95 % limits of the samples hold."""
+    kelvin, speed = (column.ravel() for column in np.meshgrid(FEW_KELVIN, FEW_SPEEDS, indexing="ij"))
+    held = []
+    for load in LOADS:
+        first = FirstOrder(BALL, load, 0.75, material.modes_at().tau)
+        drawn = [first_order(one, first, kelvin, speed) for one in samples.materials]
+        low, high = np.quantile(drawn, [0.025, 0.975], axis=0, method="weibull")
+        planted = first_order(material, first, kelvin, speed)
+        held.append(np.mean((low <= planted) & (planted <= high)))
+    return float(np.mean(held))
 
 
 def few(options: argparse.Namespace) -> dict[str, Any]:
@@ -269,7 +292,7 @@ def show(title: str, row: dict[str, Any]) -> None:
     print(
         f"{title:12}{row['seconds']:9.1f}{row['steps']:9.1f}{row['decades']:9.1f}{percent['modulus']:9.3f}"
         f"{percent['loss']:9.3f}{row['alpha']:9.4f}{row['chi2']:9.2f}"
-        + "".join(f"{row[key]:9.2f}" for key in ("in |E|", "in E'", "in E''", "in α", "lowest"))
+        + "".join(f"{row[key]:9.2f}" for key in ("in |E|", "in E'", "in E''", "in α", "in μ", "lowest"))
         + f"{percent['width']:9.2f}",
         flush=True,
     )
