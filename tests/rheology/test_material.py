@@ -9,7 +9,9 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
-from viscofric.notes import codes
+from rheology.planted_ramps import planted_ramps
+from viscofric.files import SYNTHETIC
+from viscofric.notes import Note, codes
 from viscofric.rheology.shifts.vertical_shift import DensityShift
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 
@@ -152,3 +154,9 @@ def test_a_material_made_step_by_step_of_files_that_say_so_is_synthetic(tmp_path
         assert rubber.synthetic == rubber.at_reference("30 degC").synthetic == synthetic
         vf.write_card(rubber, tmp_path / "rubber.json", format="json")
         assert vf.read_card(tmp_path / "rubber.json").synthetic == synthetic
+
+
+def test_a_material_of_synthetic_ramps_is_synthetic():
+    ramps = replace(planted_ramps(1), notes=(Note(SYNTHETIC, "The data are synthetic."),))
+    fit = vf.superpose_ramps(ramps, "25 degC")
+    assert vf.Material(vf.fit_retardation_spectrum(fit), shift=fit.shift).synthetic

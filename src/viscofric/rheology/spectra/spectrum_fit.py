@@ -128,9 +128,10 @@ def fit_retardation_spectrum(
 
 def _with_doubts(spectrum: RetardationSpectrum, *tests: object) -> RetardationSpectrum:
     """Return the spectrum with notes on what is behind it: superpositions that do not hold, synthetic measurements."""
-    behind = [one for one in tests if isinstance(one, Superposed) and one.isotherms]
-    made_up = (note for one in behind for note in map(note_of, one.notes) if note.code == SYNTHETIC)
-    return spectrum.noted(*(note for one in behind for note in one.check.doubts), *dict.fromkeys(made_up))
+    joined = [one for one in tests if isinstance(one, Superposed) and one.isotherms]
+    every = [note_of(note) for one in tests for note in getattr(one, "notes", ())]  # also of ramps
+    made_up = dict.fromkeys(note for note in every if note.code == SYNTHETIC)
+    return spectrum.noted(*(note for one in joined for note in one.check.doubts), *made_up)
 
 
 @dataclass(frozen=True)
