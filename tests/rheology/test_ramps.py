@@ -12,7 +12,9 @@ from marks import apart
 from refusals import refused
 from rheology.planted import synthetic_polymer, synthetic_soft_rubber
 from rheology.planted_ramps import planted_ramps
+from viscofric.errors import SuperpositionError
 from viscofric.notes import codes
+from viscofric.rheology.ramps import common_law
 from viscofric.rheology.ramps.common_law import CorrelatedSmoother
 
 POLYMER = synthetic_polymer()
@@ -231,3 +233,10 @@ def test_wrong_arguments_are_refused(asked, about):
 def test_frequencies_that_are_too_close_are_refused():
     with refused("too-few-frequencies", vf.SuperpositionError):
         vf.superpose_ramps(planted_ramps(8, hertz=(1.0, 1.5)), REFERENCE)
+
+
+def test_ramps_that_do_not_fix_the_constants_of_a_law_are_refused(monkeypatch):
+    """A curvature without information has an inverse of any sign: ramps above the glass have it for WLF–Arrhenius."""
+    monkeypatch.setattr(common_law, "_covariance", lambda *_: -np.eye(2))
+    with refused("no-law", SuperpositionError, naming="WLF"):
+        vf.superpose_ramps(planted_ramps(0, celsius=np.arange(0.0, 81.0, 4.0)), "25 degC")

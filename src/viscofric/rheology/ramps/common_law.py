@@ -21,7 +21,7 @@ import numpy as np
 
 from viscofric.arrays import Array, Indices, Mask
 from viscofric.errors import SuperpositionError
-from viscofric.rheology.shifts.law_fitting import Family, family_of
+from viscofric.rheology.shifts.law_fitting import LARGEST_RELATIVE_ERROR, TITLES, Family, family_of
 from viscofric.rheology.shifts.laws import ParametricLaw
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.rheology.superposition.common_curve import (
@@ -204,6 +204,13 @@ def common_law(points: RampPoints, kind: str, reference: float) -> CommonLaw:
     offsets = problem.offsets(logs)
     constants = np.exp(logs)
     spread = constants[:, None] * _covariance(problem, logs, smoother, state, offsets) * constants
+    errors = np.diag(spread)
+    if not np.all((errors > 0.0) & (errors < (LARGEST_RELATIVE_ERROR * constants) ** 2)):
+        raise SuperpositionError(
+            f"the ramps do not fix the constants of the {TITLES[kind]} law; take another law, or ramps over a wider "
+            "range of temperatures.",
+            code="no-law",
+        )
     sizes = np.sqrt(np.diag(offsets.covariance))
     return CommonLaw(family.law(constants, spread), state.residual, smoother.scatter, sizes)
 

@@ -151,9 +151,14 @@ def _splines(knots: Array, degree: int, at: Array, orders: int = 3) -> Array:
 
 def _roughness(knots: Array, degree: int) -> Array:
     """Integrate products of third derivatives, which are step functions for cubics."""
-    ends = np.unique(knots)
-    steps = _splines(knots, degree, 0.5 * (ends[1:] + ends[:-1]), ROUGHNESS + 1)[ROUGHNESS]
-    return np.asarray((steps * np.diff(ends)[:, None]).T @ steps)
+    size = len(knots) - degree - 1
+    if degree < ROUGHNESS:
+        return np.zeros((size, size))
+    rough, inner = np.eye(size), knots
+    for order in range(degree, degree - ROUGHNESS, -1):
+        inner = inner[1:-1]
+        rough = order * np.diff(rough, axis=0) / (inner[order:] - inner[:-order])[:, None]
+    return np.asarray((rough * np.diff(inner)[:, None]).T @ rough)
 
 
 def _ridged(square: Array) -> Array:
