@@ -136,8 +136,11 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     ),
     (
         vf.read_friction_curves,
-        ["speed (mm/s);T (°C);load (N);COF", "1,234.5;20;5;0.1"],
-        "'1,234.5' in column 'speed (mm/s)' has marks between thousands; write it without them.",
+        ["speed (mm/s);T (°C);load (N);COF", "1,234.5;20;5;0,1"],
+        (
+            "'1,234.5' has a point, but other numbers of the file have a comma, so that decimals and thousands cannot "
+            "be distinguished; write all decimals in one way."
+        ),
     ),
     (
         vf.read_topography,

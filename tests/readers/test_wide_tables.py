@@ -15,6 +15,7 @@ import pytest
 import viscofric as vf
 from readers.refusal import noted, refused
 from readers.samples import workbook
+from readers.written import write
 from viscofric.errors import DataFileError
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.notes import codes
@@ -494,21 +495,26 @@ def test_revolutions_need_the_radius_of_the_track(tmp_path: Path, unit: str) -> 
         ("1\u00a0234,5", 1234.5),
         ("1\u202f234\u202f567,5", 1234567.5),
         ("1'234,5", 1234.5),
-        ("1.234,5", None),
-        ("1.234.567,5", None),
+        ("1.234,5", 1234.5),
+        ("1.234.567,5", 1234567.5),
     ],
 )
-def test_blanks_and_apostrophes_part_thousands_and_points_do_not(
-    tmp_path: Path, cell: str, number: float | None
-) -> None:
+def test_blanks_apostrophes_and_points_part_thousands(tmp_path: Path, cell: str, number: float) -> None:
     rows = [["speed (mm/s)", "temperature (°C)", "load (N)", "COF"], [cell, 20.0, 5.0, 0.5]]
-    if number is None:
-        with refused("mixed-decimals", 2, cell):
-            vf.read_friction_curves(saved(tmp_path, rows))
-    else:
-        assert vf.read_friction_curves(saved(tmp_path, rows)).speed == pytest.approx([1e-3 * number], rel=1e-12)
-    with refused("thousands-separators", 2, "'1,234.5'"):
-        vf.read_friction_curves(saved(tmp_path, [rows[0], ["1,234.5", 20, 5, 1]]))
+    assert vf.read_friction_curves(saved(tmp_path, rows)).speed == pytest.approx([1e-3 * number], rel=1e-12)
+
+
+@pytest.mark.parametrize("cell", ["1,234.5", "1.234,5", "1'234.5"])
+def test_a_number_with_both_marks_decides_which_parts_thousands(tmp_path: Path, cell: str) -> None:
+    head = "speed (mm/s);temperature (°C);load (N);COF"
+    path = write(tmp_path, head, f"{cell};20;5;1", f"{cell[0]}{cell[1]}000;20;5;1")
+    assert vf.read_friction_curves(path).speed == pytest.approx([1.2345, 1.0])
+
+
+@pytest.mark.parametrize(("cell", "number"), [("1,234,567", 1234567.0), ("1.234.567", 1234567.0)])
+def test_two_equal_marks_part_thousands(tmp_path: Path, cell: str, number: float) -> None:
+    path = write(tmp_path, "speed (mm/s);temperature (°C);load (N);COF", f"{cell};20;5;1")
+    assert vf.read_friction_curves(path).speed == pytest.approx([1e-3 * number])
 
 
 @pytest.mark.parametrize("sign", ["-", "−", "–"])

@@ -271,10 +271,10 @@ _STROKES, _OF_STROKES = "speeds of strokes", ("frequency", "stroke")
 def _with_speeds(table: Table, notes: list[str]) -> Table:
     """Return the table with the mean speed of a motion to and fro where it has frequency and stroke, and add a note."""
     frequency, stroke = (None if table.has("speed") else table.place(what) for what in _OF_STROKES)
-    if frequency is None:
-        return table
     if stroke is None:
-        raise table.lacking(["speed", "stroke"])
+        return table
+    if frequency is None:
+        raise table.lacking(["speed", "frequency"])
     angular = to_rad_per_second(table.columns[frequency].unit, angular=False)
     if angular is None:
         raise table.refused("wrong-unit", f"column {table.columns[frequency].heading!r} must be in 'Hz'.")

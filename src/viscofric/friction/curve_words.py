@@ -59,7 +59,7 @@ CURVES = Vocabulary(
     | {"temperature": TEMPERATURE, "track radius": frozenset({"track radius", "wear track radius"})}
     | {"friction force": FRICTION_FORCE, "lubricant": LUBRICANT, "frequency": FREQUENCY, "stroke": _STROKE},
     needed=(
-        ("speed", "frequency"),
+        ("speed", "stroke"),
         *((COLUMNS[name][1], *(["friction force"] * (name == "viscoelastic"))) for name in _NEEDED[1:]),
     ),
     example="friction curves have 'speed (mm/s)', 'temperature (degC)', 'load (N)' and 'viscoelastic friction'",

@@ -14,7 +14,7 @@ from viscofric.errors import InputError, brief, wrong_argument
 
 # "E' (MPa)", "T [degC]", "v / (mm/s)", then "E' / MPa", then "T_C", "f in Hz", "Temperature, °C": tried in this order.
 _BRACKETED = re.compile(
-    r"^(?P<name>.*?)\s*(?:(?<!\d)/\s*)?[(\[{<]\s*(?P<unit>[^()\[\]{}<>]*?(?:\([^()\[\]]*\))?)\s*[)\]}>]$"
+    r"^(?P<name>.*?)\s*(?:(?<!\d)/\s*)?[(\[{<]\s*(?P<unit>[^()\[\]{}<>]*?|l(?:o?g(?:10)?|n)\([^()]*\))\s*[)\]}>]$"
 )
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNIT = (

@@ -206,31 +206,34 @@ def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
     return bool(commas)
 
 
-_THOUSANDS_COMMA = re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d*)?([eE][+-]?\d+)?")
-_THOUSANDS_POINT = re.compile(r"[+-]?\d{1,3}(\.\d{3})+(,\d*)?([eE][+-]?\d+)?")
+#: A number with points or commas, and one whose marks between thousands are these.
+_PRINTED = re.compile(r"[+-]?\d*[.,][\d.,]*([eE][+-]?\d+)?\s*%?")
+_THOUSANDS = {
+    ",": re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d*)?([eE][+-]?\d+)?\s*%?"),
+    ".": re.compile(r"[+-]?\d{1,3}(\.\d{3})+(,\d*)?([eE][+-]?\d+)?\s*%?"),
+}
 
 
 @dataclass(frozen=True)
 class Decimals:
-    """The separators of thousands (usually none) and decimals in one file of an instrument."""
+    """The separators of thousands (usually none) and decimals in one file."""
 
     thousands: str = ""
     point: str = "."
 
     @classmethod
-    def of(cls, path: str, numbers: Sequence[tuple[str, int]]) -> Decimals:
-        """Return those of all numbers of a file, each with its row, or raise `DataFileError` if they contradict."""
-        commas = [number for number in numbers if "," in number[0]]
-        points = [number for number in numbers if "." in number[0]]
-        if not commas:
-            return cls()
-        if not points:
+    def of(cls, path: str, cells: Iterable[tuple[str, int]]) -> Decimals:
+        """Return those of all numbers among cells, each with its row, or raise `DataFileError` if they contradict."""
+        marked = [(cell.strip(), row) for cell, row in cells if "," in cell or cell.count(".")]
+        numbers = [(cell, row) for cell, row in marked if _PRINTED.fullmatch(cell)]
+        commas, points = ([one for one in numbers if mark in one[0]] for mark in ",.")
+        for mark, point, own in ((",", ".", commas), (".", ",", points)):
+            # one number decides; without it, "1.500" beside "2,5" may be 1500 or 1.5
+            decides = any(cell.count(mark) > 1 or point in cell for cell, _ in own)
+            if decides and all(_THOUSANDS[mark].fullmatch(cell) for cell, _ in own):
+                return cls(mark, point)
+        if not commas or not points:
             return cls("", "," if decimal_comma(path, commas) else ".")
-        both = any("." in number for number, _ in commas)  # without one, "1.500" beside "2,5" may be 1500 or 1.5
-        if both and all(_THOUSANDS_COMMA.fullmatch(number) for number, _ in commas):
-            return cls(",", ".")
-        if both and all(_THOUSANDS_POINT.fullmatch(number) for number, _ in points):
-            return cls(".", ",")
         raise DataFileError(
             path,
             f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals and "
@@ -240,7 +243,9 @@ class Decimals:
         )
 
     def plain(self, cell: str) -> str:
-        """Return a cell with a decimal point and without separators of thousands."""
+        """Return a number with a decimal point and without separators of thousands, any other cell as it is."""
+        if self == Decimals() or not _PRINTED.fullmatch(cell.strip()):
+            return cell
         plain = cell.replace(self.thousands, "") if self.thousands else cell
         return plain.replace(",", ".") if self.point == "," else plain
 

@@ -13,7 +13,7 @@ from viscofric.arrays import Array, Integers, Mask
 from viscofric.errors import DataFileError, InputError
 from viscofric.notes import Note, Remedy
 from viscofric.readers.headings import CONSTANT, NO_WORDS, OF_HEADINGS, Column, Vocabulary, option_of
-from viscofric.readers.source import MASSES, decimal_comma, fraction_of, is_revolutions, plain_number, unit_conversion
+from viscofric.readers.source import MASSES, Decimals, fraction_of, is_revolutions, plain_number, unit_conversion
 
 #: Cells of one row, with its number in the file.
 NumberedRow = tuple[int, Sequence[str]]
@@ -47,8 +47,6 @@ MISSING = frozenset(
 #: A number as printed, with a decimal point or comma.
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _PLAIN, _NEVER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,2})?", re.ASCII), re.compile(r"(?!)")
-#: "1,234.5", "1.234.567": with marks between thousands.
-_THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:[.,]\d{3})+(?:[.,]\d+)?")
 #: Written for MPa; moduli and stresses of solids are not measured in millipascals.
 MILLIPASCAL = "mPa"
 #: Labels of rows that summarise others: a mean, or how far the others scatter.
@@ -68,7 +66,6 @@ class Table:
     columns: tuple[Column, ...]
     rows: tuple[tuple[str, ...], ...]
     lines: Integers
-    decimal_comma: bool
     above: tuple[tuple[str, ...], ...] = ()  # cells of the rows above the header, and of other sheets
     block: Integers | None = None  # of each row, where several tables stand below each other
     titles: tuple[tuple[tuple[str, ...], ...], ...] = ()  # cells of the lines above each of these tables
@@ -77,8 +74,7 @@ class Table:
 
     def with_column(self, column: Column, cells: Sequence[str]) -> Table:
         """Return the table with one more column, of numbers as text with a decimal point or comma."""
-        marks = (".", ",") if self.decimal_comma else (",", ".")
-        plain = (cell.replace("−", "-").replace(*marks) for cell in cells)
+        plain = (cell.replace("−", "-").replace(",", ".") for cell in cells)
         rows = tuple((*row, cell) for row, cell in zip(self.rows, plain, strict=True))
         return replace(self, columns=(*self.columns, column), rows=rows)
 
@@ -104,7 +100,7 @@ class Table:
     def numbers(self, column: int, *, or_missing: bool = False) -> Array:
         """Return a column as printed, NaN for a missing number where that is allowed, or raise `DataFileError`."""
         one = self._plain(column)
-        quick = _PLAIN.fullmatch if not (one.base or self.decimal_comma) else _NEVER.fullmatch  # for long files
+        quick = _NEVER.fullmatch if one.base else _PLAIN.fullmatch  # for long files
 
         def number(cell: str, line: int) -> float:
             is_missing = or_missing and cell.strip().lower() in MISSING
@@ -131,26 +127,13 @@ class Table:
             raise DataFileError(
                 self.path, f"the cell in column {heading!r} is empty; give a number.", line, code="empty-cell"
             )
-        if self.decimal_comma and "." in text:
-            raise DataFileError(
-                self.path,
-                f"{text!r} in column {heading!r} has a point, but other numbers of the file have a comma, so "
-                "that decimals and thousands cannot be distinguished; write all decimals in one way, without thousands "
-                "separators.",
-                line,
-                code="mixed-decimals",
-            )
-        plain = text.replace(",", ".") if self.decimal_comma else text
-        factor = 1.0
+        plain, factor = text, 1.0
         if plain.endswith("%") and not column.base and (own := fraction_of(column.unit)):
             plain, factor = plain.removesuffix("%"), 0.01 / own
         try:
             value = column.base ** float(plain) if column.base else factor * float(plain)
         except (ValueError, OverflowError):
             value = math.nan
-        if math.isnan(value) and _THOUSANDS.fullmatch(text):
-            problem = f"{text!r} in column {heading!r} has marks between thousands; write it without them."
-            raise DataFileError(self.path, problem, line, code="thousands-separators")
         if not math.isfinite(value) or "_" in plain:
             raise DataFileError(
                 self.path, f"{text!r} in column {heading!r} is not a finite number.", line, code="not-a-number"
@@ -311,10 +294,10 @@ def make_table(
     columns: tuple[Column, ...],
     numbered: Sequence[NumberedRow],
     *,
-    comma: bool | None = None,
+    decimals: Decimals | None = None,
     vocabulary: Vocabulary = NO_WORDS,
 ) -> Table:
-    """Return a table of numbered rows under their headings; `comma`: whether decimals have one, None if unknown."""
+    """Return a table of numbered rows under their headings, with decimal points; `decimals` are those of the file."""
     # Rows without any cell, or with none in the columns of the quantities that make a header, are left out.
     needed = {what for some in vocabulary.needed for what in some}
     places = [place for place, column in enumerate(columns) if column.quantity in needed]
@@ -340,17 +323,19 @@ def make_table(
         lines.append(number)
     if not rows:
         raise DataFileError(path, "there is a header, but no row of numbers under it.", code="no-points")
-    if comma is None:
-        # a remark may contain any comma; a pure number, such as a coefficient of friction, has no unit
-        measured = [
-            place
-            for place, column in enumerate(columns)
-            if column.unit or column.quantity or all(NUMBER.fullmatch(row[place].strip()) for row in rows)
-        ]
+    # a remark may contain any comma; a pure number, such as a coefficient of friction, has no unit
+    measured = {
+        place
+        for place, column in enumerate(columns)
+        if column.unit or column.quantity or all(NUMBER.fullmatch(row[place].strip()) for row in rows)
+    }
+    if decimals is None:
         printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
-        comma = decimal_comma(path, printed)
+        decimals = Decimals.of(path, printed)
+    if decimals != Decimals():
+        rows = [tuple(decimals.plain(cell) if n in measured else cell for n, cell in enumerate(row)) for row in rows]
     numbers = np.array(lines, dtype=np.int64)
-    table = Table(path, columns, tuple(rows), numbers, comma, empty_rows=empty, vocabulary=vocabulary)
+    table = Table(path, columns, tuple(rows), numbers, empty_rows=empty, vocabulary=vocabulary)
     _insist_on_no_summaries(table)
     return table
 
@@ -375,12 +360,12 @@ def instrument_table(
     columns: Sequence[tuple[str, str, str]],
     rows: Sequence[NumberedRow],
     vocabulary: Vocabulary,
-    comma: bool | None = None,
+    decimals: Decimals | None = None,
 ) -> Table:
     """Return a table of an instrument's export: its columns are name, unit and quantity, which the format knows."""
-    # `comma` as for `make_table`: a file of several tables has one decimal mark.
+    # `decimals` as for `make_table`: a file of several tables has one decimal mark.
     headed = tuple(Column(name, name, unit, quantity) for name, unit, quantity in columns)
-    return replace(make_table(path, headed, rows, comma=comma), vocabulary=vocabulary)
+    return replace(make_table(path, headed, rows, decimals=decimals), vocabulary=vocabulary)
 
 
 def or_name_it(key: str, what: str, said: str) -> Remedy:

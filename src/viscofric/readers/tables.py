@@ -33,6 +33,7 @@ from viscofric.readers.headings import (
 from viscofric.readers.source import (
     LIKE_THOUSANDS,
     MASSES,
+    Decimals,
     Source,
     converted,
     decimal_comma,
@@ -771,17 +772,15 @@ def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
 def numbered_rows(path: str, cells: Sequence[Sequence[float | str]]) -> list[NumberedRow]:
     """Return the rows of a sheet that are not blank as text, with their numbers."""
     texts = ((plain_number(cell), n) for n, row in enumerate(cells, start=1) for cell in row if isinstance(cell, str))
-    comma = decimal_comma(path, texts)
+    decimals = Decimals("", "," if decimal_comma(path, texts) else ".")
     rows: list[NumberedRow] = []
     for number, row in enumerate(cells, start=1):
-        shown = [_text(cell, comma=comma) for cell in row]
+        shown = [_text(cell, decimals) for cell in row]
         if any(cell.strip() for cell in shown) and remark(" ".join(filter(None, shown))) is None:
             rows.append((number, shown))
     return rows
 
 
-def _text(cell: float | str, *, comma: bool) -> str:
-    """Write a cell as a text table would, with the decimal mark of the sheet's other cells."""
-    if isinstance(cell, str):
-        return cell.replace(".", ",") if comma and cell.endswith(" %") and is_number(cell) else cell
-    return repr(float(cell)).removesuffix(".0").replace(".", "," if comma else ".")
+def _text(cell: float | str, decimals: Decimals) -> str:
+    """Write a cell as a text table would, a number with a decimal point."""
+    return decimals.plain(cell) if isinstance(cell, str) else repr(float(cell)).removesuffix(".0")

@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.errors import DataFileError
 from viscofric.readers.header_rows import is_number
 from viscofric.readers.headings import Column, Vocabulary, heading
-from viscofric.readers.source import decimal_comma
+from viscofric.readers.source import Decimals
 from viscofric.readers.table import Table
 
 _START = re.compile(r"\s*Step\s+(\d{1,6})(?:\s+\"[^\"]{0,200}\")?\s+started\s+at\b(.*)", re.IGNORECASE)
@@ -92,7 +92,7 @@ class Export:
     steps: list[Step] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
     cut: str = ""
-    decimal_comma: bool = False
+    decimals: Decimals = field(default_factory=Decimals)
 
 
 def parse(path: str, text: str) -> Export:
@@ -126,8 +126,7 @@ def parse(path: str, text: str) -> Export:
     _insist_on_width(export)
     blocks = [block for step in export.steps for block in step.blocks]
     rows = [(row, line) for block in blocks for row, line in zip(block.rows, block.lines, strict=True)]
-    commas = [(cell, line) for row, line in rows for cell in row if "," in cell]
-    export.decimal_comma = decimal_comma(path, commas)
+    export.decimals = Decimals.of(path, ((cell, line) for row, line in rows for cell in row))
     return export
 
 
@@ -138,8 +137,8 @@ def at(step: Step, row: int) -> str:
 
 def table_of(export: Export, step: Step, columns: Sequence[Column], rows: list[list[str]], lines: list[int]) -> Table:
     """Return rows of a step under their columns."""
-    path, cells = f"{export.path}, step {step.number}", tuple(map(tuple, rows))
-    return Table(path, tuple(columns), cells, np.array(lines, dtype=np.int64), export.decimal_comma, vocabulary=_WORDS)
+    path, cells = f"{export.path}, step {step.number}", tuple(tuple(map(export.decimals.plain, row)) for row in rows)
+    return Table(path, tuple(columns), cells, np.array(lines, dtype=np.int64), vocabulary=_WORDS)
 
 
 def _key(cell: str) -> str:

@@ -233,10 +233,9 @@ def _table(path: str, interval: Interval, rows: Rows, decimals: Decimals) -> Tab
         for place, (name, unit) in enumerate(zip(interval.columns, interval.units, strict=True))
     ]
     body = [
-        (line, [decimals.plain(cell.lstrip("-") if place == strain else cell) for place, cell in enumerate(row)])
-        for line, row in rows
+        (line, [cell.lstrip("-") if place == strain else cell for place, cell in enumerate(row)]) for line, row in rows
     ]
-    return instrument_table(f"{path}, interval in line {interval.line}", columns, body, DMA, comma=False)
+    return instrument_table(f"{path}, interval in line {interval.line}", columns, body, DMA, decimals)
 
 
 def _doubts(interval: Interval) -> list[Note]:

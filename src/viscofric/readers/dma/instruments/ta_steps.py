@@ -177,7 +177,7 @@ def _table(path: str, text: StepText, places: Mapping[str, int], decimals: Decim
         columns.append(Column(name, name, unit, role))
     rows = tuple(zip(*(cells[role] for role in held), strict=True)) if held else ((),) * len(text.rows)
     lines = np.array([line for line, _ in text.rows], dtype=np.int64)
-    return Table(f"{path}, step {text.name!r}", tuple(columns), rows, lines, False, vocabulary=DMA)
+    return Table(f"{path}, step {text.name!r}", tuple(columns), rows, lines, vocabulary=DMA)
 
 
 def _plain(cell: str, decimals: Decimals) -> str:
