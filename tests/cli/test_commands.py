@@ -219,10 +219,10 @@ def test_template_names_every_key_of_a_run_file() -> None:
     written = tomllib.loads(behind_comments)
     # A surface stands in the place of an indenter, with some conditions of its own, in another starter file.
     surface = (EXAMPLE.parent / "templates" / "surface.toml").read_text(encoding="utf-8")
-    for key in set(keys(Study)) - {"surface"}:
-        assert key in written
+    for key in keys(Study):
+        assert key in written or key == "surface"
         for name in keys(TABLES[key]) if key in TABLES else ():
-            assert name in written[key] or f"\n{name} = " in surface.replace("\n# ", "\n"), f"[{key}] {name}"
+            assert name in written.get(key, ()) or f"\n{name} = " in surface.replace("\n# ", "\n"), f"[{key}] {name}"
 
 
 @pytest.mark.slow
