@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 from viscofric.datasets import plain
@@ -122,7 +122,7 @@ class Outcome:
     @property
     def record(self) -> dict[str, Any]:
         """Everything in plain types; a number that is none is None."""
-        check, names = self.check, (*(one.name for one in fields(Comparison)), "error", "passed")
+        check, names = self.check, ("case", "quantity", "computed", "expected", "error", "bound", "measure", "passed")
         comparisons = [{name: getattr(one, name) for name in names} for one in self.comparisons]
         about = {name: getattr(check, name) for name in ("name", "title", "group", "source")}
         about |= {"reason_of_bounds": check.reason, **check.origin}
