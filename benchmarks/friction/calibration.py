@@ -25,7 +25,7 @@ from viscofric.errors import InputError
 from viscofric.friction.identification.drawn_materials import Posterior
 from viscofric.friction.identification.identify import problem_of, shifts_of
 from viscofric.friction.identification.iteration import identify, most_evident, weighed
-from viscofric.friction.identification.moduli import anchored
+from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.points import Points, usable_points
 from viscofric.friction.identification.problem import Problem, Shifts
 from viscofric.friction.identification.solving import Contacts, spectrum_of
@@ -44,7 +44,8 @@ class Frozen:
             self.rubber, BALL, speeds=SPEEDS, temperatures=KELVIN, load="25 N", accuracy=1e-4
         )
         modulus = float(abs(self.rubber.complex_modulus(FREQUENCY, KELVIN[0])))
-        self.moduli = tuple(anchored([vf.friction.ModulusAnchor(modulus, FREQUENCY, KELVIN[0], error=1e-3)]))
+        anchor = vf.friction.ModulusAnchor(modulus, FREQUENCY, KELVIN[0], error=1e-3)
+        self.moduli = (ModulusObservation.of(anchor),)
         points, shifts = self.observed(None)
         contacts = Contacts(BALL, 0.5, points.load, 1)
         problem = problem_of(points, shifts, self.moduli, contacts, MODES)

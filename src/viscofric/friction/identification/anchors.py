@@ -218,16 +218,13 @@ class SolvedContact:
         """Of the anchor, K."""
         return float(self.anchor.temperature)
 
-    def away(self, compliances: Array, log_alpha: float) -> tuple[float, Array, float]:
-        """Return (modelled minus measured)/error, and its derivatives by the compliances (1 + m,) and by ln α."""
+    def away(self, compliances: Array, _: Array, log_alpha: float) -> tuple[Array, Array, Array]:
+        """Return (modelled minus measured)/error (1,), and its derivatives by the compliances and by ln α."""
+        # The second argument are the retardation times, as of other observations; the closed form has them.
         log_speed = np.log(float(self.anchor.speed)) + np.array([self.log_alpha, log_alpha])
         before = self.first(self.compliances, log_speed[:1])
         now = self.first(compliances, log_speed[1:])
         by_radius = self.level / float(before.radius_change[0].sum())
-        modelled = self.log_size + by_radius * float(now.log_radius[0] - before.log_radius[0])
-        error = self.anchor.error
-        return (
-            (modelled - float(np.log(self.anchor.value))) / error,
-            by_radius * now.radius_change[0] / error,
-            by_radius * float(now.radius_slope[0]) / error,
-        )
+        missed = self.log_size + by_radius * (now.log_radius - before.log_radius) - np.log(self.anchor.value)
+        by_radius /= self.anchor.error
+        return missed / self.anchor.error, by_radius * now.radius_change, by_radius * now.radius_slope

@@ -185,7 +185,11 @@ def level_family(
         for factor in way:
             start = place.copy()
             start[: best.problem.modes] -= np.log(factor / last)
-            held = _held(best.problem, middle, log_modulus + float(np.log(factor)))
+            reference, moduli = best.problem.shifts.reference, best.problem.moduli
+            level = ModulusObservation.single(
+                np.log(middle), reference, log_modulus + np.log(factor), HELD, "magnitude"
+            )
+            held = replace(best.problem, moduli=(*moduli, level))
             try:
                 problem, place = held, descend(held, start, metric=held.metric).place
                 if factor != 1.0:
@@ -207,10 +211,3 @@ def level_family(
             )
     least = min((one.penalty for one in found.values()), default=0.0)
     return tuple(replace(found[factor], penalty=found[factor].penalty - least) for factor in sorted(found))
-
-
-def _held(problem: Problem, middle: float, log_modulus: float) -> Problem:
-    level = ModulusObservation(
-        np.array([np.log(middle)]), problem.shifts.reference, "magnitude", np.array([log_modulus])
-    )
-    return replace(problem, moduli=(*problem.moduli, ((level,), np.array([[1.0 / HELD]]))))

@@ -18,7 +18,7 @@ from viscofric.friction.identification.anchors import Anchor, ContactAnchor, Mod
 from viscofric.friction.identification.conclusions import Outcome, conclude
 from viscofric.friction.identification.forward import CorrectedFriction, FirstOrder
 from viscofric.friction.identification.iteration import identify
-from viscofric.friction.identification.moduli import Block, Known, ModulusObservation, anchored, known_part
+from viscofric.friction.identification.moduli import Known, ModulusObservation, known_part
 from viscofric.friction.identification.points import Points, SharedErrors, usable_points
 from viscofric.friction.identification.problem import OVERLAPPING, Problem, Shifts, Smoothness
 from viscofric.friction.identification.result import IdentifiedMaterial
@@ -211,7 +211,7 @@ def identify_material(
     kelvin = None if reference is None else positive(reference, "K", "reference")
     points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
     points, shifts = with_shared_errors(points, shifts, errors.columns(points, curves))
-    moduli = anchored(one for one in anchors if isinstance(one, ModulusAnchor))
+    moduli = [ModulusObservation.of(one) for one in anchors if isinstance(one, ModulusAnchor)]
     if prior is None and prior_band is not None:
         raise wrong_argument("prior_band", prior_band, "belongs to a prior; give it too.", "no-prior")
     if prior is not None:
@@ -327,7 +327,9 @@ def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputEr
     )
 
 
-def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contacts: Contacts, modes: int) -> Problem:
+def problem_of(
+    points: Points, shifts: Shifts, moduli: tuple[ModulusObservation, ...], contacts: Contacts, modes: int
+) -> Problem:
     """Return the problem to first order in the loss, on a grid of retardation times about the contact's frequencies."""
     plane_strain = 1.0 - contacts.poisson_ratio**2
     compliance = _first_guess(moduli, contacts, plane_strain)
@@ -335,7 +337,8 @@ def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contac
     log_frequency = points.log_speed + shifts.middle[points.number] - np.log(radius)
     inside = -float(log_frequency.max()), -float(log_frequency.min())
     if not moduli and not contacts.anchors:
-        moduli = (_guess(-0.5 * sum(inside), shifts.reference, compliance),)
+        middle = -0.5 * sum(inside), shifts.reference
+        moduli = (ModulusObservation.single(*middle, -np.log(compliance), GUESSED_SPREAD, "magnitude"),)
     smoothness = Smoothness.about(*inside, compliance, modes)
     return Problem(
         friction=CorrectedFriction(FirstOrder(contacts.indenter, points.load, plane_strain, smoothness.tau)),
@@ -346,15 +349,10 @@ def problem_of(points: Points, shifts: Shifts, moduli: tuple[Block, ...], contac
     )
 
 
-def _guess(log_frequency: float, temperature: float, compliance: float) -> Block:
-    level = ModulusObservation(np.array([log_frequency]), temperature, "magnitude", np.array([-np.log(compliance)]))
-    return (level,), np.array([[1.0 / GUESSED_SPREAD]])
-
-
-def _first_guess(moduli: tuple[Block, ...], contacts: Contacts, plane_strain: float) -> float:
+def _first_guess(moduli: tuple[ModulusObservation, ...], contacts: Contacts, plane_strain: float) -> float:
     """Return a compliance, 1/Pa: that of the known moduli, or that of a contact of moderate slope."""
     if moduli:
-        return float(np.exp(-np.mean(np.concatenate([one.log_modulus for together, _ in moduli for one in together]))))
+        return float(np.exp(-np.mean(np.concatenate([one.log_modulus for one in moduli]))))
     logarithms = np.linspace(np.log(1e-3), np.log(1e15), 181)
     slopes = [Scale.for_load(contacts.indenter, float(np.exp(one)), contacts.load).slope for one in logarithms]
     # Slopes fall as stiffness rises; a cone's is constant.

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Self, TypeAlias
 
 import numpy as np
 
@@ -24,6 +23,7 @@ Known: TypeAlias = Material | MaterialSamples | MasterCurve
 PER_DECADE = 4
 #: Least relative error of samples of a material: their covariance at many frequencies is nearly singular.
 LEAST_ERROR = 3e-3
+BOTH = ("storage", "loss")
 
 
 def compliance(compliances: Array, tau: Array, log_frequency: Array) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
@@ -49,44 +49,39 @@ def log_modulus(part: str, S: ComplexArray, change: ComplexArray) -> tuple[Array
 
 @dataclass(frozen=True, eq=False)
 class ModulusObservation:
-    """ln of n moduli with their errors."""
+    """ln of moduli at k frequencies with their errors, which may be correlated."""
 
-    log_frequency: Array  # (n,), ln ω at `temperature`, rad/s
+    log_frequency: Array  # (k,), ln ω at `temperature`, rad/s
     temperature: float  # K
-    part: str  # "magnitude", "storage" or "loss"
-    log_modulus: Array  # (n,), ln of Pa
+    parts: tuple[str, ...]  # (p,), "magnitude", "storage" or "loss"
+    log_modulus: Array  # (p k,), ln of Pa, part by part
+    whitening: Array  # (p k, p k); its product with the errors has independent rows of standard deviation one
+
+    @classmethod
+    def single(cls, log_frequency: float, temperature: float, log_modulus: float, error: float, part: str) -> Self:
+        """Return one modulus with a relative standard error."""
+        known = np.array([log_frequency]), temperature, (part,), np.array([log_modulus]), np.array([[1.0 / error]])
+        return cls(*known)
+
+    @classmethod
+    def of(cls, anchor: ModulusAnchor) -> Self:
+        """Return the modulus of an anchor."""
+        frequency, modulus = np.log(float(anchor.angular_frequency)), np.log(float(anchor.modulus))
+        return cls.single(frequency, float(anchor.temperature), modulus, anchor.error, anchor.part)
 
     def away(self, compliances: Array, tau: Array, log_alpha: float) -> tuple[Array, Array, Array]:
-        """Return modelled minus observed (n,), and its derivatives by the compliances (n, 1 + m) and by ln α (n,)."""
+        """Return (modelled minus observed)/error (p k,), and its derivatives by the compliances and by ln α."""
         S, change, slope = compliance(compliances, tau, self.log_frequency + log_alpha)
-        modelled, moved = log_modulus(self.part, S, np.column_stack([change, slope]))
-        return modelled - self.log_modulus, moved[:, :-1], moved[:, -1]
+        both = np.column_stack([change, slope])
+        modelled, moved = map(np.concatenate, zip(*(log_modulus(part, S, both) for part in self.parts), strict=True))
+        moved = self.whitening @ moved
+        return self.whitening @ (modelled - self.log_modulus), moved[:, :-1], moved[:, -1]
 
 
-#: Observations with correlated errors, and the matrix that whitens these.
-Block: TypeAlias = "tuple[tuple[ModulusObservation, ...], Array]"
-
-
-def anchored(anchors: Iterable[ModulusAnchor]) -> list[Block]:
-    """Return anchors as observations."""
-    return [
-        (
-            (
-                ModulusObservation(
-                    np.array([np.log(float(one.angular_frequency))]),
-                    float(one.temperature),
-                    one.part,
-                    np.array([np.log(float(one.modulus))]),
-                ),
-            ),
-            np.array([[1.0 / one.error]]),
-        )
-        for one in anchors
-    ]
-
-
-def known_part(prior: Known, band: tuple[Quantity, Quantity] | None, error: float, reference: float) -> Block:
-    """Return E' and E'' of a prior over its measured frequencies, as observations."""
+def known_part(
+    prior: Known, band: tuple[Quantity, Quantity] | None, error: float, reference: float
+) -> ModulusObservation:
+    """Return E' and E'' of a prior over its measured frequencies."""
     # `band` are angular frequencies at the prior's own reference, rad/s, if not those that it was measured at; `error`
     # is the relative standard error of each modulus (samples of a material have their own); `reference` is the
     # temperature of a material without a shift, K.
@@ -115,12 +110,11 @@ def known_part(prior: Known, band: tuple[Quantity, Quantity] | None, error: floa
         whitening = np.linalg.inv(np.linalg.cholesky(covariance))
     else:
         whitening = np.eye(2 * count) / error
-    temperature = materials[0].reference
-    middle = rows.mean(axis=0)
-    return _observations(np.log(frequency), reference if temperature is None else temperature, middle), whitening
+    temperature = reference if materials[0].reference is None else materials[0].reference
+    return ModulusObservation(np.log(frequency), temperature, BOTH, rows.mean(axis=0), whitening)
 
 
-def _of_curve(curve: MasterCurve, band: tuple[Quantity, Quantity] | None, error: float) -> Block:
+def _of_curve(curve: MasterCurve, band: tuple[Quantity, Quantity] | None, error: float) -> ModulusObservation:
     """Average ln E' and ln E'' over quarters of a decade."""
     low, high = _checked(
         (float(curve.angular_frequency[0]), float(curve.angular_frequency[-1])) if band is None else band
@@ -135,15 +129,7 @@ def _of_curve(curve: MasterCurve, band: tuple[Quantity, Quantity] | None, error:
     part = np.floor(PER_DECADE * columns[0] / np.log(10.0))
     means = np.array([columns[:, part == one].mean(axis=1) for one in np.unique(part)])
     moduli = np.concatenate([means[:, 1], means[:, 2]])
-    return _observations(means[:, 0], curve.reference, moduli), np.eye(len(moduli)) / error
-
-
-def _observations(log_frequency: Array, temperature: float, moduli: Array) -> tuple[ModulusObservation, ...]:
-    storage, loss = np.split(moduli, 2)
-    return (
-        ModulusObservation(log_frequency, temperature, "storage", storage),
-        ModulusObservation(log_frequency, temperature, "loss", loss),
-    )
+    return ModulusObservation(means[:, 0], curve.reference, BOTH, moduli, np.eye(len(moduli)) / error)
 
 
 def _checked(band: tuple[Quantity, Quantity] | None) -> tuple[float, float]:

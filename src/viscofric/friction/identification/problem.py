@@ -13,7 +13,7 @@ from viscofric.arrays import Array
 from viscofric.errors import InputError
 from viscofric.friction.identification.anchors import SolvedContact
 from viscofric.friction.identification.forward import CorrectedFriction
-from viscofric.friction.identification.moduli import Block, ModulusObservation
+from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.points import Points
 from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.rheology.shifts.laws import ShiftLaw
@@ -240,7 +240,7 @@ class Problem(SpectrumProblem):
 
     friction: CorrectedFriction
     points: Points
-    moduli: tuple[Block, ...] = ()
+    moduli: tuple[ModulusObservation, ...] = ()
     contacts: tuple[SolvedContact, ...] = ()  # contacts whose size was measured
 
     @property
@@ -278,22 +278,10 @@ class Problem(SpectrumProblem):
         missed, by_value = points.missed(value)
         values = [missed / points.error]
         changes = [change * (by_value / points.error)[:, None]]
-        for together, whitening in self.moduli:
-            found = [self._modulus(one, compliances, log_alpha) for one in together]
-            values.append(whitening @ np.concatenate([away for away, _ in found]))
-            changes.append(whitening @ np.concatenate([moved for _, moved in found]))
-        for contact in self.contacts:
-            row = self.shifts.row(contact.temperature)
-            away, moved, slope = contact.away(compliances, float(row @ log_alpha))
-            values.append(np.array([away]))
-            changes.append(self._padded(np.concatenate([moved, slope * row])[None, :]))
+        known: tuple[ModulusObservation | SolvedContact, ...] = (*self.moduli, *self.contacts)
+        for one in known:
+            row = self.shifts.row(one.temperature)
+            away, moved, slope = one.away(compliances, self.smoothness.tau, float(row @ log_alpha))
+            values.append(away)
+            changes.append(np.concatenate([moved, np.outer(slope, row), np.zeros((len(away), self.others))], axis=1))
         return np.concatenate(values), np.concatenate(changes)
-
-    def _modulus(self, one: ModulusObservation, compliances: Array, log_alpha: Array) -> tuple[Array, Array]:
-        row = self.shifts.row(one.temperature)
-        away, moved, slope = one.away(compliances, self.smoothness.tau, float(row @ log_alpha))
-        return away, self._padded(np.concatenate([moved, slope[:, None] * row], axis=1))
-
-    def _padded(self, change: Array) -> Array:
-        """Return derivatives (r, p) of what does not depend on the errors in common."""
-        return np.concatenate([change, np.zeros((len(change), self.others))], axis=1)
