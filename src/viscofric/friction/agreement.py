@@ -245,10 +245,10 @@ def _insist_on_friction(measured: FrictionCurves) -> None:
         raise InputError("measured friction curves contain no points; there is nothing to compare.", code="no-points")
     if not np.all(measured.viscoelastic > 0.0):
         raise InputError(
-            "viscoelastic of measured friction curves must be above zero everywhere for a relative difference, but "
-            f"one is {shown_number(float(measured.viscoelastic.min()), '.3g')}; leave such points out",
+            "viscoelastic of measured friction curves must be above zero everywhere for a relative difference, but one "
+            f"is {shown_number(float(measured.viscoelastic.min()), '.3g')}; leave out its whole speed or temperature",
             code="friction-not-positive",
-            remedy=Remedy(" with select()", "", page="") + ".",
+            remedy=Remedy(" with select()", "", page="") + " (points below zero alone would be a biased choice).",
         )
 
 
