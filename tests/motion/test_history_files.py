@@ -37,6 +37,12 @@ def test_columns_are_read_with_their_units(tmp_path: Path) -> None:
     np.testing.assert_allclose(history.temperature, [298.15, 298.15, 298.15, 308.15], rtol=1e-14)
 
 
+@pytest.mark.parametrize("headings", ["Zeit (s);Normalkraft (N);v (mm/s)", "temps (s);force normale (N);v (mm/s)"])
+def test_times_and_loads_are_understood_as_in_other_tables(tmp_path: Path, headings: str) -> None:
+    history = vf.motion.read_history(written(tmp_path, f"{headings}\n0;20;1\n1;30;1\n"), temperature="25 degC")
+    assert history.load.tolist() == [20.0, 30.0]
+
+
 def test_depths_speeds_and_constants(tmp_path: Path) -> None:
     path = written(tmp_path, "t (s),depth (um),vx (mm/s),vy (mm/s)\n0,0,1,0\n1,5,1,2\n")
     history = vf.motion.read_history(path, temperature="30 degC")

@@ -105,6 +105,18 @@ def test_the_end_of_a_range_is_no_temperature(name, kelvin):
     assert temperature_in_name(name) == pytest.approx(kelvin)
 
 
+@pytest.mark.parametrize("heading", ["E' / 10^6 Pa", "E' in 10⁶ Pa", "E', 10^6 Pa", "E' (10^6 Pa)", "E' 10**6 Pa"])
+def test_a_power_of_ten_before_a_unit_belongs_to_it(tmp_path, heading):
+    sweeps = read_dma(write(tmp_path, f"T_C;f_Hz;{heading};tan δ", "20;1;5.5;0.5", "20;2;6.5;0.5"))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+
+
+def test_words_may_stand_behind_numbers_parted_by_blanks(tmp_path):
+    head = "T (°C)  f (Hz)  E' (MPa)  E'' (MPa)  remark"
+    sweeps = read_dma(write(tmp_path, head, "20  1  5.5  0.5  good", "20  2  6.5  0.5  good"))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+
+
 @pytest.mark.parametrize("unit", ["log Hz", "log10 Hz", "lg(Hz)"])
 @pytest.mark.parametrize("in_row", [True, False])
 def test_a_unit_may_be_that_of_a_logarithm(tmp_path, unit, in_row):

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from viscofric.readers.dma.names import FREQUENCY, TEMPERATURE
+from viscofric.readers.dma.names import COEFFICIENT, FREQUENCY, FRICTION_FORCE, LOAD, LUBRICANT, TEMPERATURE
 from viscofric.readers.headings import Vocabulary
-from viscofric.readers.mtm.delimited import COEFFICIENT, FRICTION_FORCE, LOAD, LUBRICANT
 
 _SPEEDS = (
     *("v", "velocity", "sliding speed", "sliding velocity", "disc speed", "disk speed", "linear speed", "lin. speed"),

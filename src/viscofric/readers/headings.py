@@ -16,6 +16,10 @@ from viscofric.errors import InputError, brief, wrong_argument
 _BRACKETED = re.compile(
     r"^(?P<name>.*?)\s*(?:(?<!\d)/\s*)?[(\[{<]\s*(?P<unit>[^()\[\]{}<>]*?|l(?:o?g(?:10)?|n)\([^()]*\))\s*[)\]}>]$"
 )
+#: "E' / 10^6 Pa", "E' in 10⁶ Pa": a power of ten before the unit.
+_POWERED = re.compile(
+    r"^(?P<name>.*?[^\s/_,])(?:\s*[/,]\s*|\s+in\s+|\s+)(?P<unit>[x×]?\s?10(?:(?:\^|\*\*)[+−-]?\d+|[⁺⁻]?[⁰¹²³⁴-⁹]+)\s?\S.*)$"
+)
 _SLASHED = re.compile(r"^(?P<name>[^/]*?)\s*/\s*(?P<unit>\S.*)$")
 _UNIT = (
     r"(?i:°[CKFС]|℃|deg\.? ?[CFK]|[mkM]?Hz|Гц|rad[/_]?s(?:ec)?|[kMG]?Pa|[кМГ]?Па|[kM]?psi|bar|[mkM]?N/[mc]?m(?:\^?2|²)"
@@ -459,9 +463,8 @@ def heading(text: str) -> Column:
         return Column(text, text, "")
     plain = re.sub("[º˚]", "°", with_primes(text.translate(_FULL_WIDTH)))
     name, unit = plain, ""
-    for pattern in (
-        () if _FUNCTION.fullmatch(plain) or _LEAST.fullmatch(plain) else (_BRACKETED, _SEPARATED, _SLASHED, _LETTER)
-    ):
+    has_none = _FUNCTION.fullmatch(plain) or _LEAST.fullmatch(plain)
+    for pattern in () if has_none else (_BRACKETED, _POWERED, _SEPARATED, _SLASHED, _LETTER):
         match = pattern.match(plain)
         if match:
             groups = match.groupdict()

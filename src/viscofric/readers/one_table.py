@@ -11,7 +11,7 @@ from viscofric.arrays import Array
 from viscofric.errors import DataFileError
 from viscofric.files import file_path
 from viscofric.notes import setting
-from viscofric.readers.dma.names import TEMPERATURE
+from viscofric.readers.dma.names import LOAD, TEMPERATURE, TIME
 from viscofric.readers.headings import Vocabulary, option_of
 from viscofric.readers.source import Source, bytes_of, checked_sheet, insist_on_content
 from viscofric.readers.table import Table
@@ -46,8 +46,8 @@ def only_table(source: Source, vocabulary: Vocabulary) -> Table:
 
 #: Quantity -> its SI unit, and names of its column.
 _QUANTITIES: dict[str, tuple[str, frozenset[str]]] = {
-    "time": ("s", frozenset({"t", "time"})),
-    "load": ("N", frozenset({"F", "Fn", "load", "normal load", "force", "normal force"})),
+    "time": ("s", TIME),
+    "load": ("N", LOAD | {"F", "force"}),
     "indentation": ("m", frozenset({"indentation", "depth", "indentation depth", "penetration"})),
     "pressure": ("Pa", frozenset({"p", "pressure", "mean pressure"})),
     "gap": ("m", frozenset({"gap", "mean gap"})),

@@ -191,6 +191,16 @@ class Table:
             raise DataFileError(self.path, f"{problem}it is a number without a unit, or in '%'.", code="wrong-unit")
         return factor
 
+    def ratio(self, place: int, *, or_missing: bool = False) -> Array:
+        """Return a column of ratios whose unit, if only ``-``, must be stated, since it may be per cent."""
+        column = self.columns[place]
+        factor = fraction_of(column.unit) if column.unit else None
+        if factor is None:
+            shown = f"the unit {column.unit!r}" if column.unit else "no unit"
+            right = f"write it as '{column.name} (%)' or '{column.name} (-)'"
+            raise self.refused("wrong-unit", f"column {column.heading!r} has {shown}; {right}.")
+        return factor * self.numbers(place, or_missing=or_missing)
+
     def load_unit(self, column: int) -> str:
         """Return the unit of a load: N, or N/m of a line contact."""
         try:

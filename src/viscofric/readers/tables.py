@@ -749,10 +749,10 @@ def _filled(rows: list[NumberedRow]) -> list[NumberedRow]:
 
 
 def _fits_below(found: Found) -> bool:
-    """Return whether lines of as many numbers follow; prose, whose words blanks separate, may name quantities too."""
+    """Return whether lines of as many cells, mostly numbers, follow; prose parted by blanks may name quantities too."""
     width = len(found.rows[found.header][1])
     below = found.rows[found.header + 1 : found.header + 3]
-    return any(len(cells) == width and all(map(is_number, cells)) for _, cells in below)
+    return any(len(cells) == width < 2 * sum(map(is_number, cells)) for _, cells in below)
 
 
 def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:

@@ -166,6 +166,39 @@ STEP = frozenset(
     }
 )
 
+TIME = frozenset(
+    {"t", "time", "zeit", "temps", "tiempo", "tempo", "tijd", "tid", "čas", "czas", "время", "时间", "時間"}
+    | {"test time", "elapsed time", "messzeit", "durée"}
+)
+#: Names of a coefficient of friction of any origin, of which no heading says what it contains.
+COEFFICIENT = frozenset(
+    {"traction coefficient", "traction coeff", "traction coeff.", "friction coefficient", "coefficient of friction"}
+    | {"coefficient of traction", "friction coeff", "friction coeff.", "coef. of friction", "cof", "mu", "µ", "μ", "µk"}
+    | {f"{sort} {name}" for sort in ("dynamic", "kinetic") for name in ("cof", "friction coefficient")}
+    | {"coefficient of dynamic friction", "coefficient of kinetic friction"}
+    | {"friction factor", "reibwert", "reibungskoeffizient", "reibungszahl", "coefficient de frottement"}
+    | {"coeficiente de fricción", "coefficiente di attrito", "摩擦係数", "摩擦系数"}
+    | {"reibbeiwert", "coeficiente de rozamiento", "coeficiente de atrito", "wrijvingscoëfficiënt", "|cof|"}
+    | {"коэффициент трения", "współczynnik tarcia", "součinitel tření", "動摩擦係数", "动摩擦系数", "마찰계수"}
+)
+#: Names of a normal load.
+LOAD = frozenset(
+    {"load", "normal load", "applied load", "normal force", "Fn", "fn", "F_N", "f_n"}
+    | {"last", "normallast", "normalkraft", "anpresskraft"}
+    | {"charge", "charge normale", "force normale", "carga", "carga normal", "fuerza normal", "carico", "forza normale"}
+    | {"belasting", "normaalkracht", "荷重", "垂直荷重", "载荷", "荷载", "法向力"}
+)
+#: Names of the force of sliding friction.
+FRICTION_FORCE = frozenset(
+    {"friction force", "frictional force", "tangential force", "Ff", "ff", "F_f", "f_f", "reibkraft", "reibungskraft"}
+    | {"force de frottement", "forza di attrito", "fuerza de fricción", "wrijvingskracht", "摩擦力", "摩擦荷重"}
+)
+#: Names of columns of tests with a film of fluid, which nothing is computed from.
+LUBRICANT = frozenset(
+    {"lubricant", "viscosity", "dynamic viscosity", "kinematic viscosity", "film thickness", "lambda ratio"}
+    | {"hersey number", "hersey", "stribeck number", "sommerfeld number", "gumbel number"}
+    | {"schmierstoff", "viskosität", "schmierfilmdicke", "lubrifiant", "viscosité", "lubricante", "viscosidad"}
+)
 #: Any two of these, or one with tan δ or the phase angle, make a point.
 MODULI = ("storage modulus", "loss modulus", "complex modulus")
 #: Both, or one with tan δ or the phase angle, make a point where there are no moduli.

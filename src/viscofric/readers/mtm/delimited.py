@@ -12,45 +12,25 @@ import numpy as np
 from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy
-from viscofric.readers.dma.names import DMA, TEMPERATURE, insist_on_one_specimen
+from viscofric.readers.dma.names import (
+    COEFFICIENT,
+    DMA,
+    FRICTION_FORCE,
+    LOAD,
+    LUBRICANT,
+    TEMPERATURE,
+    TIME,
+    insist_on_one_specimen,
+)
 from viscofric.readers.headings import Column, Vocabulary
 from viscofric.readers.mtm.readings import TractionReadings
 from viscofric.readers.one_table import only_table
-from viscofric.readers.source import Source, fraction_of
+from viscofric.readers.source import Source
 from viscofric.readers.table import Table
 from viscofric.readers.tables import holds_table
 
 NAME = "delimited text, one reading per row"
 
-#: Names of a coefficient of friction of any origin, of which no heading says what it contains.
-COEFFICIENT = frozenset(
-    {"traction coefficient", "traction coeff", "traction coeff.", "friction coefficient", "coefficient of friction"}
-    | {"coefficient of traction", "friction coeff", "friction coeff.", "coef. of friction", "cof", "mu", "µ", "μ", "µk"}
-    | {f"{sort} {name}" for sort in ("dynamic", "kinetic") for name in ("cof", "friction coefficient")}
-    | {"coefficient of dynamic friction", "coefficient of kinetic friction"}
-    | {"friction factor", "reibwert", "reibungskoeffizient", "reibungszahl", "coefficient de frottement"}
-    | {"coeficiente de fricción", "coefficiente di attrito", "摩擦係数", "摩擦系数"}
-    | {"reibbeiwert", "coeficiente de rozamiento", "coeficiente de atrito", "wrijvingscoëfficiënt", "|cof|"}
-    | {"коэффициент трения", "współczynnik tarcia", "součinitel tření", "動摩擦係数", "动摩擦系数", "마찰계수"}
-)
-#: Names of a normal load.
-LOAD = frozenset(
-    {"load", "normal load", "applied load", "normal force", "Fn", "fn", "F_N", "f_n"}
-    | {"last", "normallast", "normalkraft", "anpresskraft"}
-    | {"charge", "charge normale", "force normale", "carga", "carga normal", "fuerza normal", "carico", "forza normale"}
-    | {"belasting", "normaalkracht", "荷重", "垂直荷重", "载荷", "荷载", "法向力"}
-)
-#: Names of the force of sliding friction.
-FRICTION_FORCE = frozenset(
-    {"friction force", "frictional force", "tangential force", "Ff", "ff", "F_f", "f_f", "reibkraft", "reibungskraft"}
-    | {"force de frottement", "forza di attrito", "fuerza de fricción", "wrijvingskracht", "摩擦力", "摩擦荷重"}
-)
-#: Names of columns of tests with a film of fluid, which nothing is computed from.
-LUBRICANT = frozenset(
-    {"lubricant", "viscosity", "dynamic viscosity", "kinematic viscosity", "film thickness", "lambda ratio"}
-    | {"hersey number", "hersey", "stribeck number", "sommerfeld number", "gumbel number"}
-    | {"schmierstoff", "viskosität", "schmierfilmdicke", "lubrifiant", "viscosité", "lubricante", "viscosidad"}
-)
 #: What to do with traction runs in place of friction curves or sweeps.
 AS_RUNS = Remedy(
     "; use read_mtm, or name it as mtm under [measurement] of a run file.",
@@ -94,7 +74,7 @@ TRACTION = Vocabulary(
         ),
         "traction coefficient": COEFFICIENT,
         "zero force": frozenset({"zero force", "zero traction force"}),
-        "time": frozenset({"t", "time", "step time"}),
+        "time": TIME | {"step time"},
         "track radius": frozenset({"track radius", "disc track radius"}),
         "replicate": frozenset({"replicate", "repetition", "repeat", "wiederholung", "répétition"}),
         "step": frozenset({"step", "step number"}),
@@ -299,15 +279,7 @@ def _slip(table: Table, what: str) -> Array:
     place = table.place(what)
     if place is None:
         return np.full(len(table.rows), np.nan)
-    if what == "sliding speed":
-        return table.values(place, "m/s")
-    column = table.columns[place]
-    factor = fraction_of(column.unit) if column.unit else None
-    if factor is None:
-        shown = f"the unit {column.unit!r}" if column.unit else "no unit"
-        right = f"write it as '{column.name} (%)' or '{column.name} (-)'"
-        raise table.refused("wrong-unit", f"column {column.heading!r} has {shown}; {right}.")
-    return factor * table.numbers(place)
+    return table.values(place, "m/s") if what == "sliding speed" else table.ratio(place)
 
 
 def force(table: Table, load: Array, slip: Array, notes: list[Note]) -> tuple[Array, str]:

@@ -14,18 +14,15 @@ from viscofric.readers.dma.names import (
     STEP,
     STRAIN_AMPLITUDE,
     TEMPERATURE,
+    TIME,
     known_temperatures,
     temperature_in_name,
 )
 from viscofric.readers.headings import Vocabulary
-from viscofric.readers.source import Source, fraction_of, unit_conversion
+from viscofric.readers.source import Source, unit_conversion
 from viscofric.readers.table import Table
 from viscofric.step_tests import StepKind
 
-TIME = frozenset(
-    {"t", "time", "zeit", "temps", "tiempo", "tempo", "tijd", "tid", "čas", "czas", "время", "时间", "時間"}
-    | {"test time", "elapsed time", "messzeit", "durée"}
-)
 #: Since the step, read rather than one that counts from the beginning of a programme.
 STEP_TIME = frozenset({"step time", "time in step", "creep time", "relaxation time", "kriechzeit", "segment time"})
 CREEP_COMPLIANCE = frozenset(
@@ -172,14 +169,9 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
         beside = ["stress"] if strain is not None else ["strain"] if stress is not None else []
         raise table.lacking([*beside, _COLUMN[kind]])
     stresses = table.values(stress, "Pa", or_missing=True)
-    column = table.columns[strain]
-    fraction = fraction_of(column.unit) if column.unit else None
-    if fraction is None:
-        right = f"write it as '{column.name} (%)' or '{column.name} (-)'"
-        raise table.refused("wrong-unit", f"column {column.heading!r} has no unit of a strain; {right}.")
+    strains = table.ratio(strain, or_missing=True)
     said = f"The {_COLUMN[kind]} was computed from stress and strain."
     notes.append(Note("response-computed", said))
-    strains = fraction * table.numbers_or_missing(strain)
     above, below = (strains, stresses) if kind == "creep" else (stresses, strains)
     return above / np.where(below == 0.0, np.nan, below), table.columns[stress].heading, False
 

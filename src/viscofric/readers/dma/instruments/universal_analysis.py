@@ -21,9 +21,9 @@ from viscofric.arrays import Array
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
 from viscofric.readers.dma.instruments.ta_steps import StepText, readings_of, steps_of
+from viscofric.readers.dma.names import TIME
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.source import Source
-from viscofric.readers.steps.columns import TIME
 
 #: Number of a line or a record, and its cells.
 Row = tuple[int, list[str]]
