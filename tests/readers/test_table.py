@@ -88,9 +88,18 @@ def test_other_words_below_a_table_are_refused(tmp_path, last):
 
 
 @pytest.mark.parametrize(("heading", "unit"), [("% strain", ""), ("strain", "%")])
-def test_a_row_that_begins_with_per_cent_is_no_remark(tmp_path, heading, unit):
-    headings = f"{heading};T;f;E';E''"
-    path = write(tmp_path, headings, f"{unit};°C;Hz;MPa;MPa", "0.1;20;1;5.5;0.5", "0.1;20;2;6.5;0.5")
+@pytest.mark.parametrize("delimiter", [";", "\t", ",", "xlsx"])
+def test_a_row_that_begins_with_per_cent_is_no_remark(tmp_path, heading, unit, delimiter):
+    rows = [
+        [heading, "T", "f", "E'", "E''"],
+        [unit, "°C", "Hz", "MPa", "MPa"],
+        [0.1, 20, 1, 5.5, 0.5],
+        [0.1, 20, 2, 6.5, 0.5],
+    ]
+    if delimiter == "xlsx":
+        path = workbook.write(tmp_path / "sweep.xlsx", {"sheet": rows})
+    else:
+        path = write(tmp_path, *(delimiter.join(map(str, row)) for row in rows))
     assert read_dma(path).isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
 
 
@@ -99,6 +108,7 @@ def test_a_row_that_begins_with_per_cent_is_no_remark(tmp_path, heading, unit):
     [
         *(("0 - 5 °C", None), ("NR 10 – 15 °C", None), ("T = 0 to 5 °C", None), ("Sweep 3 - 25 °C", 298.15)),
         *(("NR60 - 25 °C", 298.15), ("SBR 1500 - 25 °C", 298.15), ("T = - 25 °C", 248.15), ("NR - 25 °C", 298.15)),
+        *(("10:30 - 25 °C", 298.15), ("2020-01-02 - 25 °C", 298.15), ("Batch 12 - 25 °C", 298.15)),
     ],
 )
 def test_the_end_of_a_range_is_no_temperature(name, kelvin):

@@ -92,12 +92,13 @@ FREQUENCY_IN_NAME = re.compile(
 )
 #: "0 - 5" of "0 - 5 °C": a range, but not the number of a sweep or sample before a dash ("Sweep 3 - 25 °C").
 _RANGE = re.compile(
-    r"(?:^|(?P<word>[^\W\d_]+)[.\s#]+|[^\w.,-]\s*)[+−–-]?\d{1,3}(?:[.,]\d+)?\s*(?:[-–−—~…]|\.{2,3}|to|bis|à|до)\s*$"
+    r"(?:^|(?P<word>[^\W\d_]+)[.\s#]+|[^\w.,:/-]\s*)[+−–-]?\d{1,3}(?:[.,]\d+)?\s*(?:[-–−—~…]|\.{2,3}|to|bis|à|до)\s*$"
 )
 #: Words before a number that counts; "NR" is natural rubber.
 _COUNTING = frozenset(
     {"sweep", "step", "interval", "segment", "run", "set", "part", "no", "nr", "sample", "specimen", "test", "probe"}
-    | {"schritt", "messung", "échantillon", "muestra"}
+    | {"batch", "lot", "mix", "compound", "page", "cycle", "day", "file", "version"}
+    | {"schritt", "messung", "mischung", "charge", "échantillon", "essai", "muestra"}
 )
 
 

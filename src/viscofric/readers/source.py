@@ -77,7 +77,7 @@ def _marked(data: bytes) -> bytes:
 #: Marks of lines that are no part of a table: "# Operator", "% NR, film", "// 2020", "! cooled"; but "%" is a unit too,
 #: alone in its cell or before a strain.
 _REMARK = re.compile(
-    r"#|(?:%(?!\s?(?:strain|dehnung|deform|défor))|//|!)(?=\s?[^\W\d_]|\s?[\"'(\[|°])|(?:%|//|!)+[-=*_ ]*$",
+    r"#|(?:%(?! ?(?:strain|dehnung|deform|défor))|//|!)(?= ?[^\W\d_]| ?[\"'(\[|°])|(?:%|//|!)+[-=*_ ]*$",
     re.IGNORECASE,
 )
 #: "End of data", "*** Ende ***": what closes a table.

@@ -776,7 +776,7 @@ def numbered_rows(path: str, cells: Sequence[Sequence[float | str]]) -> list[Num
     rows: list[NumberedRow] = []
     for number, row in enumerate(cells, start=1):
         shown = [_text(cell, decimals) for cell in row]
-        if any(cell.strip() for cell in shown) and remark(" ".join(filter(None, shown))) is None:
+        if any(cell.strip() for cell in shown) and remark("\t".join(shown)) is None:
             rows.append((number, shown))
     return rows
 
