@@ -121,6 +121,12 @@ def test_a_power_of_ten_before_a_unit_belongs_to_it(tmp_path, heading):
     assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
 
 
+def test_quoted_headings_may_be_parted_by_single_blanks(tmp_path):
+    head = """"T (°C)" "f (Hz)" "storage modulus E' (MPa)" "tan δ" """
+    sweeps = read_dma(write(tmp_path, head, "20 1 5.5 0.5", "20 2 6.5 0.5"))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+
+
 def test_words_may_stand_behind_numbers_parted_by_blanks(tmp_path):
     head = "T (°C)  f (Hz)  E' (MPa)  E'' (MPa)  remark"
     sweeps = read_dma(write(tmp_path, head, "20  1  5.5  0.5  good", "20  2  6.5  0.5  good"))

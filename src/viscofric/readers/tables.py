@@ -763,6 +763,8 @@ def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
         except csv.Error as error:
             problem = f"the row cannot be split into cells ({error})."
             raise DataFileError(path, problem, number, code="row-length") from None
+    if line.lstrip().startswith('"') and line.count('"') % 2 == 0:  # as R writes headings
+        return [quoted or bare for quoted, bare in re.findall(r'"([^"]*)"|(\S+)', line)]
     # two blanks or more, or single ones if no heading has several words
     wide = re.split(r"\s{2,}", line.strip())
     single = line.split()
