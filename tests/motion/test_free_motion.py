@@ -14,7 +14,7 @@ from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperat
 from viscofric.motion.free import mover, past, solve
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.past import Wake
-from viscofric.motion.free.response import response_of
+from viscofric.motion.free.response import Response
 from viscofric.notes import codes, note_of
 
 TAU = 0.01
@@ -348,7 +348,7 @@ def test_turning_back_at_the_start_after_sliding_is_turning_back_after_a_slide()
 
 @pytest.mark.parametrize("line", [True, False])
 def test_far_wake_is_the_sum_over_its_cells(line):
-    response, window = response_of(line, 0.1, 1.0, None, 500.0), Box(0, 0, 50, 1)
+    response, window = Response(line, 0.1, 1.0, None, 500.0), Box(0, 0, 50, 1)
     steps, load = np.array([1e-3, 1e-2]), np.array([1.0, 2.0])
     wake = Wake.of(-201, 200, load, steps).faded(np.array([0.5, 1.0]))
     rows = np.arange(50_000)
@@ -365,7 +365,7 @@ def test_far_wake_is_the_sum_over_its_cells(line):
 @pytest.mark.parametrize("line", [True, False])
 def test_far_memory_acts_as_on_its_cells(line):
     rng, width = np.random.default_rng(3), 1 if line else 24
-    response, window = response_of(line, 0.1, 1.0, None, 500.0), Box(0, 0, 30, width)
+    response, window = Response(line, 0.1, 1.0, None, 500.0), Box(0, 0, 30, width)
     whole = Box(-75, 0 if line else -3, 120, width)
     memory = rng.random((2, *whole.shape))
     rest, near, pieces = past.parted(whole, memory, window)
@@ -469,9 +469,9 @@ def test_response_is_that_of_the_steady_operators_without_memory():
     solid = SteadyMaterial(1.0, np.empty(0), np.empty(0))
     pressure = np.random.default_rng(1).random((12, 8))
     point = HalfSpaceOperator(Grid(0.1, 6, 6, 4), solid)
-    assert response_of(False, 0.1, 1.0, None, 0.0)(pressure) == pytest.approx(point(pressure), rel=1e-12)
+    assert Response(False, 0.1, 1.0, None, 0.0)(pressure) == pytest.approx(point(pressure), rel=1e-12)
     row = pressure[:, :1]
-    line = LineOperator(Grid(0.1, 6, 6), solid)(row) - response_of(True, 0.1, 1.0, None, 7.0)(row)
+    line = LineOperator(Grid(0.1, 6, 6), solid)(row) - Response(True, 0.1, 1.0, None, 7.0)(row)
     assert line == pytest.approx(np.full(row.shape, line[0, 0]), rel=1e-12)  # but for the level
 
 

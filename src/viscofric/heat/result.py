@@ -228,16 +228,11 @@ class TransientHeating(Shown):
 
     def columns(self, force: str, energy: str) -> dict[str, tuple[Array, str, str]]:
         """Return all with the units of force and energy, and long names."""
-        return {
-            "temperature_rise": (self.temperature_rise, "K", "rise of temperature that the rubber responds to"),
-            "temperature_rise_error": (self.error, "K", "estimated error of the rise of temperature"),
-            "loss_rise": (self.loss_rise, "K", "rise of temperature due to the viscoelastic loss"),
-            "face_rise": (self.face_rise, "K", "mean rise of temperature of the face"),
-            "loss_weighted_rise": (
-                self.loss_weighted_rise,
-                "K",
-                "mean rise of temperature where the loss is released",
-            ),
+        rises = {
+            "temperature_rise": self.temperature_rise, "temperature_rise_error": self.error,
+            "loss_rise": self.loss_rise, "face_rise": self.face_rise, "loss_weighted_rise": self.loss_weighted_rise,
+        }  # fmt: skip
+        return {name: (values, *OF_CONTACT[name]) for name, values in rises.items()} | {
             "coulomb_heat": (self.coulomb_heat, energy, "heat of Coulomb friction"),
             "loss_heat": (self.loss_heat, energy, "heat of the viscoelastic loss"),
             "counterface_heat": (self.counterface_heat, energy, "heat that the counterface has taken up"),

@@ -11,10 +11,10 @@ import numpy as np
 from viscofric.arrays import Array, Mask
 from viscofric.contact.complementarity import ComplementaritySolution
 from viscofric.contact.free.grids import Grid
-from viscofric.contact.operators.convolution import solve_on_cells
+from viscofric.contact.operators.convolution import SteadyMaterial, solve_on_cells
 from viscofric.errors import ConvergenceError
 from viscofric.motion.free.box import Box
-from viscofric.motion.free.response import Response, StepOperator, step_operator
+from viscofric.motion.free.response import Response, StepOperator
 from viscofric.motion.free.setting import Setting
 from viscofric.motion.free.state import Place
 from viscofric.motion.schedule import Instant
@@ -23,6 +23,7 @@ from viscofric.motion.schedule import Instant
 _WIDER, _LEAST_MARGIN, _MOST_WINDOWS = 0.2, 2, 30
 # Operators that are kept; limits of the solver.
 _KEPT, _PATIENCE, _MOST_PRODUCTS = 8, 40, 2000
+_OF_UNIT_COMPLIANCE = SteadyMaterial(1.0, np.empty(0), np.empty(0))
 
 
 @dataclass(eq=False)
@@ -95,7 +96,10 @@ class Cells:
         if key not in self._operators:
             if len(self._operators) > _KEPT:
                 self._operators.clear()
-            self._operators[key] = step_operator(self.grid, self.response, self.facing, share)
+            quarter = self.response.quarter(*self.grid.shape)
+            if self.facing is not None:
+                quarter = quarter + share * self.facing.quarter(*self.grid.shape)
+            self._operators[key] = StepOperator(self.grid, _OF_UNIT_COMPLIANCE, quarter=quarter)
         return self._operators[key]
 
     def attempts(self) -> Iterator[int]:

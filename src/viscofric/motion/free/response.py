@@ -12,11 +12,10 @@ from viscofric.arrays import Array, ComplexArray
 from viscofric.contact.influence.layer_potentials import LayerCell, LayerStrip
 from viscofric.contact.influence.line import HalfSpaceStrip
 from viscofric.contact.influence.potentials import CellPotential, HalfSpaceCell
-from viscofric.contact.operators.convolution import ConvolutionOperator, Influence, SteadyMaterial
+from viscofric.contact.operators.convolution import ConvolutionOperator, Influence
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.motion.free.box import Box
 
-_NONE = np.empty(0)
 # Spectra that are kept: those of the last few sizes of the swept cells.
 _KEPT = 3
 
@@ -25,8 +24,8 @@ _KEPT = 3
 class Response:
     """Displacement around a loaded cell of a half-space or a layer, and of many loaded cells.
 
-    In plane strain without a far field the displacement is measured from the point at the distance `level` from the
-    load.
+    In plane strain without a layer, which has no far field, the displacement is measured from the point at the distance
+    `level` from the load, if that is above zero.
     """
 
     line: bool
@@ -73,7 +72,7 @@ class Response:
 
     def _scaled(self, x: Array, y: Array) -> Array:
         found = self._cell(x, y)
-        if self.level > 0.0:
+        if self.line and self.layer is None and self.level > 0.0:
             found = found - self._cell(np.full((1, 1), self.level / self.spacing), np.zeros(1))
         return np.asarray((2.0 if self.line else 1.0) / np.pi * self.spacing * found)
 
@@ -107,17 +106,3 @@ class StepOperator(ConvolutionOperator):
     def _influence(self) -> Influence:
         whole = np.concatenate([self.quarter[:0:-1], self.quarter])
         return Influence(whole, np.zeros(1))
-
-
-def step_operator(window: object, response: Response, facing: Response | None, share: float) -> StepOperator:
-    """Return the operator of unit compliance on a window of cells, with a share of that of an elastic indenter."""
-    nx, ny = window.shape  # type: ignore[attr-defined]
-    quarter = response.quarter(nx, ny)
-    if facing is not None:
-        quarter = quarter + share * facing.quarter(nx, ny)
-    return StepOperator(window, SteadyMaterial(1.0, _NONE, _NONE), quarter=quarter)  # type: ignore[arg-type]
-
-
-def response_of(line: bool, spacing: float, aspect: float, layer: ScaledLayer | None, level: float) -> Response:
-    """Return the response of a half-space or a layer; the level counts where there is no far field."""
-    return Response(line, spacing, aspect, layer, level if line and layer is None else 0.0)

@@ -17,7 +17,7 @@ from viscofric.contact.free.scale import Scale, ScaledIndenter
 from viscofric.contact.indenters.indenter import Indenter, insist_on_round_edges
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.errors import ConvergenceError, InputError
-from viscofric.motion.free.response import Response, response_of
+from viscofric.motion.free.response import Response
 from viscofric.motion.memory import Modes, StepCoefficients, quickest_time, step_coefficients
 from viscofric.motion.mover import Problem, Sizes
 from viscofric.motion.schedule import Instant, Schedule
@@ -185,10 +185,10 @@ class Setting:
     def responses(self, grid: Grid) -> tuple[Response, Response | None]:
         """Return the response of the body, and that of an elastic indenter on a layer; None where they are the same."""
         spacing, aspect = grid.spacing, grid.width / grid.spacing
-        body = response_of(self.is_line, spacing, aspect, self.layer, self.level)
+        body = Response(self.is_line, spacing, aspect, self.layer, self.level)
         if self.layer is None or self.body.counterface == 0.0:
             return body, None
-        return body, response_of(self.is_line, spacing, aspect, None, self.level)
+        return body, Response(self.is_line, spacing, aspect, None, self.level)
 
     def control(self, instant: Instant) -> tuple[float | None, float | None]:
         """Return load and depth that are prescribed, one of them None."""
