@@ -1,11 +1,12 @@
 """Every public object shows itself in a few lines and as a table of a notebook, and every result draws itself."""
 
+import copy
 import functools
 import inspect
 import pickle
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 
 import numpy as np
 import pytest
@@ -174,6 +175,14 @@ def test_an_object_is_the_same_after_pickling(objects, name):
     assert again == objects[name]
     if type(again).__hash__ is Shown.__hash__:
         assert hash(again) == hash(objects[name])
+
+
+@pytest.mark.parametrize("name", sorted(CLASSES.keys() - {"CatalogueEntry", "Study", "StudyResults"}))
+def test_numbers_of_an_object_stay_as_they_are(objects, name):
+    """Also those of a copy, and of a result that another process computed; a hash depends on them."""
+    for one in (objects[name], copy.deepcopy(objects[name]), pickle.loads(pickle.dumps(objects[name]))):
+        arrays = {field.name: getattr(one, field.name) for field in fields(one)} if is_dataclass(one) else {}
+        assert [at for at, value in arrays.items() if isinstance(value, np.ndarray) and value.flags.writeable] == []
 
 
 def test_objects_with_other_numbers_are_others(objects):

@@ -51,6 +51,24 @@ class Shown:
         if "__repr__" not in cls.__dict__:  # dataclasses add their own to classes that have none
             cls.__repr__ = Shown.__repr__  # type: ignore[method-assign]
 
+    def __post_init__(self) -> None:
+        """Keep read-only views of arrays, so that results stay what was computed."""
+        own: Any = self
+        for name in [one.name for one in fields(own)] if is_dataclass(own) else []:
+            value: object = getattr(self, name)
+            if isinstance(value, np.ndarray) and value.flags.writeable:
+                kept = value.view()
+                kept.flags.writeable = False
+                object.__setattr__(self, name, kept)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Keep arrays of a copy, or from another process, as those of the original."""
+        if is_dataclass(self):
+            vars(self).update(state)
+            Shown.__post_init__(self)
+        else:  # models of pydantic have states of their own
+            cast("Any", super()).__setstate__(state)
+
     def _shown(self) -> Rows:
         """Return the rows to show; those whose value is None are left out."""
         if not is_dataclass(self):

@@ -145,6 +145,7 @@ class History(Shown):
         }  # fmt: skip
         for name, value in fields.items():
             object.__setattr__(self, name, value)
+        self.__post_init__()
 
     def _shown(self) -> Rows:
         return (

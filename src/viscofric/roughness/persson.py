@@ -188,6 +188,7 @@ class HeatedPerssonTheory(HeatColumns, PerssonTheory):
 
     def __post_init__(self) -> None:
         self.keep_heat(self.friction_coefficient.shape)
+        super().__post_init__()
 
     def to_dataset(self) -> Dataset:
         """Return everything as `PerssonTheory` does, with the columns of the heat."""

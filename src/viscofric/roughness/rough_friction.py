@@ -183,6 +183,7 @@ class HeatedRoughFriction(SolvedHeatColumns, RoughFriction):
 
     def __post_init__(self) -> None:
         self.keep_heat(self.friction_coefficient.shape)
+        super().__post_init__()
 
     def to_dataset(self) -> Dataset:
         """Return everything as `RoughFriction` does, with the columns of the heat."""

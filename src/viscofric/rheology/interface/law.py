@@ -78,6 +78,7 @@ class InterfaceLaw(Shown, ABC):
             size = own if given.shape == (own, own) else len(self.parameters)
             object.__setattr__(self, "covariance", checked_covariance(self.covariance, size, "a law of shear stress"))
         object.__setattr__(self, "notes", sentences(self.notes, "notes"))
+        super().__post_init__()
         for name, unit in (("fitted_speeds", "m/s"), ("fitted_temperatures", "K"), ("fitted_pressures", "Pa")):
             if (ends := getattr(self, name)) is not None:
                 low_high = to_si_array(ends, unit, name)

@@ -130,7 +130,7 @@ def _right_key(parts: tuple[Any, ...], tables: Mapping[str, type[BaseModel]]) ->
         return f"did you mean '{near[0]}'?"
     homes = [name for name, table in tables.items() if name and not _is_branch(name) and wrong in keys(table)]
     if homes:
-        return f"it belongs in [{homes[0]}]"
+        return f"it belongs in {' or '.join(f'[{name}]' for name in homes)}"
     return f"known keys are {', '.join(known)}"
 
 
