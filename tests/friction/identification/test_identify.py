@@ -602,3 +602,10 @@ def test_curves_about_a_maximum_of_friction_stay_together() -> None:
     assert factors is not None
     # Their standard errors are about 0.03 decades.
     np.testing.assert_allclose(factors.log10(kelvin), rubber.shift.log10(kelvin), atol=0.12)
+
+
+def test_materials_whose_contacts_are_wider_than_the_ball_are_refused_with_what_led_there() -> None:
+    """An anchor softer than the load allows, or friction that holds more than hysteresis, leads to such materials."""
+    soft = vf.friction.ModulusAnchor("1 kPa", 10.0, REFERENCE, error=1e-3)
+    with refused("beyond-indenter", naming=("reduce the load", "of the load", "anchor")):
+        vf.identify_material(closed_form_curves(REFERENCE), anchor=soft, **FEW)

@@ -26,7 +26,7 @@ from viscofric.friction.identification.solving import Contacts
 from viscofric.friction.shifting.found_shifts import CURVE_LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
-from viscofric.notes import Note, codes
+from viscofric.notes import Note, Remedy, codes
 from viscofric.processes import Workers
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw
@@ -220,9 +220,25 @@ def identify_material(
     with Workers(workers) as processes:
         contacts = Contacts(indenter, poisson_ratio, points.load, processes, sizes, progress)
         problem = problem_of(points, shifts, tuple(moduli), contacts, modes)
-        fits, iterations = identify(problem, contacts.solved, problem.start, accuracy)
+        try:
+            fits, iterations = identify(problem, contacts.solved, problem.start, accuracy)
+        except InputError as error:
+            raise _with_cause(error, points) from None
         outcome = Outcome(curves, problem, fits, iterations, contacts, accuracy, shift, name, bool(moduli or sizes))
         return conclude(outcome, limit=limit, samples=samples, seed=seed, levels=levels)
+
+
+def _with_cause(error: InputError, points: Points) -> InputError:
+    """Return an error of a contact wider than the indenter with what leads materials there; others as they are."""
+    if error.code != "beyond-indenter":
+        return error
+    largest = float(np.exp(np.max(points.log_friction)))
+    also = (
+        f" It is the contact of a material that the friction, up to {largest:.2g} of the load, leads to: check load, "
+        "indenter and anchor, and subtract friction other than the viscoelastic one."
+    )
+    note = error.note
+    return error.with_note(Note(note.code, note.text, note.where, (note.remedy or Remedy("")) + also, note.values))
 
 
 def _checked_levels(levels: Sequence[float]) -> tuple[float, ...]:
