@@ -104,6 +104,11 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
     -------
     GlassTransition or None
 
+    Raises
+    ------
+    InputError
+        If `ramp` is no ramp, or `by` is another word.
+
     Notes
     -----
     The temperature of a peak depends on the frequency (by some 3 to 7 K a decade) and on the heating rate; a value

@@ -379,6 +379,11 @@ def check_superposition(fit: Superposition | StepSuperposition) -> Superposition
     -------
     SuperpositionCheck, or StepCheck of step tests
 
+    Raises
+    ------
+    InputError
+        If `fit` is no superposition.
+
     Notes
     -----
     Isotherms that superpose lie on one curve of tan δ against |E*|, whatever their shifts (H. C. Booij, J. H. M.
