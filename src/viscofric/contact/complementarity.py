@@ -48,6 +48,8 @@ _MOSTLY = 0.87
 _MUCH_LESS = 1e-3
 # Part of the least residual so far below which there is headway.
 _HEADWAY = 0.99
+# Overlap, over the root mean square of the gap that known changes leave, from which on a cell beside joins the contact.
+_CLEAR = 0.3
 # Least length of a correction where many spots are solved, of that by the preconditioner.
 _SHORTEST = 0.3
 _DIRECTIONS = 40  # search directions that GCR keeps
@@ -227,14 +229,15 @@ def solve_many_spots(
     """Solve the contact of many spots, whose contact set is chosen anew at every step.
 
     A step removes from the gap under pressure what known changes of the pressure can remove, preconditions the rest,
-    and cuts off pressures below zero.  One product gives the displacement of the whole change: with it the gap is
-    known, the set is looked at, and the next steps know one change more.  This is GCR one step late, whose directions
-    outlive changes of the set; corrections are shorter where those before were too long.  Changes are in the precision
-    of `inner`; what is returned as converged is confirmed with `operator`.
+    and cuts off pressures below zero.  A free cell beside the contact joins it if it overlaps, and would still do so
+    after the step: the error of a spot's level says nothing about its edges.  One product gives the displacement of the
+    whole change: with it the gap is known, the set is looked at, and the next steps know one change more.  This is GCR
+    one step late, whose directions outlive changes of the set; corrections are shorter where those before were too
+    long.  Changes are in the precision of `inner`; what is returned as converged is confirmed with `operator`.
 
     Arguments as of `solve_complementarity`, with a depth of 1; of the latest changes as many as `directions` are kept.
-    `doubt`: overlap below so many root mean square gaps under pressure does not make contact yet, since pressures are
-    not known better.
+    `doubt`: away from the contact, overlap below so many root mean square gaps under pressure does not make contact
+    yet, since pressures are not known better.
     """
     start, inner_start, backend = operator.products, inner.products, operator.backend
 
@@ -247,7 +250,8 @@ def solve_many_spots(
     loaded, values = contact.indices, contact.gathered(pressure)
     gap, confirmed = _gap(backend, operator(pressure), height), True
     known = KnownChanges(contact, directions, inner.dtype, fixed_load=load is not None)
-    change = image = extended = None
+    change = image = None
+    extended, collected = extension.on(contact), extension.collecting(contact)
     best, best_contact, best_values = math.inf, contact, values
     steps = since_best = 0
     before, reference = math.inf, 0.0
@@ -263,21 +267,25 @@ def solve_many_spots(
             best, best_contact, best_values = now, contact, values
         if now <= tolerance or spent() >= most_products or since_best >= patience or not math.isfinite(now):
             break
-        former, cells = contact, backend.cells(chosen)
-        if extended is None or len(cells) != len(former) or not bool(xp.all(cells.indices == former.indices)):
-            contact = cells
-            extended, collected = extension.on(contact), extension.collecting(contact)
-            known.move(contact)
+        former, pressed = contact, known.contact
+        if loaded.shape[0] != len(pressed) or not bool(xp.all(loaded == pressed.indices)):
+            pressed = backend.cells(backend.with_true(xp.zeros_like(chosen), loaded))
+            extended = extension.on(pressed)
+            known.move(pressed)
         if image is not None:
             fresh = known.add(former.scattered(change), image)
-        residual = xp.astype(level - contact.gathered(gap), inner.dtype)
-        combined, residual, missing = known.remove(_levelled(backend, residual, load))
+        residual = xp.astype(level - pressed.gathered(gap), inner.dtype)
+        combined, residual, moved, missing = known.remove(_levelled(backend, residual, load))
         if fresh > 0.0:
             # The best length of the last correction is known now; the next one goes half of the way to it.
             length = min(1.0, max(_SHORTEST, length * (1.0 + 0.5 * missing / fresh)))
-        correction = length * collected(inner.precondition(extended(residual)))
+        enough = _CLEAR * _size(residual) / math.sqrt(len(pressed))
+        contact, field = _joined(known, chosen, level, gap, extended(residual), moved, enough)
+        collected = collected if contact is former else extension.collecting(contact)
+        correction = length * collected(inner.precondition(field))
         old = contact.gathered(pressure)
-        values = backend.positive_part(old + (_levelled(backend, correction, load) + combined))
+        values = old + (_levelled(backend, correction, load) + contact.gathered(pressed.scattered(combined)))
+        values = backend.positive_part(values)
         loaded = contact.indices[values > 0.0]
         if loaded.shape[0] == 0:
             break
@@ -287,7 +295,7 @@ def solve_many_spots(
         # The last product is made with the operator, and one before it once the gap is much less than its changes were.
         confirmed = now * now <= tolerance * before or now <= _MUCH_LESS * reference
         before, image = now, None
-        del chosen, cells, old, residual, correction, combined
+        del chosen, field, old, residual, correction, combined
         if confirmed:
             reference, former_gap = now, gap
             gap = _gap(backend, operator(pressure), height)
@@ -432,15 +440,37 @@ class KnownChanges:
         self.images = xp.concat([self.images, image[None, :] / length])
         return length
 
-    def remove(self, residual: AnyArray) -> tuple[AnyArray, AnyArray, float]:
-        """Return the sum of changes that leaves least of a gap, what it leaves, and how much of the last is in it.
+    def remove(self, residual: AnyArray) -> tuple[AnyArray, AnyArray, AnyArray, float]:
+        """Return the sum of changes that leaves least of a gap, and what it does.
 
-        The gap is at the cells in contact, and is overwritten.
+        That is what it leaves, its displacement of the cells beside the contact, and how much of the last change is in
+        it.  The gap is at the cells in contact, and is overwritten.
         """
-        changes, images = self.changes[:, : len(self.contact)], self.images[:, : len(self.contact)]
-        parts = images @ residual
-        residual -= parts @ images
-        return parts @ changes, residual, float(parts[-1]) if parts.shape[0] else 0.0
+        count = len(self.contact)
+        parts = self.images[:, :count] @ residual
+        moved = parts @ self.images
+        residual -= moved[:count]
+        return parts @ self.changes[:, :count], residual, moved[count:], float(parts[-1]) if parts.shape[0] else 0.0
+
+
+def _joined(
+    known: KnownChanges, chosen: AnyArray, level: float, gap: AnyArray, field: AnyArray, moved: AnyArray, enough: float
+) -> tuple[Cells, AnyArray]:
+    """Return the contact with the cells that join it, and the field of what is to be corrected, with their overlap.
+
+    `chosen` (nx, ny) are the cells that join away from the contact; the field is overwritten.  Those beside it have
+    been `moved` by the known changes, and the correction will move them by about the field.
+    """
+    backend, xp, pressed, beside = known.backend, known.xp, known.contact, known.beside
+    expected, overlap = beside.gathered(field), xp.astype(level - beside.gathered(gap), field.dtype)
+    joins = (overlap > 0.0) & (overlap - moved - expected > enough)
+    field = beside.inserted(field, xp.where(joins, overlap - moved, expected))
+    far = backend.cells(chosen & ~(pressed.chosen | beside.chosen))
+    if len(far):
+        field = far.inserted(field, xp.astype(level - far.gathered(gap), field.dtype))
+    if len(far) or bool(xp.any(joins)):
+        return backend.cells(beside.inserted(chosen, joins)), field
+    return pressed, field
 
 
 def _size(values: AnyArray) -> float:
