@@ -223,6 +223,23 @@ def test_heat_and_interface_are_those_of_the_run_file(desk: Desk, tmp_path: Path
     np.testing.assert_allclose(answer["heated_friction"], stored["friction_coefficient"], rtol=ROUNDING)
     assert answer["quantities"].keys() >= EXTRA
     assert answer["parts"]["temperature_rise"][0]["error"] == "temperature_rise_error"
+    assert "error" not in answer["parts"]["interface_friction"][0]  # that of the isothermal contact is another one
+
+
+def test_friction_of_the_interface_has_the_error_of_its_law(desk: Desk) -> None:
+    answer = desk.run(curve, {**LINE, "interface": LAW})
+    assert answer["parts"]["interface_friction"][0]["error"] == "interface_error"
+    assert all(error > 0.0 for error in answer["interface_error"])
+
+
+def test_a_heated_curve_without_a_solution_is_told(desk: Desk) -> None:
+    conditions = {"load": ["10 N", "20000 N"], "speed": "20 mm/s", "temperature": "60 degC"}
+    answer = desk.run(
+        curve, {**BALL, "conditions": conditions, "solver": {"accuracy": 0.1}, "heating": {"counterface": "PTFE"}}
+    )
+    assert [one is None for one in answer["heated_friction"]] == [False, True]
+    assert [one["code"] for one in answer["failure_records"]] == ["beyond-indenter"] * 2  # isothermal, and heated
+    assert any("heated curve" in words for words in answer["missing"])
 
 
 def test_a_law_that_is_fitted_is_left_to_the_run(desk: Desk) -> None:

@@ -43,6 +43,7 @@ _NAMES = {
     "friction_lower": "lower",
     "friction_upper": "upper",
 }
+_ERRORS = ERRORS | {"interface_friction": "interface_error"}
 _HEATED = {
     "heated_friction": axis("friction coefficient μ with heating"),
     "temperature_rise": axis("rise of temperature (K)"),
@@ -98,14 +99,15 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
         if heatings is not None:
             run_plan(heatings, store, executor, context.show)
     tree = tree_of(contacts, (), () if heatings is None else (heatings,), interface, "page")
-    failures, checks = [one.note for one in requested.failures], group(tree, "assumptions")
+    checks = group(tree, "assumptions")
+    failures, heated = [one.note for one in requested.failures], [] if heatings is None else heatings.failures
     found = {**layout, "lower": None, "upper": None, **columns(tree), "doubts": doubts(contacts, requested)}
     return {
         **found,
         **_parts(found),
         "master": master_curve(tree),
-        **listed("failures", failures, "page"),
-        "missing": _missing(failures, len(found["speed"])),
+        **listed("failures", [*failures, *heated], "page"),
+        "missing": _missing(failures, heated, len(found["speed"])),
         **listed("warnings", notes_in(tree.attrs, "warnings"), "page"),
         **listed("notes", notes_in(tree.attrs, "notes"), "page"),
         "checks": plain([one.record("page") for one in (assumption_checks_of(checks) if checks else ())]),
@@ -118,14 +120,14 @@ def _left_out(study: Study) -> list[Note]:
     return [] if study.interface is None else [Note("fitted-interface", words)]
 
 
-def _missing(failures: list[Note], count: int) -> list[str]:
-    """Return how many of the cases have no solution, and why, those of one reason together."""
-    if not failures:
+def _missing(failures: list[Note], heated: list[Note], count: int) -> list[str]:
+    """Return how many of the cases have no solution, and why, also of heated curves, those of one reason together."""
+    if not failures and not heated:
         return []
     from viscofric.report.texts.study import grouped_failures
 
-    said = f"{len(failures)} of {count} conditions have no solution."
-    return [said, *grouped_failures(failures, _MOST_REASONS, "page")]
+    said = [f"{len(failures)} of {count} conditions have no solution."] if failures else []
+    return [*said, *grouped_failures([*failures, *heated], _MOST_REASONS, "page")]
 
 
 def _contacts(checked: Study, study: dict[str, Any], context: Context) -> Contacts:
@@ -183,7 +185,7 @@ def _parts(found: dict[str, Any]) -> dict[str, Any]:
         main: Spec = {"y": name, "mode": "lines+markers", "size": 6, "text": "remarks"}
         if name == "friction":
             main |= band or {"error": "error"}
-        error = ERRORS.get(name, f"{name}_error")
+        error = _ERRORS.get(name, f"{name}_error")
         if name != "friction" and error in found:
             main |= {"error": error}
         style: Spec = {"mode": "lines", "width": 1.2, "legend": False}
@@ -241,6 +243,7 @@ def columns(tree: DataTree) -> dict[str, Any]:
     if heated is not None:  # of the first Coulomb friction and slip
         first = heated.isel({name: 0 for name in ("coulomb", "slip") if name in heated.dims})
         found |= {own: values(first, name) for name, own in _OF_HEATING.items() if name in first}
+        found.pop("interface_error", None)  # of the isothermal contact
     found = {name: plain(column.ravel(), _DIGITS) for name, column in found.items()}
     return found | {"interpolated": [value == 1.0 for value in found["interpolated"]]}
 
