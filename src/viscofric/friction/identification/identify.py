@@ -232,7 +232,7 @@ def _with_cause(error: InputError, points: Points) -> InputError:
     """Return an error of a contact wider than the indenter with what leads materials there; others as they are."""
     if error.code != "beyond-indenter":
         return error
-    largest = float(np.exp(np.max(points.log_friction)))
+    largest = float(np.max(points.friction * np.exp(points.log_scale)))
     also = (
         f" It is the contact of a material that the friction, up to {largest:.2g} of the load, leads to: check load, "
         "indenter and anchor, and subtract friction other than the viscoelastic one."
