@@ -24,6 +24,9 @@ HEADER = "temperature (degC);frequency (Hz);tensile storage modulus (MPa);tensil
         (["20;0,1;5;0,5", "20;1;1.234;0,5"], 3, "1.234"),  # a thousand, or one and a quarter?
         (["20;0.1;5;0.5", "20;1;1,23;0.5"], 2, "0.1"),
         (["20;0.1;5;0.5", "20;1;1.234,5;0.5"], 2, "0.1"),
+        (["20;1;1,234.5;1", "20;2;0,123;1"], 2, "1,234.5"),  # no thousands begin with a zero
+        (["20;1;1.234,5;1", "20;2;0.123;1"], 2, "1.234,5"),
+        (["20;1;1.234,5;1", "20;2;1.234e-2;1"], 2, "1.234,5"),
     ],
 )
 def test_points_and_commas_in_one_file_are_refused(tmp_path, rows, line, cell):
@@ -79,6 +82,35 @@ def test_lines_under_a_mark_of_remarks_and_the_end_of_data_are_no_rows(tmp_path,
     for head in (HEADER, mark + HEADER):
         sweeps = read_dma(write(tmp_path, f"{mark}film of NR", head, *rows))
         assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+
+
+def test_points_in_columns_that_are_not_read_contradict_no_commas(tmp_path):
+    sweeps = read_dma(write(tmp_path, HEADER + ";sample;t (s)", "20;1;5,5;0,5;1.1;2.5", "20;2;6,5;0,5;1.2;3.5"))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
+
+
+@pytest.mark.parametrize(("cell", "number"), [("1.234,5", 1234.5), ("1,234.5", 1234.5), ("12.345.678", 12345678.0)])
+def test_numbers_of_a_workbook_are_what_they_are_beside_any_text(tmp_path, cell, number):
+    rows = [HEADER.split(";"), [20, 1, cell, 1.234], [20, 2, cell, 2.345]]
+    sweeps = read_dma(workbook.write(tmp_path / "sweep.xlsx", {"sheet": rows}))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx(2 * [1e6 * number])
+    assert sweeps.isotherms[0].loss_modulus == pytest.approx([1.234e6, 2.345e6])
+
+
+@pytest.mark.parametrize("first", ["End", "Fin", "%RH", "% elongation", "!", "# cycles"])
+@pytest.mark.parametrize("delimiter", [";", "\t", "xlsx"])
+def test_headings_and_flags_that_begin_as_remarks_do_are_of_the_table(tmp_path, first, delimiter):
+    rows = [["", first, *HEADER.split(";")], ["", "!bad", 20, 1, 5.5, 0.5], ["", "", 20, 2, 6.5, 0.5]]
+    if delimiter == "xlsx":
+        path = workbook.write(tmp_path / "sweep.xlsx", {"sheet": rows})
+    else:
+        path = write(tmp_path, *(delimiter.join(map(str, row)).lstrip(delimiter) for row in rows[:2]))
+    assert read_dma(path).isotherms[0].storage_modulus[0] == pytest.approx(5.5e6)
+
+
+def test_units_that_blanks_part_may_begin_with_per_cent(tmp_path):
+    path = write(tmp_path, "strain T f E' E''", "% °C Hz MPa MPa", "0.1 20 1 5.5 0.5", "0.1 20 2 6.5 0.5")
+    assert read_dma(path).isotherms[0].storage_modulus == pytest.approx([5.5e6, 6.5e6])
 
 
 @pytest.mark.parametrize("last", ["End of data; 12 points", "Operator: AB"])

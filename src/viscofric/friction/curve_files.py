@@ -115,8 +115,9 @@ def read_friction_curves(
         error, scatter and degrees of freedom, and ``slip``.  A ``friction force`` without a coefficient is divided by
         the load.  Units stand in the headings, such as ``speed (mm/s)``; coefficients have none, or are in ``%``.  The
         load of a line contact is in N/m.  Temperature, load or speed without a column may stand in the headings of
-        curves beside each other, such as ``viscoelastic friction 25 °C`` or ``COF 5 N``, or above tables.  ``frequency``
-        and ``stroke`` of a motion to and fro give its mean speed, 2 · frequency · stroke, where there is none.
+        curves beside each other, such as ``viscoelastic friction 25 °C`` or ``COF 5 N``, or above tables.
+        ``frequency`` and ``stroke`` of a motion to and fro give its mean speed, 2 · frequency · stroke, where there is
+        none.
     columns : mapping, optional
         Headings that are not understood, by quantity: ``{"viscoelastic_friction": "mu_v", "speed": "v1 (mm/s)"}``.  A
         unit in brackets counts instead of that of the file; ``"#3 (N)"`` is the third column, ``"= 20 N"`` a value of

@@ -75,27 +75,33 @@ def _marked(data: bytes) -> bytes:
 
 
 #: Marks of lines that are no part of a table: "# Operator", "% NR, film", "// 2020", "! cooled"; but "%" is a unit too,
-#: alone in its cell or before a strain.
+#: alone in its cell, before a strain, or before other units that blanks part.
 _REMARK = re.compile(
-    r"#|(?:%(?! ?(?:strain|dehnung|deform|défor))|//|!)(?= ?[^\W\d_]| ?[\"'(\[|°])|(?:%|//|!)+[-=*_ ]*$",
+    r"(?:%(?! ?(?:strain|dehnung|deform|défor)|(?: +(?:°?[CFK]|[mk]?Hz|rad/s|[kMG]?Pa|[kmµun]?m|[km]?N|m?s|min|-))+$)"
+    r"|//|!)(?= ?[^\W\d_]| ?[\"'(\[|°])|(?:%|//|!)+[-=*_ ]*$",
     re.IGNORECASE,
 )
-#: "End of data", "*** Ende ***": what closes a table.
+#: Two numbers beside each other: such a line is a row, of which a word ("!bad") marks the first cell.
+_NUMBERS = re.compile(r"(?:[\t;, ]\s*[+-]?\d[\d.]*(?:e[+-]?\d+)?\s*(?=[\t;, ]|$)){2}", re.IGNORECASE)
+#: "End of data", "*** Ende ***": what closes a table, but not headings ("End; T (°C)").
 _END = re.compile(
-    r"\W*(?:(?:end|ende|fin|fine|einde|slut|konec|koniec|конец|结束|終了)\b[^\d:=]{0,40}|eof|datenende|dateiende)\W*",
+    r"\W*(?:(?:end|ende|fin|fine|einde|slut|konec|koniec|конец|结束|終了)\b[^\d:=;,\t('\"]{0,40}"
+    r"|eof|datenende|dateiende)\W*",
     re.IGNORECASE,
 )
+_LONGEST_END = 60
 
 
 def remark(line: str) -> str | None:
     """Return what a line says behind the mark of a remark, "" if it only closes a table, None if it is of a table."""
-    plain = line.lstrip()
-    if _REMARK.match(plain):
-        return plain.lstrip("# ") if plain.startswith("#") else plain.lstrip("%/! ")
+    plain = line.strip()
+    if plain.startswith("#"):
+        return plain.lstrip("# ")
+    if _REMARK.match(plain) and not _NUMBERS.search(plain):
+        return plain.lstrip("%/! ")
     return "" if len(plain) < _LONGEST_END and _END.fullmatch(plain) else None
 
 
-_LONGEST_END = 60
 COMMA_NUMBER = re.compile(r"\s*[+-]?\d*,\d+([eE][+-]?\d+)?\s*%?\s*")
 _GROUPED = re.compile(r"[+-]?\d{1,3}(?:[ \u00a0\u2009\u202f'’]\d{3})+(?:[.,]\d+)?\s*%?")
 LIKE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}\s*%?")
@@ -209,9 +215,14 @@ def decimal_comma(path: str, cells: Iterable[tuple[str, int | None]]) -> bool:
 #: A number with points or commas, and one whose marks between thousands are these.
 _PRINTED = re.compile(r"[+-]?\d*[.,][\d.,]*([eE][+-]?\d+)?\s*%?")
 _THOUSANDS = {
-    ",": re.compile(r"[+-]?\d{1,3}(,\d{3})+(\.\d*)?([eE][+-]?\d+)?\s*%?"),
-    ".": re.compile(r"[+-]?\d{1,3}(\.\d{3})+(,\d*)?([eE][+-]?\d+)?\s*%?"),
+    ",": re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+(\.\d*)?\s*%?"),
+    ".": re.compile(r"[+-]?[1-9]\d{0,2}(\.\d{3})+(,\d*)?\s*%?"),
 }
+
+
+def decides(cell: str, mark: str) -> bool:
+    """Return whether a mark can only part thousands in a number: it does so twice, or has the other one behind it."""
+    return bool(_THOUSANDS[mark].fullmatch(cell)) and (cell.count(mark) > 1 or ("." if mark == "," else ",") in cell)
 
 
 @dataclass(frozen=True)
@@ -222,18 +233,20 @@ class Decimals:
     point: str = "."
 
     @classmethod
-    def of(cls, path: str, cells: Iterable[tuple[str, int]]) -> Decimals:
-        """Return those of all numbers among cells, each with its row, or raise `DataFileError` if they contradict."""
+    def of(cls, path: str, cells: Iterable[tuple[str, int]], beside: Iterable[tuple[str, int]] = ()) -> Decimals:
+        """Return those of all numbers among cells, each with its row, or raise `DataFileError` if they contradict.
+
+        Cells `beside` them may contradict; they only show that commas are those of decimals.
+        """
         marked = [(cell.strip(), row) for cell, row in cells if "," in cell or cell.count(".")]
         numbers = [(cell, row) for cell, row in marked if _PRINTED.fullmatch(cell)]
         commas, points = ([one for one in numbers if mark in one[0]] for mark in ",.")
         for mark, point, own in ((",", ".", commas), (".", ",", points)):
             # one number decides; without it, "1.500" beside "2,5" may be 1500 or 1.5
-            decides = any(cell.count(mark) > 1 or point in cell for cell, _ in own)
-            if decides and all(_THOUSANDS[mark].fullmatch(cell) for cell, _ in own):
+            if any(decides(cell, mark) for cell, _ in own) and all(_THOUSANDS[mark].fullmatch(cell) for cell, _ in own):
                 return cls(mark, point)
         if not commas or not points:
-            return cls("", "," if decimal_comma(path, commas) else ".")
+            return cls("", "," if decimal_comma(path, [*commas, *(beside if commas else ())]) else ".")
         raise DataFileError(
             path,
             f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals and "
@@ -247,7 +260,8 @@ class Decimals:
         if self == Decimals() or not _PRINTED.fullmatch(cell.strip()):
             return cell
         plain = cell.replace(self.thousands, "") if self.thousands else cell
-        return plain.replace(",", ".") if self.point == "," else plain
+        plain = plain.replace(",", ".") if self.point == "," else plain
+        return plain if plain.count(".") < 2 else cell
 
 
 def unit_conversion(text: str, unit: str, name: str = "unit") -> tuple[float, float]:

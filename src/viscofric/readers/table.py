@@ -333,15 +333,17 @@ def make_table(
         lines.append(number)
     if not rows:
         raise DataFileError(path, "there is a header, but no row of numbers under it.", code="no-points")
-    # a remark may contain any comma; a pure number, such as a coefficient of friction, has no unit
-    measured = {
-        place
-        for place, column in enumerate(columns)
-        if column.unit or column.quantity or all(NUMBER.fullmatch(row[place].strip()) for row in rows)
-    }
+    # a remark may contain any comma, and the numbers of a sample a point
+    quantities = {place for place, column in enumerate(columns) if column.quantity}
+    numeric = {place for place in range(len(columns)) if all(NUMBER.fullmatch(row[place].strip()) for row in rows)}
+    measured = quantities | numeric | {place for place, column in enumerate(columns) if column.unit}
     if decimals is None:
-        printed = ((row[place], line) for row, line in zip(rows, lines, strict=True) for place in measured)
-        decimals = Decimals.of(path, printed)
+        read = quantities or measured
+        printed, beside = (
+            [(row[place], line) for row, line in zip(rows, lines, strict=True) for place in some]
+            for some in (read, measured - read)
+        )
+        decimals = Decimals.of(path, printed, beside)
     if decimals != Decimals():
         rows = [tuple(decimals.plain(cell) if n in measured else cell for n, cell in enumerate(row)) for row in rows]
     numbers = np.array(lines, dtype=np.int64)

@@ -33,9 +33,9 @@ from viscofric.readers.headings import (
 from viscofric.readers.source import (
     LIKE_THOUSANDS,
     MASSES,
-    Decimals,
     Source,
     converted,
+    decides,
     decimal_comma,
     plain_number,
     remark,
@@ -773,16 +773,21 @@ def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
 
 def numbered_rows(path: str, cells: Sequence[Sequence[float | str]]) -> list[NumberedRow]:
     """Return the rows of a sheet that are not blank as text, with their numbers."""
-    texts = ((plain_number(cell), n) for n, row in enumerate(cells, start=1) for cell in row if isinstance(cell, str))
-    decimals = Decimals("", "," if decimal_comma(path, texts) else ".")
+    texts = [(plain_number(cell), n) for n, row in enumerate(cells, start=1) for cell in row if isinstance(cell, str)]
+    comma = any(decides(cell, ".") for cell, _ in texts) or decimal_comma(path, texts)
     rows: list[NumberedRow] = []
     for number, row in enumerate(cells, start=1):
-        shown = [_text(cell, decimals) for cell in row]
-        if any(cell.strip() for cell in shown) and remark("\t".join(shown)) is None:
+        shown = [_text(cell, comma=comma) for cell in row]
+        filled = [cell for cell in shown if cell.strip()]
+        is_remark = shown[0].lstrip().startswith("#") if len(filled) > 1 else remark("".join(filled)) is not None
+        if filled and not is_remark:
             rows.append((number, shown))
     return rows
 
 
-def _text(cell: float | str, decimals: Decimals) -> str:
-    """Write a cell as a text table would, a number with a decimal point."""
-    return decimals.plain(cell) if isinstance(cell, str) else repr(float(cell)).removesuffix(".0")
+def _text(cell: float | str, *, comma: bool) -> str:
+    """Write a cell as a text table would, with the decimal mark of the sheet's other cells."""
+    if isinstance(cell, str):
+        return cell.replace(".", ",") if comma and cell.endswith(" %") and is_number(cell) else cell
+    shown = repr(float(cell)).removesuffix(".0").replace(".", "," if comma else ".")
+    return f"{shown}0" if LIKE_THOUSANDS.fullmatch(shown) else shown  # which it is not
