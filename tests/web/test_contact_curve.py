@@ -226,7 +226,7 @@ def test_heat_and_interface_are_those_of_the_run_file(desk: Desk, tmp_path: Path
     assert "error" not in answer["parts"]["interface_friction"][0]  # that of the isothermal contact is another one
 
 
-def test_friction_of_the_interface_has_the_error_of_its_law(desk: Desk) -> None:
+def test_friction_of_the_interface_is_drawn_with_its_error(desk: Desk) -> None:
     answer = desk.run(curve, {**LINE, "interface": LAW})
     assert answer["parts"]["interface_friction"][0]["error"] == "interface_error"
     assert all(error > 0.0 for error in answer["interface_error"])

@@ -335,4 +335,8 @@ def test_heated_friction_is_drawn_beside_the_isothermal_one(browser: Browser, se
         assert all(one > 0.0 for one in found["temperature_rise"])
         tab.page.get_by_label("Shown").select_option("temperature_rise")
         tab.until(f"{_DRAWN}.filter((one) => one.y.length === 2).length === 3")
+        assert "Thin dashes: by Coulomb friction. Thin dots: by the loss." in tab.text(f"{CURVE} .figure-caption")
+        tab.page.locator(CURVE).get_by_role("button", name="Table").click()
+        heads = tab.page.locator(f"{CURVE} th").all_text_contents()
+        assert len(set(heads)) == len(heads) == 5  # speed, rise, its error, and both parts
         tab.screenshot("contact-heated")

@@ -41,9 +41,9 @@ def kind_of(data: Dataset, name: str) -> str:
     return _KINDS.get(data[name].attrs.get("units", "1"), "plain")
 
 
-def axis_in(unit: str, label: str, **look: Any) -> Spec:
+def axis_in(unit: str, label: str) -> Spec:
     """Return the axis of a number with a unit and a long name."""
-    return axis(label, _KINDS.get(unit), **look)
+    return axis(label, _KINDS.get(unit))
 
 
 def axis_of(data: Dataset, name: str, **look: Any) -> Spec:

@@ -189,7 +189,7 @@ def _parts(found: dict[str, Any]) -> dict[str, Any]:
         if name != "friction" and error in found:
             main |= {"error": error}
         style: Spec = {"mode": "lines", "width": 1.2, "legend": False}
-        beside = [{**style, "y": other, "dash": dash, "text": words} for other, dash, words in _BESIDE.get(name, [])]
+        beside = [{**style, "y": other, "dash": dash, "words": words} for other, dash, words in _BESIDE.get(name, [])]
         parts[name] = [main, *beside]
     remarks = ["<br>".join(_DOUBTS.get(word, word.replace("-", " ")) for word in words) for words in found["doubts"]]
     known = [one for one in found["friction"] if one is not None]

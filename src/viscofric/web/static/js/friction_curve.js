@@ -19,6 +19,7 @@ const DRAFT = [
   { y: "known", mode: "markers", size: 6 },
   { y: "open", mode: "markers", size: 5, open: true, legend: false },
 ];
+const DASHES = { "6px,4px": "Thin dashes", "2px,3px": "Thin dots" };
 const COLUMNS = ["y", "lower", "upper", "error", "text"];
 
 const isThere = (value) => value !== null && value !== undefined;
@@ -48,7 +49,12 @@ function curveTraces(curve, look) {
   const { view, quantity } = look;
   const parts = curve.parts?.[quantity] ?? (quantity === "friction" ? DRAFT : []);
   const lines = ofCombination(curve, look).flatMap(({ temperature, rows }) =>
-    parts.map((part) => ({ temperature, group: `T${temperature}`, ...placed(curve, view, rows, part) })),
+    parts.map(({ words, ...part }) => ({
+      temperature,
+      group: `T${temperature}`,
+      ...placed(curve, view, rows, part),
+      ...(words && { name: `${units.show(temperature, "temperature")}, ${words}` }),
+    })),
   );
   // the legend is there from the start
   const shown = lines.filter((trace) => trace.x.length > 0 || trace.legend !== false);
@@ -145,16 +151,17 @@ const pointsOf = ({ friction, speed }) => {
 const endOf = ({ cancelled, seconds }) =>
   cancelled ? "Cancelled." : `${pointsOf(curve.result)} in ${units.plainNumber(seconds, 2)} s`;
 
-function caption(shownCurve, shifted) {
+function caption(shownCurve, look) {
   if (!hasPoints(shownCurve)) return before ? "Grey: previous curve." : "";
-  const { parts: whole, lower, doubts } = shownCurve;
-  const known = whole
-    ? lower?.some((value) => value !== null) && "Bands: 95 %, from the material's uncertainty."
-    : "Filled points have the requested accuracy; open ones are interpolated and may still be refined.";
+  const { parts: whole, doubts } = shownCurve;
+  const [main, ...beside] = whole?.[look.quantity] ?? [];
   const parts = [
-    shifted &&
+    look.view === "shifted" &&
       "Each temperature is shifted by its shift factor: where the curves coincide, time–temperature superposition holds.",
-    known,
+    !whole && "Filled points have the requested accuracy; open ones are interpolated and may still be refined.",
+    main?.lower && "Bands: 95 %, from the material's uncertainty.",
+    main?.error && "Bars: estimated error.",
+    ...beside.map(({ dash, words }) => `${DASHES[dash]}: ${words}.`),
     whole && doubts.some((words) => words.length > 0) && "Ringed points are doubtful.",
   ];
   return parts.filter(Boolean).join(" ");
@@ -175,7 +182,7 @@ function drawing(shownCurve, live) {
   return {
     of: shownCurve,
     title: `${axis.label[0].toUpperCase()}${axis.label.slice(1)} against ${shifted ? "reduced speed" : "speed"}`,
-    caption: curve.error ? "Previous curve." : caption(shownCurve, shifted),
+    caption: curve.error ? "Previous curve." : caption(shownCurve, look),
     hint: !curve.error && hasPoints(shownCurve) && "Click a point to see its contact below; hover to see its numbers and doubts.",
     x: { label: speed, kind: "speed", log: true, range: speedsOf(shownCurve, look) },
     y: { ...axis, log: state.view("curve.log", false), zero: 1.06 },
