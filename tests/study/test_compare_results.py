@@ -58,6 +58,16 @@ def test_line_contacts_are_the_same_as_themselves_and_no_point_contacts(tmp_path
     assert ends.largest == ends.rms == 1.0
 
 
+@pytest.mark.parametrize("name", ["contact_area_fraction", "corrected_area_fraction", "mean_gap"])
+def test_numbers_of_rough_contacts_are_compared(tmp_path: Path, name: str) -> None:
+    results = made(tmp_path / "a")
+    cases = results.tree["prediction"]
+    cases[name] = cases["indentation"].copy(deep=True)
+    found = vf.compare_results(results, changed(results, tmp_path / "b", name, 1.05, 7))
+    assert [one.name for one in found.differences if not one.equal] == [name]
+    assert difference(found, name).in_errors is None  # on their grid, without a stated error
+
+
 def test_the_largest_difference_is_found_where_it_is(tmp_path: Path) -> None:
     results = made(tmp_path / "a")
     sweep = made_sweep()

@@ -19,12 +19,12 @@ from viscofric.notes import Note, table_in
 from viscofric.showing import Rows, Shown
 from viscofric.study.results.case_table import CaseTable, common_cases
 
-#: Variables that are compared -> the variable with its stated error.
+#: Variables that are compared -> the variable with its stated error; those of rough contacts, on their grid, have none.
 COMPARED = {
-    name: ERRORS[name]
+    name: ERRORS.get(name, "")
     for name in (
         *("friction_coefficient", "indentation", "contact_area", "front", "rear", "half_width"),
-        *("max_pressure", "centre_of_pressure"),
+        *("max_pressure", "centre_of_pressure", "contact_area_fraction", "corrected_area_fraction", "mean_gap"),
     )
 }
 #: Variables without a stated error agree within the accuracy, or within this if it is unknown.
