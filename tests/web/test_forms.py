@@ -11,7 +11,7 @@ from viscofric.web.forms import FORMS
 from viscofric.web.forms.contact import SHAPES
 from viscofric.web.jobs import export_card, export_study, identify, master, motion
 from viscofric.web.study_text import study_of
-from web.run_file_schema import found
+from web.run_file_schema import found, keys
 
 _FIELDS = [
     pytest.param(field, id=f"{form}:{field['path']}")
@@ -31,6 +31,33 @@ _KINDS = {
     "degC": {"temperature"},
     "s": {"time"},
 }
+
+
+#: Keys that are in no form, on purpose: the page keeps them and shows them in the run file.
+WITHOUT_A_FORM = {
+    # set where files are dropped, or materials, columns and points are chosen
+    *("title", "data_origin", "measurement.curves", "measurement.mtm", "measurement.columns"),
+    *("material.dma", "material.creep", "material.relaxation", "material.ramps", "material.amplitude_sweep"),
+    *("material.master_curve", "material.file", "material.catalogue", "material.columns"),
+    *("material.shift_factors", "material.fixed_shift_factors"),
+    # of run files alone
+    *("author", "citation", "comment", "licence", "sample"),
+    *("cluster.account", "cluster.cores", "cluster.extra", "cluster.jobs", "cluster.memory", "cluster.prologue"),
+    *("cluster.queue", "cluster.walltime", "sweep.together", "outputs.formats", "conditions.thickness"),
+    *("material.shift_by", "material.shift_weights", "material.shift_factor_columns", "material.shift_factor_sheet"),
+    *("interface.activation_energy", "interface.reference", "interface.area_error", "interface.level_error"),
+    *("solver.cases", "solver.master_curve_points", "uncertainty.members", "uncertainty.seed"),
+    # the page solves motions and impacts one by one
+    *("history.before", "history.columns", "history.cycle", "history.sheet"),
+    *("impact.gravity", "impact.mass", "impact.speed"),
+    # of instrument files, and of patterns
+    *("surface.channel", "surface.missing", "surface.exact", "surface.lines", "surface.period"),
+    *("surface.angle", "surface.aspect", "surface.longest", "surface.rms_height"),
+}
+
+
+def test_a_key_in_no_form_is_left_out_on_purpose() -> None:
+    assert keys() - {field["path"] for fields in FORMS.values() for field in fields} == WITHOUT_A_FORM
 
 
 @pytest.mark.parametrize("field", _FIELDS)
