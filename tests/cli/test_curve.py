@@ -14,6 +14,7 @@ import pytest
 import viscofric as vf
 from cli import calls
 from rheology.planted import write_moduli
+from viscofric.cli.curve import command
 from viscofric.cli.speed_options import chosen_speeds
 from viscofric.rheology.spectra.quality import SpectrumFit
 
@@ -21,6 +22,16 @@ DMA = str(files("viscofric") / "example" / "dma.csv")
 RUBBER = ("--material", "synthetic fluoroelastomer")
 SINGLE = ("--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms")
 BALL = ("--ball", "9.525 mm", "--load", "25 N", "--accuracy", "0.02")
+#: Options of which the inputs in JSON tell what they make: rubber, indenter, layer, and heating.
+OF_PARTS = (
+    *("dma", "columns", "deformation", "modulus_unit", "sheet", "leave_out_temperatures", "reference", "synthetic"),
+    *("rubber_modulus", "glass_modulus", "tau", "poisson_ratio"),
+    *("ball", "cylinder", "ellipsoid", "cone", "profile", "height_map", "height_unit", "spacing"),
+    *("indenter_modulus", "indenter_poisson_ratio", "sliding_base"),
+    *("heating_coulomb", "heating_slip", "heating_rubber", "heating_average", "heating_branch", "heating_track"),
+)
+#: The results have speeds and temperatures.
+NO_INPUTS = ("speeds", "points", "temperatures", "out", "picture", "as_json")
 HERTZ = (0.1, 0.3, 1, 3, 10, 30, 100)
 
 
@@ -64,6 +75,7 @@ def test_json_shows_inputs_and_points() -> None:
     assert found["inputs"]["material"]["E0"] == 1e6
     assert (found["inputs"]["load"], found["inputs"]["layer"]) == (100.0, None)
     assert found["inputs"]["indenter"] == {"shape": "cylinder", "radius": 0.01, "elastic": None}
+    assert {one.name for one in command.params} - found["inputs"].keys() == {*OF_PARTS, *NO_INPUTS}
 
 
 def test_points_at_frequencies_that_were_not_measured_are_marked(tmp_path: Path) -> None:
