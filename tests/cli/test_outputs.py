@@ -20,7 +20,7 @@ from readers.samples import workbook
 from study.sweeps import made_results
 from viscofric.cli import main, run
 from viscofric.cli.files import FOLDER, OUT, Written
-from viscofric.cli.keys import KeyOption, _written
+from viscofric.cli.keys import KeyOption
 from viscofric.study.run_file.study import TABLES
 
 SOLID = ["--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms"]
@@ -101,17 +101,6 @@ def test_options_of_keys_offer_what_the_run_file_knows(name: str) -> None:
         assert one.help, one.name
         assert one.help.count("default: ") <= 1, one.name
         assert f"e.g. '{about.get('default')}'" not in one.help, one.name
-
-
-@pytest.mark.parametrize("name", ["curve", "solve", "transient"])
-def test_help_of_contacts_reads_keys_without_the_tables(name: str) -> None:
-    """Importing pydantic and the tables takes longer than all else of the help."""
-    keyed = [one for one in ALL[name].params if isinstance(one, KeyOption) and one.key.table in ("material", "heating")]
-    assert keyed
-    for one in keyed:
-        home = f"viscofric.study.run_file.{one.key.table}"
-        simple = _written(home, f"{one.key.table.capitalize()}Table", one.key.key) is not None
-        assert simple or (one.help and one.metavar), one.name
 
 
 def strict(text: str) -> Any:

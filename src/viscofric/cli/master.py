@@ -104,7 +104,7 @@ def command(
         inputs = {"sources": [plainly(str(path)) for path in sources], "shift": parameters["known"]}
         inputs |= {name: parameters[name] for name in ("law", "level_error")}
         inputs |= {name: optional_si(parameters[name], unit) for name, unit in (("reference", "K"), ("ball", "m"))}
-        overlap = {name: getattr(master, f"overlap_{name}") for name in ("rms", "error", "points", "sentence")}
+        overlap = {name: getattr(master.overlap, name) for name in ("rms", "error", "points", "sentence")}
         return json_record(
             "friction shift 2",
             inputs | separation_record(parameters),
