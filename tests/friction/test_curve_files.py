@@ -300,6 +300,11 @@ def test_columns_of_a_lubricated_test_are_noted(tmp_path: Path) -> None:
     found = read(tmp_path, f"{header}\n20,25,0.2,0.1,8e-5\n", columns=columns)
     assert {"lubricated", "unused-columns"} <= set(codes(found.notes))
     assert "lubricated" not in codes(read(tmp_path, "speed (mm/s),load (N),COF\n20,25,0.2\n", columns=columns).notes)
+    thin = read(tmp_path, "speed (mm/s),load (N),COF,viscosity (mPa s)\n20,25,0.2,5\n", columns=columns)
+    assert "unit-assumed" not in codes(thin.notes)
+    for dry in ("", "none", "Dry"):
+        held = read(tmp_path, f"speed (mm/s),load (N),COF,lubricant\n20,25,0.2,{dry}\n", columns=columns)
+        assert "lubricated" not in codes(held.notes)
     runs = tmp_path / "runs.csv"
     runs.write_text("disc speed (mm/s),ball speed (mm/s),load (N),traction force (N),Lubricant\n20,18,25,0.2,PAO\n")
     assert "lubricated" in codes(vf.read_mtm(runs, columns=columns).notes)
@@ -322,6 +327,13 @@ def test_sliding_friction_of_both_directions_is_refused(tmp_path: Path, friction
     with refused("both-directions", DataFileError):
         read(tmp_path, f"speed (mm/s),{friction}\n20,0.41\n20,-0.38\n", columns=columns)
     assert read(tmp_path, f"speed (mm/s),{friction}\n20,0.41\n200,-0.01\n", columns=columns).viscoelastic.min() < 0.0
+
+
+def test_friction_below_zero_within_its_error_is_of_no_other_direction(tmp_path: Path) -> None:
+    header = "speed (mm/s),COF,viscoelastic friction standard error"
+    table = f"{header}\n20,0.06,0.03\n200,-0.02,0.03\n"
+    found = read(tmp_path, table, columns={"temperature": "= 30 degC", "load": "= 1 N"})
+    assert found.viscoelastic.tolist() == [0.06, -0.02]
 
 
 def test_headings_of_curves_are_found_as_those_of_any_table(tmp_path: Path) -> None:

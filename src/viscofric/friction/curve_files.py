@@ -14,6 +14,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError, short_notes
 from viscofric.files import file_path, marked, says_synthetic, write_atomically
+from viscofric.friction.curve_checks import CLEAR_OF_ZERO
 from viscofric.friction.curve_words import COLUMNS, CURVES
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
@@ -43,7 +44,7 @@ _MOST_REPLICATES = 1e9
 _OF_HEADINGS = ("two-values", "number-without-unit", "dash-or-minus", "quantity-unknown")
 #: Larger numbers under headings such as "5 N" are not taken for coefficients of friction.
 _LARGEST_UNNAMED = 2.0
-#: Sliding friction below zero by more than this part of the largest is that of the other direction.
+#: Sliding friction below zero by more than this part of the largest, and than its error, is of the other direction.
 _LEAST_BACKWARDS = 0.1
 #: Heading of coefficients computed here, and its beginning.
 _OF_FORCES = "friction force over load"
@@ -170,7 +171,9 @@ def read_friction_curves(
     if _is_any_friction(column := table.columns[places["viscoelastic"]]):
         said = f"Column {column.heading!r} was read as viscoelastic friction; friction measured in sliding includes "
         notes.append(Note("total-friction", said + "Coulomb friction, which must be subtracted first."))
-        if found["viscoelastic"].min() < -_LEAST_BACKWARDS * np.max(np.abs(found["viscoelastic"])):
+        friction, scatter = found["viscoelastic"], found.get("viscoelastic_error", np.inf)
+        beyond = np.where(np.isfinite(scatter), CLEAR_OF_ZERO * scatter, 0.0)
+        if np.any(-friction > np.maximum(beyond, _LEAST_BACKWARDS * np.max(np.abs(friction)))):
             problem = (
                 f"column {column.heading!r} has values below zero, as of both directions of motion; give the mean "
             )

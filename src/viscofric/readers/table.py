@@ -49,6 +49,8 @@ NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _PLAIN, _NEVER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,2})?", re.ASCII), re.compile(r"(?!)")
 #: Written for MPa; moduli and stresses of solids are not measured in millipascals.
 MILLIPASCAL = "mPa"
+#: Cells of a column of lubricants where there is none.
+DRY = ("", "-", "–", "0", "no", "none", "dry", "nein", "keiner", "ohne", "trocken", "non", "aucun", "sec")
 #: Labels of rows that summarise others: a mean, or how far the others scatter.
 _OF_SUMMARIES = re.compile(
     r"(?P<mean>mean( value)?|average|avg|median|mittelwert|mittel|moyenne|media|promedio)"
@@ -237,9 +239,11 @@ class Table:
         alone = next((repr(column.heading) for column in self.columns if column.alone), "")
         masses = [repr(one.heading) for one in self.columns if one.quantity and one.unit in MASSES]
         above = [repr(column.heading) for column in self.columns if column.above]
-        wet = [repr(column.heading) for column in self.columns if column.quantity == "lubricant"]
+        films = [place for place, column in enumerate(self.columns) if column.quantity == "lubricant"]
+        wet = [repr(self.columns[place].heading) for place in films if not self._is_dry(place)]
         spread = [repr(column.heading) for column in self.columns if column.spread]
-        milli = [repr(column.heading) for column in self.columns if column.quantity and MILLIPASCAL in column.unit]
+        solid = [column for place, column in enumerate(self.columns) if column.quantity and place not in films]
+        milli = [repr(column.heading) for column in solid if MILLIPASCAL in column.unit]
         headings = {column.heading for column in self.columns}
         said: list[tuple[str, object, str]] = [
             ("decadic-logarithms", decadic, f"Read as decadic logarithms: {' and '.join(decadic)}."),
@@ -269,6 +273,10 @@ class Table:
             other = ", or from the line above each table" if what == "temperature" else ""
             said.append((f"{what}-from-title", name in headings, f"{text}{other}."))
         return [Note(code, text) for code, holds, text in said if holds]
+
+    def _is_dry(self, place: int) -> bool:
+        """Return whether all cells of a column of lubricants say that there is none."""
+        return all(row[place].strip().lower() in DRY for row in self.rows)
 
     def unused(self, used: Collection[int | None]) -> list[Column]:
         """Return the columns with a name at all other places."""
