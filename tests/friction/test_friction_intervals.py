@@ -12,7 +12,7 @@ from scipy.stats import t as student
 
 from friction.made_runs import FOUR, friction_curves, timed_sweeps, traction_runs
 from refusals import refused
-from viscofric.friction.curve_checks import relative_errors, shared_level
+from viscofric.friction.curve_checks import shared_level, standard_errors
 from viscofric.friction.measurement.errors import Pool, Scatter
 from viscofric.friction.measurement.tribometry import separate
 from viscofric.notes import codes
@@ -283,4 +283,4 @@ def test_identification_weighs_pooled_errors_once() -> None:
     curves = separate(timed_sweeps(np.geomspace(0.02, 0.2, 12), variation=0.04, anew=True, seed=5))
     own = curves.viscoelastic_error / curves.viscoelastic
     # Drawn towards the common scatter, which is two thirds to 1.3 times the larger one of own and pooled.
-    assert np.max(np.abs(np.log(relative_errors(curves) / own))) < np.log(2.0)
+    assert np.max(np.abs(np.log(standard_errors(curves) / curves.viscoelastic / own))) < np.log(2.0)

@@ -62,15 +62,26 @@ SHARED_BY_SPEEDS = "errors-shared-by-speeds"
 
 def clear_of_zero(friction: Array, error: Array) -> bool:
     """Whether all friction (n,) is so far above zero that its logarithm has a normal error; unknown errors are none."""
-    return bool(np.all(friction > CLEAR_OF_ZERO * np.where(np.isfinite(error), error, 0.0)))
+    return bool(np.all(are_clear_of_zero(friction, error)))
+
+
+def are_clear_of_zero(friction: Array, error: Array) -> Mask:
+    """Return for each point (n,) whether its friction is so far above zero."""
+    return np.asarray(friction > CLEAR_OF_ZERO * np.where(np.isfinite(error), error, 0.0))
 
 
 def friction_unit(curves: FrictionCurves) -> Array:
-    """Return what errors of friction are relative to, (n,): friction itself, or the largest if some is near zero."""
-    friction = np.maximum(np.abs(curves.viscoelastic), np.finfo(float).tiny)
-    if clear_of_zero(curves.viscoelastic, curves.viscoelastic_error):
+    """Return what errors of friction are relative to, (n,): friction itself, or the largest.
+
+    It is the largest if some is near zero and the errors are then more alike, as those of a force cell are.
+    """
+    friction, error = np.maximum(np.abs(curves.viscoelastic), np.finfo(float).tiny), curves.viscoelastic_error
+    known = np.isfinite(error) & (error > 0.0)
+    if clear_of_zero(curves.viscoelastic, error) or not np.any(known):
         return friction
-    return np.full(len(friction), friction.max())
+    sizes = np.maximum(friction, np.where(known, error, 0.0))
+    of_friction, of_largest = np.log(error[known] / sizes[known]), np.log(error[known])
+    return sizes if np.std(of_friction) < np.std(of_largest) else np.full(len(friction), friction.max())
 
 
 def shared_level(curves: FrictionCurves) -> float:
@@ -98,9 +109,9 @@ def error_freedom(curves: FrictionCurves) -> tuple[Array, tuple[Note, ...]]:
     if curves.viscoelastic_freedom is not None:
         return np.maximum(curves.viscoelastic_freedom, 1.0), ()
     freedom = np.where(curves.replicates > 1, curves.replicates - 1.0, np.inf)
-    # Near zero it is friction that scatters in a relative error, which is then taken over the largest friction.
+    # Of points near zero it is friction that scatters in a relative error.
     relative = curves.viscoelastic_error / friction_unit(curves)
-    wanted = np.isinf(freedom) & np.isfinite(relative) & (relative > 0.0)
+    wanted = np.isinf(freedom) & (relative > 0.0) & (relative < 1.0 / CLEAR_OF_ZERO)
     squares, count = 0.0, 0
     for isotherm in nominal_rows(curves.temperature):
         rows = isotherm[wanted[isotherm]]
@@ -216,20 +227,21 @@ def outlying_points(speed: Array, temperature: Array, away: Array, *, relative: 
     return (note,)
 
 
-def relative_errors(curves: FrictionCurves) -> Array:
-    """Return standard errors over `friction_unit`, moderated towards the common one."""
+def standard_errors(curves: FrictionCurves) -> Array:
+    """Return standard errors of friction, moderated towards the common one relative to `friction_unit`."""
     # The scatter of few replicates is a poor estimate, with an error of a quarter for eight; weights by it would make
     # the fit worse than its errors. With ν0 the freedom of the common variance s0², that of a point is (ν0 s0² + ν
     # s²)/(ν0 + ν); ν0 follows from the scatter of ln s² beyond chance. The error of a mean then has Student's
     # distribution of ν0 + ν degrees of freedom, whose variance is larger by (ν0 + ν)/(ν0 + ν − 2) (G. K. Smyth, Stat.
     # Appl. Genet. Mol. Biol. 3 (2004) 3).
-    errors = curves.viscoelastic_error / friction_unit(curves)
+    unit = friction_unit(curves)
+    errors = curves.viscoelastic_error / unit
     freedom, _ = error_freedom(curves)
     known = np.isfinite(freedom) & (errors > 0.0)
     if np.count_nonzero(known) < FEWEST_ERRORS:
-        return np.asarray(errors)
+        return curves.viscoelastic_error
     errors[known] = np.sqrt(moderated_variances(errors[known] ** 2, freedom[known]))
-    return np.asarray(errors)
+    return np.asarray(errors * unit)
 
 
 def moderated_variances(variances: Array, freedom: Array) -> Array:

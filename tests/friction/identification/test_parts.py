@@ -237,18 +237,29 @@ def test_points_that_cannot_be_used_are_reported() -> None:
 
 
 def test_friction_that_is_not_clear_of_zero_counts_as_it_is() -> None:
-    """A point below zero, within its error, is data: μ itself is then fitted, whose error is normal, not ln μ."""
+    """A point below zero, within its error, is data: μ itself is fitted there, whose error is normal, not ln μ."""
     speed, error = np.geomspace(0.02, 0.2, 8), 1e-3
     friction = np.where(speed == speed[2], -5e-4, 0.01)
     points = usable_points(curves_of(speed, np.full(8, 300.0), friction, error), BALL, None, 1e-6)
     missed, slope = points.missed(np.log(np.full(8, 4e-3)))
-    np.testing.assert_allclose(missed / points.error, (4e-3 - friction) / error, rtol=1e-4)
-    np.testing.assert_allclose(slope / points.error, 4e-3 / error, rtol=1e-4)
+    expected = np.where(friction < 0.0, 4e-3 - friction, 0.01 * np.log(4e-3 / 0.01))
+    np.testing.assert_allclose(missed / points.error, expected / error, rtol=1e-4)
+    np.testing.assert_allclose(slope / points.error, np.where(friction < 0.0, 4e-3, 0.01) / error, rtol=1e-4)
     np.testing.assert_allclose(
         points.at_one_load(curves_of(speed, np.full(8, 300.0), friction, error)).viscoelastic, friction
     )
-    clear = usable_points(curves_of(speed, np.full(8, 300.0), np.abs(friction) + 0.01, error), BALL, None, 1e-6)
-    np.testing.assert_allclose(clear.missed(clear.log_scale + 0.3)[0], 0.3)
+
+
+def test_points_keep_their_weights_beside_one_near_zero() -> None:
+    """Friction over three decades, known to 2 %: what is solved to 1 % adds this to each point, not to the largest."""
+    speed, friction = np.geomspace(0.02, 0.2, 12), np.geomspace(1e-4, 0.1, 12)
+    alone = usable_points(curves_of(speed, np.full(12, 300.0), friction, 0.02 * friction), BALL, None, 0.01)
+    beside = np.append(friction, 1e-5)
+    near = curves_of(np.append(speed, 0.01), np.full(13, 300.0), beside, np.append(0.02 * friction, 1e-5))
+    points = usable_points(near, BALL, None, 0.01)
+    np.testing.assert_allclose(points.error[:-1], alone.error, rtol=1e-9)
+    assert points.error[-1] == pytest.approx(1.0, rel=1e-3)
+    np.testing.assert_allclose(points.missed(points.log_scale + 0.3)[0][:-1], 0.3)
 
 
 def test_errors_that_nobody_gave_are_those_of_the_scatter() -> None:

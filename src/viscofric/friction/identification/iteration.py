@@ -125,7 +125,8 @@ def identify(
         floor = next(floors, 0.0)
         fits = weighed(here.problem.blurred(floor), here.place)
         best = most_evident(fits)
-        change = here.problem.modelled(best.minimum.place)[0] - here.problem.modelled(here.place)[0]
+        before, after = (here.problem.measured(place)[0][: len(errors)] for place in (here.place, best.minimum.place))
+        change = errors * (after - before)
         small = np.hypot(SETTLED * errors, KNOWN_TO * here.accuracy)
         settled = floor == 0.0 and float(np.sqrt(np.mean((change / small) ** 2))) < 1.0
         if settled and here.accuracy == accuracy:

@@ -12,11 +12,10 @@ from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import (
-    clear_of_zero,
+    are_clear_of_zero,
     error_freedom,
-    friction_unit,
-    relative_errors,
     scatter_about_parabolas,
+    standard_errors,
 )
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
@@ -35,9 +34,9 @@ class Points:
 
     log_speed: Array  # (n,), ln of the speed at which the rubber is deformed, of a similar contact under `load`; m/s
     log_load: Array  # (n,), ln of the load over `load`, zero where similarity accounts for it
-    log_scale: Array  # (n,), ln of a scale of μ of that contact: μ itself, or the largest where some are near zero
+    log_scale: Array  # (n,), ln of a scale of μ of that contact: of its magnitude, or of its error where that is larger
     friction: Array  # (n,), μ over the scale
-    logarithmic: bool  # whether ln μ is fitted: all points are clear of zero; else μ itself, which then may be below
+    logarithmic: Mask  # (n,), whether ln μ is fitted: points clear of zero; else μ itself, which then may be below
     error: Array  # (n,), standard error of μ over the scale
     temperatures: Array  # (t,), different ones, ascending, K
     number: Integers  # (n,), index of each point's temperature
@@ -68,15 +67,13 @@ class Points:
     def missed(self, log_friction: Array) -> tuple[Array, Array]:
         """Return modelled minus measured friction over the scale, or of ln μ, and the derivative by ln μ, (n,) each."""
         relative = log_friction - self.log_scale
-        if self.logarithmic:
-            return relative, np.ones(len(self))
-        ratio = np.exp(relative)
-        return ratio - self.friction, ratio
+        ratio = np.exp(np.where(self.logarithmic, 0.0, relative))
+        return np.where(self.logarithmic, relative, ratio - self.friction), ratio
 
     def chosen(self, keep: Mask) -> Points:
         """Return some of the points, by a mask (n,)."""
-        columns = ("log_speed", "log_load", "log_scale", "friction", "error", "number", "forces", "raised", "rows")
-        return replace(self, **{name: getattr(self, name)[keep] for name in (*columns, "shared")})
+        columns = ("log_speed", "log_load", "log_scale", "friction", "logarithmic", "error", "number", "forces")
+        return replace(self, **{name: getattr(self, name)[keep] for name in (*columns, "raised", "rows", "shared")})
 
 
 def usable_points(
@@ -133,7 +130,7 @@ def usable_points(
         )
     friction = curves.viscoelastic[rows]
     own = curves.viscoelastic_error[rows]
-    size, scale = np.maximum(np.abs(friction), own), friction_unit(curves.select(rows))
+    size = np.maximum(np.abs(friction), own)
     if not np.all(np.maximum(friction, own) > 0.0):
         worst = rows[int(np.argmin(np.maximum(friction, own)))]
         raise InputError(
@@ -159,10 +156,10 @@ def usable_points(
     return Points(
         log_speed=np.log(curves.speed[rows]) - rule.size * relative,
         log_load=np.zeros(len(rows)) if alike else relative,
-        log_scale=np.log(scale) - rule.strain * relative,
-        friction=friction / scale,
-        logarithmic=clear_of_zero(friction, own),
-        error=np.hypot(relative_errors(curves.select(rows)), least_error),
+        log_scale=np.log(size) - rule.strain * relative,
+        friction=friction / size,
+        logarithmic=are_clear_of_zero(friction, own),
+        error=np.hypot(standard_errors(curves.select(rows)) / size, least_error),
         temperatures=temperatures,
         number=number.astype(np.int64),
         load=middle,

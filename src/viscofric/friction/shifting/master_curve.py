@@ -20,7 +20,7 @@ from viscofric.friction.curve_checks import (
     error_freedom,
     outliers,
     outlying_points,
-    relative_errors,
+    standard_errors,
 )
 from viscofric.friction.curve_words import LABELS
 from viscofric.friction.curves import FrictionCurves
@@ -424,7 +424,7 @@ class FrictionMasterCurve(Plotted):
         sharing = self.level_error * (np.unique(kelvin)[:, None] == kelvin)
         points, error = self.curves_at_load, self.friction_error
         if self._averaged:
-            error = self.friction_coefficient * relative_errors(points)[self._order]
+            error = standard_errors(points)[self._order]
         return SmoothedPoints(np.log10(self.reduced_speed), self.friction_coefficient, error, sharing)
 
     @cached_property
