@@ -43,7 +43,9 @@ _HDF5 = b"\x89HDF\r\n\x1a\n"
 # Below the space, but for tabs and ends of lines.
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
 # In remarks of files, unless it is the kind of a substance, which may well be measured.
-_SYNTHETIC = re.compile(r"\bsynthetic\b(?!\s+(rubber|elastomer|polymer|oil|grease|lubricant))", re.IGNORECASE)
+_SUBSTANCE = "(natural )?rubber|caoutchouc|elastomer|(poly)?isoprene|polymer|resin|fib(re|er)|leather|silica|graphite"
+_FLUID = "(base )?oil|ester|grease|lubricant|sweat|sebum|saliva"
+_SYNTHETIC = re.compile(rf"(?<!not )(?<!non-)\bsynthetic\b(?!\s+({_SUBSTANCE}|{_FLUID}))", re.IGNORECASE)
 #: Code of the note on such files, by which a material that is made of them is synthetic, too.
 SYNTHETIC = "synthetic"
 _OF_ELEMENT = re.compile(r">([^<]+)<")

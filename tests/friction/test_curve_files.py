@@ -497,6 +497,23 @@ def test_a_temperature_of_all_rows_is_not_that_of_another_heading(tmp_path: Path
     ]
 
 
+@pytest.mark.parametrize(
+    ("remark", "made"),
+    [
+        ("synthetic data", True),
+        ("synthetic fluoroelastomer", True),  # of the catalogue
+        ("synthetic polyisoprene IR 2200", False),
+        ("counterface: synthetic leather", False),
+        ("in synthetic base oil", False),
+        ("measured, not synthetic", False),
+    ],
+)
+def test_substances_that_are_synthetic_may_be_measured(tmp_path: Path, remark: str, made: bool) -> None:
+    path = tmp_path / "data.csv"
+    path.write_text(f"# {remark}\nspeed (mm/s)\n20\n")
+    assert says_synthetic(path) is made
+
+
 def test_what_synthetic_runs_and_rubbers_give_is_synthetic_after_writing_and_reading(tmp_path: Path) -> None:
     """Also where the remark of a table is left behind, and in workbooks; measured friction is not."""
     first, again, other = (tmp_path / name for name in ("one.csv", "two.csv", "other.csv"))
