@@ -176,7 +176,12 @@ def to_si(value: Quantity, unit: str, name: str = "value") -> float:
     return number if abs(number) >= SMALLEST else 0.0
 
 
-def _in_si(value: Quantity, unit: str, name: str) -> float:
+def as_printed(value: Quantity, name: str) -> float:
+    """Return a pure number that is compared with those of a file, and so may be of any size."""
+    return _in_si(value, "dimensionless", name, largest=np.inf)
+
+
+def _in_si(value: Quantity, unit: str, name: str, largest: float = LARGEST) -> float:
     """Return a value in an SI unit, finite and not too large for computations."""
     if isinstance(value, float) and abs(value) <= LARGEST:  # as in each step of a fit, where the rest takes most time
         return float(value)
@@ -193,7 +198,7 @@ def _in_si(value: Quantity, unit: str, name: str) -> float:
             raise _wrong("not-a-number", name, value, unit, f"is not {kind} but {error}") from None
     if not np.isfinite(number):
         raise _wrong("not-finite", name, value, unit, "is not a finite number")
-    if abs(number) > LARGEST:
+    if abs(number) > largest:
         raise _wrong("too-large", name, value, unit, f"is beyond {LARGEST:g}, too large for computations")
     return number
 

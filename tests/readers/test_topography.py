@@ -164,6 +164,13 @@ def test_the_number_of_a_missing_height_is_in_the_units_of_the_file(tmp_path, he
     assert np.nanmin(found.heights) == pytest.approx(1e-6)
 
 
+@pytest.mark.parametrize("mark", [1e-300, -1e-300, -1.7976931348623157e308])
+def test_the_number_of_a_missing_height_is_compared_as_printed_whatever_its_size(tmp_path, mark):
+    path = write(tmp_path, f"0,1,0\n4,{mark},6\n")
+    found = vf.read_topography(path, spacing="1 um", unit="um", missing=mark)
+    assert np.argwhere(np.isnan(found.heights)).tolist() == [[1, 1]]
+
+
 def test_a_height_far_from_all_others_is_noted(tmp_path):
     for hole, suspected in ((-9999, True), (-60, False), (99999, True)):  # a scratch of 20 times the range is none
         path = write(tmp_path, f"1,2,3\n4,{hole},2\n1,2,{hole}\n")

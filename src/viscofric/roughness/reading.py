@@ -24,7 +24,7 @@ from viscofric.readers.topography.tables import (
     read_text_table,
 )
 from viscofric.roughness.topography import Topography
-from viscofric.units import Quantity, conversion, to_si, two_lengths
+from viscofric.units import Quantity, as_printed, conversion, two_lengths
 
 #: Heights of a scan that lie further apart, m, were probably read in another unit.
 _LARGE_EXTENT = 0.1
@@ -95,7 +95,7 @@ def read_topography(
     ((2, 3), '1.0e-06 m')
     """
     steps = None if spacing is None else two_lengths(spacing)
-    gap = None if missing is None else to_si(missing, "dimensionless", "missing")
+    gap = None if missing is None else as_printed(missing, "missing")
     scan = _read_scan(path, ScanOptions(unit, steps, channel, gap, lines))
     heights = checked_heights(scan.heights, path)
     notes = list(scan.notes)

@@ -103,9 +103,9 @@ class SmoothedPoints:
 
     def _slope(self, decades: Array) -> Array:
         """Return the change of the value per decade at places (m,) that lie in a stretch."""
-        low, high = np.transpose(
-            [next(ends for ends in self.stretches if one <= ends[1] + _ROUNDING) for one in decades]
-        )
+        low, high = np.transpose(self.stretches)
+        place = np.searchsorted(high + _ROUNDING, decades)
+        low, high = low[place], high[place]
         first, last = np.maximum(decades - 0.5 * BANDWIDTH, low), np.minimum(decades + 0.5 * BANDWIDTH, high)
         rise = self.read(last) - self.read(first)
         return np.asarray(np.divide(rise, last - first, out=np.zeros(decades.shape), where=last > first))

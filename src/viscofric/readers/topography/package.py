@@ -164,9 +164,10 @@ def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
         insist_on_need(source.path, options, spacing="states the spacing of its points")
     measured = channel.topography(**given)
     origin = f"read from {name_of(source)} ({reader.name()}), channel {channel.name!r}"
-    heights = factor * np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), math.nan)
+    heights: Array = np.ma.filled(np.ma.asarray(measured.heights(), dtype=float), math.nan)
     if options.missing is not None:
-        heights[np.isclose(heights, factor * options.missing, rtol=1e-12, atol=0.0)] = math.nan
+        heights = np.where(np.isclose(heights, options.missing, rtol=1e-12, atol=0.0), math.nan, heights)
+    heights = factor * heights
     if measured.dim == 1:
         return _line(source, measured, heights, factor, origin)
     steps = tuple(factor * float(step) for step in measured.pixel_size)
