@@ -140,6 +140,9 @@ def test_a_row_that_begins_with_per_cent_is_no_remark(tmp_path, heading, unit, d
     [
         *(("0 - 5 °C", None), ("NR 10 – 15 °C", None), ("T = 0 to 5 °C", None), ("Sweep 3 - 25 °C", 298.15)),
         *(("NR60 - 25 °C", 298.15), ("SBR 1500 - 25 °C", 298.15), ("T = - 25 °C", 248.15), ("NR - 25 °C", 298.15)),
+        *(("-40 - -5 °C", None), ("-40 to -20 °C", None), ("Test 23 ± 2 °C", None), ("NR 23 +/- 2 °C", None)),
+        *(("between 10 and 25 °C", None), ("#3 - 25 °C", 298.15), ("Film #3 - 25 °C", 298.15)),
+        *(("Measurement 3 - 25 °C", 298.15), ("Test 4 - -25 °C", 248.15), ("T -5 °C", 268.15)),
         *(("10:30 - 25 °C", 298.15), ("2020-01-02 - 25 °C", 298.15), ("Batch 12 - 25 °C", 298.15)),
     ],
 )

@@ -90,15 +90,18 @@ FREQUENCY_IN_NAME = re.compile(
     r"(?:^|(?<=[\s_=(,;@[]))(?P<sign>)(?P<minus>)(?P<dash>)(?P<number>\d+(?:[.,]\d+)?)\s?_?"
     rf"(?P<unit>[mk]?Hz|rad/s){_OF_A_RATE}"
 )
-#: "0 - 5" of "0 - 5 °C": a range, but not the number of a sweep or sample before a dash ("Sweep 3 - 25 °C").
+#: "0 - 5" of "0 - 5 °C": a range or a tolerance, but not the number of a sweep or sample ("Sweep 3 - 25 °C", "#3 - …").
 _RANGE = re.compile(
-    r"(?:^|(?P<word>[^\W\d_]+)[.\s#]+|[^\w.,:/-]\s*)[+−–-]?\d{1,3}(?:[.,]\d+)?\s*(?:[-–−—~…]|\.{2,3}|to|bis|à|до)\s*$"
+    r"(?:^|(?P<word>[^\W\d_]+)[.\s]+|[^\w.,:/#-]\s*)[+−–-]?\d{1,3}(?:[.,]\d+)?\s*"
+    r"(?:(?P<tolerance>±|\+/?[-−–])|[-–−—~…]|\.{2,3}|to|bis|à|до|and|und|et)\s*[+−–-]?$"
 )
 #: Words before a number that counts; "NR" is natural rubber.
 _COUNTING = frozenset(
     {"sweep", "step", "interval", "segment", "run", "set", "part", "no", "nr", "sample", "specimen", "test", "probe"}
-    | {"batch", "lot", "mix", "compound", "page", "cycle", "day", "file", "version"}
-    | {"schritt", "messung", "mischung", "charge", "échantillon", "essai", "muestra"}
+    | {"batch", "lot", "mix", "compound", "page", "cycle", "day", "file", "version", "position", "film", "coupon", "ramp"}
+    | {"measurement", "experiment", "exp", "series", "isotherm", "trial", "repeat", "replicate", "point", "block"}
+    | {"schritt", "messung", "mischung", "charge", "échantillon", "essai", "muestra", "versuch", "lauf", "zyklus"}
+    | {"serie", "prüfung", "mesure", "ensayo", "prova"}
 )
 
 
@@ -106,7 +109,7 @@ def ends_range(text: str, start: int) -> bool:
     """Return whether the number that begins there is the second one of a range, of which neither may be meant."""
     found = _RANGE.search(text[:start])
     word = (found["word"] or "") if found else ""
-    return bool(found) and (word == "NR" or word.lower() not in _COUNTING)
+    return found is not None and (bool(found["tolerance"]) or word == "NR" or word.lower() not in _COUNTING)
 
 
 def _positive_in_name(units: str) -> re.Pattern[str]:
