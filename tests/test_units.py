@@ -85,6 +85,7 @@ def test_units_that_are_read_without_pint_are_those_of_pint(unit: str, text: str
         ("25", "N", ("no-unit",)),
         ("5 Pas", "Pa", ("wrong-unit",)),  # no plural of pascal
         ("5 kNs", "N", ("wrong-unit",)),
+        ("5 cPas", "Pa", ("wrong-unit",)),
         ("", "N", ("empty",)),
         ("1e400 N", "N", ("not-finite",)),
         ("5 foo", "N", ("unknown-unit", "'foo'")),

@@ -85,7 +85,7 @@ _PARTED = re.compile(
     r"(?P<number>[+-]?[0-9]{1,3}(?:(?P<mark>[ ,'’\u00a0\u202f])[0-9]{3})+(?:\.[0-9]+)?)\s*(?P<unit>[^0-9,.\s][^,]*|)"
 )
 #: "mPas", "Ns": products with the second, in which pint would see the plurals of pascal and newton.
-_TIMES_SECOND = re.compile(r"(?<![^\W\d_])([munkhMG]?(?:Pa|N|Hz|J|K))s(?![^\W_])")
+_TIMES_SECOND = re.compile(r"(?<![^\W\d_])((?:[cdhkmnuGMT]|da)?(?:Pa|N|Hz|J|K))s(?![^\W_])")
 # A unit is names with single-digit exponents, multiplied and divided; pint gets nothing else to evaluate.
 _LONGEST_UNIT = 40
 _TERM = r"[^\W\d]+(?:\s?(?:\*\*|\^)\s?(?:-?[0-9]|\(-?[0-9]\))|⁻?[¹²³])?(?![0-9⁻¹²³^])"

@@ -295,16 +295,16 @@ def test_forces_of_friction_are_read_as_coefficients_in_any_unit(tmp_path: Path,
 
 
 def test_columns_of_a_lubricated_test_are_noted(tmp_path: Path) -> None:
-    header = "speed (mm/s),load (N),COF,viscosity (Pa s),Hersey number"
+    header = "speed (mm/s),load (N),COF,viscosity (mPa s),Hersey number"
     columns = {"temperature": "= 30 degC"}
-    found = read(tmp_path, f"{header}\n20,25,0.2,0.1,8e-5\n", columns=columns)
+    found = read(tmp_path, f"{header}\n20,25,0.2,100,8e-5\n", columns=columns)
     assert {"lubricated", "unused-columns"} <= set(codes(found.notes))
     assert "lubricated" not in codes(read(tmp_path, "speed (mm/s),load (N),COF\n20,25,0.2\n", columns=columns).notes)
-    thin = read(tmp_path, "speed (mm/s),load (N),COF,viscosity (mPa s)\n20,25,0.2,5\n", columns=columns)
-    assert "unit-assumed" not in codes(thin.notes)
+    assert "unit-assumed" not in codes(found.notes)
     for dry in ("", "none", "Dry"):
-        held = read(tmp_path, f"speed (mm/s),load (N),COF,lubricant\n20,25,0.2,{dry}\n", columns=columns)
-        assert "lubricated" not in codes(held.notes)
+        header = "speed (mm/s),load (N),COF,viscosity (mPas),lubricant"
+        held = read(tmp_path, f"{header}\n20,25,0.2,,{dry}\n", columns=columns)
+        assert not {"lubricated", "unit-assumed"} & set(codes(held.notes))
     runs = tmp_path / "runs.csv"
     runs.write_text("disc speed (mm/s),ball speed (mm/s),load (N),traction force (N),Lubricant\n20,18,25,0.2,PAO\n")
     assert "lubricated" in codes(vf.read_mtm(runs, columns=columns).notes)

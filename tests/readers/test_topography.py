@@ -381,6 +381,7 @@ def test_matrices_behind_a_head_are_read_as_it_states(tmp_path, head, lines, ask
     ("lines", "asked", "code"),
     [
         (["BAD -1", "2 0.5", "4 3"], {}, ""),
+        (["NaN -9999", "2 0.5", "4 3"], {}, ""),  # -9999 is a height: only ESRI grids mean none by it
         (["1 -1", "2 0.5"], {}, "row-length"),
         (["1 -1", "2 x", "4 3"], {}, "not-a-number"),
         (LINES, {"unit": "um"}, "unit-not-needed"),
@@ -394,3 +395,16 @@ def test_a_matrix_behind_a_head_is_checked(tmp_path, lines, asked, code):
             vf.read_topography(path, **asked)
     else:
         assert np.argwhere(np.isnan(vf.read_topography(path).heights)).tolist() == [[0, 0]]
+
+
+def test_a_scale_with_a_decimal_comma_is_no_scale_of_one(tmp_path):
+    with refused("unknown-format"):
+        vf.read_topography(write(tmp_path, SDF.replace("Zscale = 1e-6", "Zscale = 1,5e-6") + "*", *LINES, "*"))
+
+
+@pytest.mark.parametrize("stated", ["", "NODATA_value nan\n", "NODATA_value -9999\n"])
+def test_grids_of_esri_mean_no_reading_by_minus_9999_or_what_they_state(tmp_path, stated):
+    none = "nan" if "nan" in stated else "-9999"
+    head = f"ncols 2\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\n{stated}"
+    path = write(tmp_path, f"{head}{none} 3\n2 0.5\n1 -1")
+    assert np.argwhere(np.isnan(vf.read_topography(path, unit="um").heights)).tolist() == [[0, 2]]

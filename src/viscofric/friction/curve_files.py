@@ -174,10 +174,8 @@ def read_friction_curves(
         friction, scatter = found["viscoelastic"], found.get("viscoelastic_error", np.inf)
         beyond = np.where(np.isfinite(scatter), CLEAR_OF_ZERO * scatter, 0.0)
         if np.any(-friction > np.maximum(beyond, _LEAST_BACKWARDS * np.max(np.abs(friction)))):
-            problem = (
-                f"column {column.heading!r} has values below zero, as of both directions of motion; give the mean "
-            )
-            raise table.refused("both-directions", problem + "magnitude of both directions in one row.")
+            problem = f"column {column.heading!r} has values below zero, as of motion in the other direction; give "
+            raise table.refused("both-directions", problem + "the mean magnitude of both directions in one row.")
     radius = table.place("track radius") if is_revolutions(table.columns[places["speed"]].unit) else None
     force = table.place("friction force") if column.heading.startswith(_OF_FORCES) else None
     moved = [table.place(what) for what in _OF_STROKES if table.columns[places["speed"]].heading == _STROKES]

@@ -49,8 +49,8 @@ NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _PLAIN, _NEVER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,2})?", re.ASCII), re.compile(r"(?!)")
 #: Written for MPa; moduli and stresses of solids are not measured in millipascals.
 MILLIPASCAL = "mPa"
-#: Cells of a column of lubricants where there is none.
-DRY = ("", "-", "–", "0", "no", "none", "dry", "nein", "keiner", "ohne", "trocken", "non", "aucun", "sec")
+#: Cells of a column of lubricants in tests without one.
+DRY = MISSING | {"none", "no", "dry", "0", "nein", "keiner", "ohne", "trocken", "non", "aucun", "sec", "seco", "secco"}
 #: Labels of rows that summarise others: a mean, or how far the others scatter.
 _OF_SUMMARIES = re.compile(
     r"(?P<mean>mean( value)?|average|avg|median|mittelwert|mittel|moyenne|media|promedio)"

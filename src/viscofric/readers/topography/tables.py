@@ -172,11 +172,11 @@ _N = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?"
 #: distances or extents, units and the number for no reading.
 _GRIDS = {
     "ESRI ASCII grid": rf"ncols\s+(?P<nx>\d+)\s+nrows\s+(?P<ny>\d+)\s+xll\w+\s+{_N}\s+yll\w+\s+{_N}"
-    rf"\s+cellsize\s+(?P<dx>{_N})\s+(?:nodata_value\s+(?P<missing>{_N})\s+)?",
+    rf"\s+cellsize\s+(?P<dx>{_N})\s+(?:nodata_value\s+(?P<missing>{_N}|nan)\s+)?",
     "Surfer ASCII grid": rf"DSAA\s+(?P<nx>\d+)\s+(?P<ny>\d+)\s+(?P<x>{_N}\s+{_N})\s+(?P<y>{_N}\s+{_N})"
     rf"\s+{_N}\s+{_N}\s+",
     "SDF text": r"a(?:BCR|ISO)-1\.0\s(?>.*?NumPoints\s*=\s*(?P<nx>\d+))\s+NumProfiles\s*=\s*(?P<ny>\d+)"
-    rf"\s+Xscale\s*=\s*(?P<dx>{_N})\s+Yscale\s*=\s*(?P<dy>{_N})\s+Zscale\s*=\s*(?P<scale>{_N})(?>.*?\n\s*\*\s*\n)",
+    rf"\s+Xscale\s*=\s*(?P<dx>{_N})\s+Yscale\s*=\s*(?P<dy>{_N})\s+Zscale\s*=\s*(?P<scale>{_N})(?=\s)(?>.*?\n\s*\*\s*\n)",
     "Keyence CSV": rf"Date & Time(?>.*?\nXY Calibration,(?P<dx>{_N}),(?P<lateral>[^\s,]+))"
     r"(?>.*?\nHorizontal,(?P<nx>\d+))(?>.*?\nVertical,(?P<ny>\d+))(?>.*?\nUnit,(?P<unit>[^\s,]+))(?>.*?\nHeight[,\s]*?\n)",
 }
@@ -416,7 +416,8 @@ def _grid_under(source: Source, name: str, head: re.Match[str], options: ScanOpt
         problem = f"holds {len(cells)} heights where its head names {nx} × {ny}; save the file again."
         raise DataFileError(source.path, problem, code="row-length")
     values = np.array([_number(source.path, cell, None) for cell in cells])
-    values[(values == float(said.get("missing", -9999.0))) | (values >= _BLANKED)] = math.nan
+    missing = said.get("missing", "-9999" if name.startswith("ESRI") else "nan")
+    values[(values == float(missing)) | (values >= _BLANKED)] = math.nan
     unit = stated or options.unit or "m"
     factor, along = (conversion(one, "m", "unit")[0] for one in (unit, said.get("lateral", unit)))
     extents = [np.ptp(np.array(said[axis].split(), float)) for axis in "xy" if axis in said]
