@@ -205,12 +205,3 @@ def test_the_contact_of_blocks_spares_ffts_and_leaves_the_contact_as_it_is(
     assert with_blocks.diagnostics.ffts < without.diagnostics.ffts
     # Gaps within 1e-8 of the rms height take pressures within that times the condition of the problem, some hundreds.
     np.testing.assert_allclose(with_blocks.pressure, without.pressure, atol=1e-5 * without.max_pressure)
-
-
-def test_edges_of_spots_are_found_before_their_level_is_right() -> None:
-    """Cells join by the overlap that the step will leave, not by what spots have too much as a whole."""
-    surface = vf.contact.PeriodicSurface(self_affine(512), 1.0 / 512)
-    spectrum = vf.RetardationSpectrum(1.0, 100.0, np.full(20, 0.99 / 20), np.logspace(-4, 1, 20))
-    found = vf.solve_periodic(vf.Material(spectrum, poisson_ratio=0.0), surface, speed=32.0, pressure=0.1)
-    # 108 were seen, and 120 where cells joined by their overlap alone.
-    assert found.diagnostics.ffts <= 114
