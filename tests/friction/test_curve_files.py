@@ -26,6 +26,7 @@ from viscofric.files import says_synthetic
 from viscofric.friction.curve_files import holds_friction_curves
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, Remedy, codes, note_of
+from viscofric.traction import notes_on_copies
 
 FOREIGN = "speed (mm/s);temperature (degC);load (N);viscoelastic friction (%)\n20;30;25;3,1\n200;60;25;2,5\n"
 #: Columns that a table has to have.
@@ -292,6 +293,14 @@ def test_forces_of_friction_are_read_as_coefficients_in_any_unit(tmp_path: Path,
     assert "total-friction" in codes(found.notes)
     assert "unused-columns" not in codes(found.notes)
     assert holds_friction_curves(tmp_path / "curves.csv")
+
+
+def test_copies_among_thousands_of_exact_readings_are_found_at_once() -> None:
+    """With the cells of rounding of every speed it would take minutes."""
+    speed = np.arange(1.0, 3001.0)
+    friction = 0.2 + 0.05 * np.random.default_rng(0).standard_normal(3000)
+    found = notes_on_copies(np.tile(friction, 2), np.tile(speed, 2))
+    assert codes(found) == {"copied-rows"}
 
 
 def test_columns_of_a_lubricated_test_are_noted(tmp_path: Path) -> None:
