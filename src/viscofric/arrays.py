@@ -60,35 +60,44 @@ def non_negative_fit(matrix: Array, aim: Array) -> Array:
     return np.asarray(found / scale)
 
 
+#: Half of the decrease of a sum of squares with the parameters, (n,), and half of its second derivatives, (n, n).
+Slopes: TypeAlias = tuple[Array, Array]
+#: A sum of squares at a point, and what computes its slopes there.
+Squares: TypeAlias = tuple[float, Callable[[], Slopes]]
+
+
 def descend(
-    residual: Callable[[Array], Array],
-    normal: Callable[[Array, Array], tuple[Array, Array]],
+    at: Callable[[Array], Squares],
     start: Array,
     *,
     iterations: int,
     tolerance: float,
+    largest: float | Array = 2.0,
+    damping: float = 1e-3,
 ) -> Array:
-    """Minimise a sum of squares over logarithms (n,) of parameters by Levenberg–Marquardt steps.
+    """Minimise a sum of squares over parameters (n,) by Levenberg–Marquardt steps, none of them above `largest`.
 
-    `residual` returns the residuals r at a point, infinite outside the domain; `normal`, at a point and its residuals,
-    JᵀJ and Jᵀr.  The search stops when the sum of squares falls by less than the relative `tolerance`.
+    The sum is infinite outside the domain; slopes are those of Gauss and Newton, or exact.  The search stops when the
+    sum falls by less than the relative `tolerance`.  Without `damping`, steps are undamped until one is in vain.
     D. W. Marquardt, J. Soc. Indust. Appl. Math. 11 (1963) 431.
     """
-    point, now = start, residual(start)
-    damping = 1e-3
+    point, (least, slopes) = start, at(start)
     for _ in range(iterations):
-        matrix, gradient = normal(point, now)
-        scale = np.diag(matrix) + 1e-12 * float(np.max(np.diag(matrix)))
-        before = float(now @ now)
+        gradient, matrix = slopes()
+        scale = np.diag(matrix) + 1e-12 * float(np.max(np.diag(matrix), initial=0.0))
+        before = least
         while damping < 1e9:
-            step = np.clip(np.linalg.solve(matrix + damping * np.diag(scale), gradient), -2.0, 2.0)
-            trial = residual(point + step)
-            if trial @ trial < before:
+            whole = np.linalg.solve(matrix + damping * np.diag(scale), gradient)
+            step = np.clip(whole, -largest, largest)
+            trial, slopes = at(point + step)
+            if trial < before:
                 break
-            damping = 10.0 * damping
+            if whole @ gradient <= np.finfo(float).eps * abs(before):
+                return point
+            damping = 10.0 * damping or 1e-3
         else:
             break
-        point, now, damping = point + step, trial, 0.1 * damping
-        if before - float(now @ now) < tolerance * before:
+        point, least, damping = point + step, trial, 0.1 * damping
+        if before - least < tolerance * abs(before):
             break
     return point

@@ -239,3 +239,11 @@ def test_measured_factors_get_a_law_and_a_reason(real_data, name, reference, kin
     assert all(row.law is not None or row.refusal for row in found.rows)
     if kind is not None:
         assert found.chosen.kind == kind
+
+
+def test_a_law_whose_constants_are_less_than_their_errors_is_noted():
+    temperatures = np.array([290.0, 300.0, 310.0])
+    for error, noted in ((1.0, True), (0.01, False)):
+        values = np.asarray(vf.Arrhenius("40 kJ/mol", 300.0).log10(temperatures))
+        factors = vf.ShiftFactors(temperatures, values, 300.0, np.diag([error**2, 0.0, error**2]))
+        assert ("constants-undetermined" in codes(factors.compare_laws().notes)) == noted

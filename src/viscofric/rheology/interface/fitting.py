@@ -30,6 +30,7 @@ from viscofric.rheology.shifts.law_fitting import (
     linear,
     plausible,
     solved,
+    undetermined,
 )
 from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
@@ -244,7 +245,10 @@ def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference:
         found, _, scatter = solved(family, table.levelled(student * level), otherwise)
     aic = criterion_of(family, table.levelled(level), found.parameters) + (2.0 if level > 0.0 else 0.0)
     law = family.law(found.parameters, _wider(found, scatter, freedom))
-    law = replace(law, notes=tuple(_misfit(level, scatter)))
+    notes = [*_misfit(level, scatter)]
+    if family.positive:
+        notes += undetermined(law, found.parameters, law.covariance)
+    law = replace(law, notes=tuple(notes))
     return FittedStress(law, chi2, scatter, level, aic, family.size)
 
 

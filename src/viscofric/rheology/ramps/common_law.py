@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscofric.arrays import Array, Indices, Mask
+from viscofric.arrays import Array, Indices, Mask, Squares, descend
 from viscofric.errors import SuperpositionError
 from viscofric.rheology.shifts.law_fitting import LARGEST_RELATIVE_ERROR, TITLES, Family, family_of
 from viscofric.rheology.shifts.laws import ParametricLaw
@@ -128,8 +128,10 @@ NEAR_POLES = np.geomspace(10.0, 1e3, 15)
 SHARED, DIFFERENT = 0.4, 0.05
 #: Each pass has knots and smoothing chosen anew.
 PASSES, STEPS = 12, 8
-#: Changes of the logarithms of the constants: the largest in one step, and where the search ends.
-LARGEST_STEP, CONVERGED = 0.3, 1e-6
+#: Changes of the logarithms of the constants: the largest in one step, and in a pass where the search ends.
+LARGEST_STEP, CONVERGED = 0.3, 1e-5
+#: Relative fall of the cost at which a pass ends.
+FALL = 1e-12
 #: Passes for offsets; each chooses correlation and smoothing again, which take offsets for correlated errors.
 OFFSET_PASSES = 4
 #: Offsets are shown where the probability of none falls to this part of what it was before the ramps were seen.
@@ -197,20 +199,20 @@ def common_law(points: RampPoints, kind: str, reference: float) -> CommonLaw:
         before = logs
         smoother = problem.smoother(logs)
         logs = problem.descend(logs, smoother)
-        if np.max(np.abs(logs - before)) < 10 * CONVERGED:
+        if np.max(np.abs(logs - before)) < CONVERGED:
             break
     smoother = problem.smoother(logs)
     state = problem.state(logs, smoother)
-    offsets = problem.offsets(logs)
-    constants = np.exp(logs)
-    spread = constants[:, None] * _covariance(problem, logs, smoother, state, offsets) * constants
-    errors = np.diag(spread)
-    if not np.all((errors > 0.0) & (errors < (LARGEST_RELATIVE_ERROR * constants) ** 2)):
+    # Not by the covariance: where the constants are not fixed, rounding decides on its differences.
+    if np.linalg.eigvalsh(state.normal)[0] < LARGEST_RELATIVE_ERROR**-2:
         raise SuperpositionError(
             f"the ramps do not fix the constants of the {TITLES[kind]} law; take another law, or ramps over a wider "
             "range of temperatures.",
             code="no-law",
         )
+    offsets = problem.offsets(logs)
+    constants = np.exp(logs)
+    spread = constants[:, None] * _covariance(problem, logs, smoother, state, offsets) * constants
     sizes = np.sqrt(np.diag(offsets.covariance))
     return CommonLaw(family.law(constants, spread), state.residual, smoother.scatter, sizes)
 
@@ -315,23 +317,16 @@ class _Problem:
         return _State(cost, gradient, normal, away, freedom)
 
     def descend(self, logs: Array, smoother: CorrelatedSmoother) -> Array:
-        """Take damped Gauss–Newton steps with knots and smoothing held."""
-        state = self.state(logs, smoother)
-        for _ in range(STEPS):
-            step = np.linalg.solve(state.normal + 1e-12 * np.trace(state.normal) * np.eye(len(logs)), state.gradient)
-            step *= min(1.0, LARGEST_STEP / max(float(np.max(np.abs(step))), 1e-300))
-            while np.max(np.abs(step)) > CONVERGED:
-                try:
-                    trial = self.state(logs + step, smoother)
-                except ValueError:  # `InputError` is one: beyond the pole
-                    trial = None
-                if trial is not None and trial.cost <= state.cost:
-                    logs, state = logs + step, trial
-                    break
-                step *= 0.5
-            else:
-                break
-        return logs
+        """Minimise the cost with knots and smoothing held."""
+
+        def at(point: Array) -> Squares:
+            try:
+                state = self.state(point, smoother)
+            except ValueError:  # `InputError` is one: beyond the pole
+                return np.inf, lambda: (np.zeros(0), np.zeros((0, 0)))
+            return state.cost, lambda: (state.gradient, state.normal)
+
+        return descend(at, logs, iterations=STEPS, tolerance=FALL, largest=LARGEST_STEP, damping=0.0)
 
 
 def _covariance(
@@ -347,8 +342,7 @@ def _covariance(
     for place, way in enumerate(np.eye(count)):
         ahead, behind = (problem.state(logs + sign * DIFFERENCE * way, smoother).gradient for sign in (1.0, -1.0))
         curvature[place] = (behind - ahead) / (2.0 * DIFFERENCE)
-    normal = state.normal + 1e-12 * np.trace(state.normal) * np.eye(count)
-    inverse = inverse_curvature(normal, 0.5 * (curvature + curvature.T))
+    inverse = inverse_curvature(state.normal, 0.5 * (curvature + curvature.T))
     left = max(state.freedom - count, 1.0)
     scattered = state.freedom / left * inverse @ state.normal @ inverse
     if not np.any(offsets.covariance):

@@ -15,6 +15,7 @@ from viscofric.notes import Note, Remedy
 from viscofric.ramps import TemperatureRamps
 from viscofric.rheology.ramps.common_law import CommonLaw, RampPoints, common_law
 from viscofric.rheology.ramps.result import GlassTransition, RampCheck, RampSuperposition, glass_transition
+from viscofric.rheology.shifts.law_fitting import undetermined
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, known_vertical
@@ -218,6 +219,7 @@ def superpose_ramps(
         shift: ShiftLaw = found.law.to_vft() if law == "vft" and isinstance(found.law, WLF) else found.law
         assumption, check = "", _check(points, found)
         notes += _on_fit(tensile, shift, check)
+        notes += undetermined(found.law, found.law.parameters, found.law.covariance)
         notes += _on_offsets(found)
     else:
         shift, assumption, tensile, on_law = assumed_law(assumed, tensile, peaks, kelvin)

@@ -319,6 +319,8 @@ def _notes(chosen: LawRow[ParametricLaw], rows: list[LawRow[ParametricLaw]], tab
     if chosen.exact:
         text = f"It has as many constants as there are steps between the {len(table) + 1} temperatures, so that it "
         yield Note("law-exact", text + "passes through all factors and nothing tests it.")
+    if chosen.law is not None and chosen.kind != "polynomial":
+        yield from law_fitting.undetermined(chosen.law, chosen.law.parameters, chosen.law.covariance)
     for row in others:
         if chosen.kind != "polynomial" and row.aic <= chosen.aic + EXCLUDED:
             yield _rivalry(chosen, row, table)

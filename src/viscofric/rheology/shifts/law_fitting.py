@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from viscofric.arguments import whole_number
-from viscofric.arrays import Array, descend
+from viscofric.arrays import Array, Slopes, Squares, descend
 from viscofric.errors import InputError, wrong_argument
+from viscofric.notes import Note
 from viscofric.rheology.shifts.laws import VFT, WLF, Arrhenius, InversePolynomial, ParametricLaw, WLFArrhenius
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10
 from viscofric.units import shown_celsius
@@ -349,6 +350,13 @@ def solved(family: Model, table: Table, otherwise: InputError) -> tuple[Solution
     return found, bare.chi2, scatter
 
 
+def undetermined(law: object, constants: Array, covariance: Array | None) -> Iterator[Note]:
+    """Yield a note if the standard error of a constant, which is above zero, exceeds it."""
+    if covariance is not None and np.any(np.diag(covariance) > np.square(constants)):
+        text = f"The data do not determine the constants of this law, {law}: it is known where they were measured, and "
+        yield Note("constants-undetermined", text + "not beyond; more temperatures, or a wider range, would.")
+
+
 def criterion(law: ParametricLaw, table: FactorTable) -> float:
     """Return Akaike's criterion of a law fitted to a table; see `criterion_of`."""
     degree = len(law.parameters) if law.kind == "polynomial" else None
@@ -440,15 +448,19 @@ def _positive(family: Model, whiten: Whitening, target: Array, start: Array) -> 
         except InputError:  # beyond the law's pole: the step is rejected
             return np.full(len(target), np.inf)
 
-    def normal(logarithm: Array, now: Array) -> tuple[Array, Array]:
+    def slopes(logarithm: Array, now: Array) -> Slopes:
         parameters = np.exp(logarithm)
         jacobian = whiten(family.gradient(parameters) * parameters)
-        return jacobian.T @ jacobian, jacobian.T @ now
+        return jacobian.T @ now, jacobian.T @ jacobian
 
-    point = descend(misfit, normal, np.log(start), iterations=ITERATIONS, tolerance=CONVERGED)
+    def at(logarithm: Array) -> Squares:
+        now = misfit(logarithm)
+        return float(now @ now), lambda: slopes(logarithm, now)
+
+    point = descend(at, np.log(start), iterations=ITERATIONS, tolerance=CONVERGED)
     parameters, now = np.exp(point), misfit(point)
     try:
-        inverse = np.linalg.inv(normal(point, now)[0])
+        inverse = np.linalg.inv(slopes(point, now)[1])
     except np.linalg.LinAlgError:  # the data do not determine some combination of constants
         inverse = np.full((len(point), len(point)), np.inf)
     return Solution(parameters, inverse * np.outer(parameters, parameters), float(now @ now))

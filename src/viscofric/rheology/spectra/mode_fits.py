@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from viscofric.arrays import Array, descend, non_negative_fit
+from viscofric.arrays import Array, Slopes, Squares, descend, non_negative_fit
 from viscofric.rheology.spectra.misfit import STIFFEST, CurveMisfit, Misfit, Modes
 
 ACTIVE_SET_ITERATIONS = 30
@@ -107,20 +107,21 @@ def moved_modes(misfit: Misfit, start: Modes, *, tidy: bool = True, converged: f
         glass = max(math.exp(point[0]), misfit.least_glass)
         return glass, np.exp(point[1 : number + 1]), np.exp(np.clip(point[number + 1 :], low, high))
 
-    def residual(point: Array) -> Array:
-        glass, C, tau = unpacked(point)
-        return misfit.residual(glass + misfit.relaxed(tau) @ C)
-
-    def normal(point: Array, now: Array) -> tuple[Array, Array]:
+    def at(point: Array) -> Squares:
         glass, C, tau = unpacked(point)
         relaxed = misfit.relaxed(tau)
-        modes = relaxed * C
-        glasses = np.full((len(relaxed), 1), glass, dtype=relaxed.dtype)
-        change = np.concatenate([glasses, modes, misfit.moved(relaxed, C, tau)], 1)
-        jacobian = misfit.jacobian(glass + modes.sum(axis=1), change)
-        return jacobian.T @ jacobian, jacobian.T @ now
+        away = misfit.residual(glass + relaxed @ C)
 
-    found = Modes(*unpacked(descend(residual, normal, begin, iterations=ITERATIONS, tolerance=converged)))
+        def slopes() -> Slopes:
+            modes = relaxed * C
+            glasses = np.full((len(relaxed), 1), glass, dtype=relaxed.dtype)
+            change = np.concatenate([glasses, modes, misfit.moved(relaxed, C, tau)], 1)
+            jacobian = misfit.jacobian(glass + modes.sum(axis=1), change)
+            return jacobian.T @ away, jacobian.T @ jacobian
+
+        return float(away @ away), slopes
+
+    found = Modes(*unpacked(descend(at, begin, iterations=ITERATIONS, tolerance=converged)))
     return _tidied(misfit, found) if tidy else found
 
 
@@ -185,19 +186,19 @@ def smooth_modes(misfit: Misfit, tau: Array, strength: float, start: Modes | Non
     def compliances(point: Array) -> Array:
         return np.asarray(np.exp(np.append(max(point[0], floor), point[1:])))
 
-    def residual(point: Array) -> Array:
-        values = compliances(point)
-        away = misfit.residual(values[0] + relaxed @ values[1:])
-        return np.concatenate([away / np.sqrt(points), -roughness @ point])
+    def at(point: Array) -> Squares:
+        values, rough = compliances(point), roughness @ point
+        away = misfit.residual(values[0] + relaxed @ values[1:]) / np.sqrt(points)
 
-    def normal(point: Array, now: Array) -> tuple[Array, Array]:
-        values = compliances(point)
-        modes = relaxed * values[1:]
-        change = np.concatenate([np.full((len(relaxed), 1), values[0], dtype=relaxed.dtype), modes], axis=1)
-        jacobian = misfit.jacobian(values[0] + modes.sum(axis=1), change) / np.sqrt(points)
-        return jacobian.T @ jacobian + penalty, jacobian.T @ now[:points] + roughness.T @ now[points:]
+        def slopes() -> Slopes:
+            modes = relaxed * values[1:]
+            change = np.concatenate([np.full((len(relaxed), 1), values[0], dtype=relaxed.dtype), modes], axis=1)
+            jacobian = misfit.jacobian(values[0] + modes.sum(axis=1), change) / np.sqrt(points)
+            return jacobian.T @ away - roughness.T @ rough, jacobian.T @ jacobian + penalty
 
-    found = compliances(descend(residual, normal, begin, iterations=iterations, tolerance=SMOOTHING_CONVERGED))
+        return float(away @ away + rough @ rough), slopes
+
+    found = compliances(descend(at, begin, iterations=iterations, tolerance=SMOOTHING_CONVERGED))
     return Modes(float(found[0]), found[1:], tau)
 
 

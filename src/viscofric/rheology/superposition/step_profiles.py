@@ -21,7 +21,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, Slopes, Squares, descend
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.superposition.common_curve import KNOT_SPACING, RIDGE, ROUGHNESS, Smoother
 from viscofric.rheology.superposition.overlap import LogSweep, allowed_half_width, steps_that_overlap
@@ -272,9 +272,9 @@ DIFFERENCE = 0.5
 PASSES = 4  # each computes the second derivatives again
 STEPS = 6  # of each pass
 LARGEST_STEP = 0.3  # decades, in one step
-SHORTENED = 0.5 ** np.arange(7)
-#: The search ends with a step below this many standard errors, and the passes with a move below the second number.
-CONVERGED = 1e-3
+#: A pass ends where −2 log of the likelihood falls by less than this part; the passes with a move of so many standard
+#: errors.
+FALL = 1e-10
 MOVED = 0.1
 
 
@@ -286,31 +286,26 @@ def most_likely(likelihood: Callable[[Array], Array], start: Array, scale: Array
     for _ in range(PASSES):
         parts, modes = np.linalg.eigh(_second_derivatives(likelihood, found, scale))
         ways = scale @ (modes / np.sqrt(np.maximum(parts, SMALLEST_PART)))
-        moved = _descended(likelihood, found, ways)
-        far = float(np.linalg.norm(np.linalg.lstsq(ways, moved - found, rcond=None)[0]))
-        found = moved
-        if far < MOVED:
+        step = _descended(likelihood, found, ways)
+        found = found + ways @ step
+        if np.linalg.norm(step) < MOVED:
             break
     return found, np.asarray(ways @ ways.T)
 
 
 def _descended(likelihood: Callable[[Array], Array], start: Array, ways: Array) -> Array:
-    """Take Newton steps along directions `ways` (p, q) that are scaled so that the second derivatives are one."""
-    found, q = start, ways.shape[1]
-    for _ in range(STEPS):
-        moves = DIFFERENCE * ways.T
-        values = likelihood(np.concatenate([[found], found + moves, found - moves]))
-        gradient = (values[1 : q + 1] - values[q + 1 :]) / (4.0 * DIFFERENCE)
-        step = -ways @ gradient
-        step *= min(1.0, LARGEST_STEP / max(float(np.max(np.abs(step))), 1e-300))
-        trials = likelihood(found + SHORTENED[:, None] * step)
-        best = int(np.argmin(trials))
-        if trials[best] >= values[0]:
-            break
-        found = found + SHORTENED[best] * step
-        if np.linalg.norm(gradient) < CONVERGED:
-            break
-    return np.asarray(found)
+    """Return the best move (q,) along directions `ways` (p, q), scaled so that the second derivatives are one."""
+    moves = DIFFERENCE * np.eye(ways.shape[1])
+
+    def at(moved: Array) -> Squares:
+        def slopes() -> Slopes:
+            behind, ahead = np.split(likelihood(start + (moved + np.concatenate([-moves, moves])) @ ways.T), 2)
+            return (behind - ahead) / (4.0 * DIFFERENCE), np.eye(len(moves))
+
+        return float(likelihood(start[None] + ways @ moved)[0]), slopes
+
+    largest = LARGEST_STEP / np.abs(ways).max(axis=0)
+    return descend(at, np.zeros(len(moves)), iterations=STEPS, tolerance=FALL, largest=largest, damping=0.0)
 
 
 def _second_derivatives(likelihood: Callable[[Array], Array], at: Array, ways: Array) -> Array:
