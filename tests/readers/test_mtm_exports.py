@@ -122,6 +122,16 @@ def test_decimal_commas_are_the_same_numbers(tmp_path, mtm):
         assert np.array_equal(getattr(comma, name), getattr(mtm, name))
 
 
+def test_points_in_columns_that_are_not_read_contradict_no_decimal_commas(tmp_path, mtm):
+    path = pcs.TRACTION_SAMPLES["decimal comma"](tmp_path)
+    lines = path.read_text(encoding="utf-8").splitlines()
+    wide = [number for number, line in enumerate(lines) if line.count("\t") > 20]
+    for number in wide:
+        lines[number] += "\tversion" if lines[number][:1].isalpha() else "\t1.2"
+    path.write_text("\n".join(lines), encoding="utf-8")
+    assert np.array_equal(read_mtm(path).traction_force, mtm.traction_force)
+
+
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 @pytest.mark.parametrize("start", [b"", b"\xef\xbb\xbf"])
 def test_line_ends_and_marks_do_not_matter(tmp_path, mtm, end, start):

@@ -238,7 +238,9 @@ class Decimals:
 
         Cells `beside` them may contradict; they only show that commas are those of decimals.
         """
-        marked = [(cell.strip(), row) for cell, row in cells if "," in cell or cell.count(".")]
+        marked = [(cell.strip(), row) for cell, row in cells if "," in cell or "." in cell]
+        if not any("," in cell or cell.count(".") > 1 for cell, _ in marked):
+            return cls()
         numbers = [(cell, row) for cell, row in marked if _PRINTED.fullmatch(cell)]
         commas, points = ([one for one in numbers if mark in one[0]] for mark in ",.")
         for mark, point, own in ((",", ".", commas), (".", ",", points)):

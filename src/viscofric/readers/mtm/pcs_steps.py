@@ -124,9 +124,15 @@ def parse(path: str, text: str) -> Export:
         if not _is_header_line(path, step, number, cells):
             _take_row(export, step, number, cells, last=number == len(lines))
     _insist_on_width(export)
-    blocks = [block for step in export.steps for block in step.blocks]
-    rows = [(row, line) for block in blocks for row, line in zip(block.rows, block.lines, strict=True)]
-    export.decimals = Decimals.of(path, ((cell, line) for row, line in rows for cell in row))
+    numbers = (
+        (cell, line)
+        for step in export.steps
+        for block in step.blocks
+        for row, line in zip(block.rows, block.lines, strict=True)
+        for cell, column in zip(row, block.columns, strict=False)
+        if column.quantity
+    )
+    export.decimals = Decimals.of(path, numbers)
     return export
 
 
