@@ -492,3 +492,18 @@ def test_inertia_of_a_surface_in_motion_is_that_of_steady_sliding_at_its_largest
         [note for note in map(note_of, one.warnings) if note.code == "quasi-static"] for one in (run, steady)
     )
     assert found.values["change"] == pytest.approx(known.values["change"], rel=1e-2)  # the accuracy of the run
+
+
+@pytest.mark.parametrize("temperatures", [["20 degC", "60 degC"], ["60 degC", "20 degC"]])
+def test_inertia_of_a_surface_in_motion_is_that_where_the_rubber_is_softest(temperatures: list[str]) -> None:
+    law = vf.WLF(C1=8.0, C2="100 K", reference="20 degC")
+    rubber = vf.Material(
+        vf.Material.standard_linear_solid("50 kPa", "20 MPa", "1 ms").spectrum, shift=law, poisson_ratio=0.5
+    )
+    steady = vf.solve_periodic(rubber, profile(16), speed=4.0, pressure="5 kPa", temperature="60 degC")
+    history = vf.motion.History([0.0, 1e-2], pressure="5 kPa", speed=4.0, temperature=temperatures, before="sliding")
+    run = vf.motion.solve_transient(rubber, profile(16), history, times=[1e-6, 1e-2], accuracy=1e-2)
+    (found,), (known,) = (
+        [note for note in map(note_of, one.warnings) if note.code == "quasi-static"] for one in (run, steady)
+    )
+    assert found.values["change"] == pytest.approx(known.values["change"], rel=1e-2)  # the accuracy of the run
