@@ -208,14 +208,21 @@ def test_modes_that_were_merged_for_a_short_history_are_refused_in_a_long_one():
         vf.motion.solve_transient(broad, CYLINDER, moved[2], accuracy=5e-2, times=[20.0], resume=begun)
 
 
-@pytest.mark.parametrize("before", ["untouched", "at rest"])
-def test_depths_and_energies_of_a_longer_path_are_those_of_one_run(before: str):
+@pytest.mark.parametrize(
+    ("before", "temperatures"), [("untouched", None), ("at rest", None), ("at rest", ["20 degC", "40 degC", "20 degC"])]
+)
+def test_depths_and_energies_of_a_longer_path_are_those_of_one_run(before: str, temperatures: list[str] | None):
     """The longer path and the larger load measure the line contact from farther points, also in its past."""
     times, load, speed = [0.0, 0.01, 0.02], [100.0, 300.0, 500.0], [0.02, 0.02, 0.1]
+    law = None if temperatures is None else vf.WLF(C1=8.0, C2="100 K", reference="20 degC")
+    rubber = RUBBER if law is None else vf.Material(RUBBER.spectrum, shift=law, poisson_ratio=0.5)
 
     def run(count: int, **more):
-        given = vf.motion.History(times[:count], load=load[:count], speed=speed[:count], before=before)
-        return vf.motion.solve_transient(RUBBER, CYLINDER, given, accuracy=0.1, times=times[1:count], **more)
+        kelvin = None if temperatures is None else temperatures[:count]
+        given = vf.motion.History(
+            times[:count], load=load[:count], speed=speed[:count], temperature=kelvin, before=before
+        )
+        return vf.motion.solve_transient(rubber, CYLINDER, given, accuracy=0.1, times=times[1:count], **more)
 
     known, found = run(3), run(3, resume=run(2))
     for name, error in {

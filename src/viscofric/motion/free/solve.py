@@ -58,6 +58,8 @@ _TOLERANCE, _TYPICAL_FRICTION, _SMALLEST = 0.01, 0.2, 0.02
 _PARTS = 0.25, 0.7
 # Error of the creep compliance by merged modes, in the accuracy.
 _MERGED = 0.02
+# Part of the change of a load by which it may differ from a linear one on the clock of the material.
+_BENT = 1e-5
 
 
 _ONE_GRID = Note(
@@ -175,6 +177,11 @@ def _measured_from(whole: Setting, track: Track[Any], part: Setting, problem: Pr
     body = 0.0 if problem.layer is not None else farther * problem.plane_strain
     C, instant = body * modes.C, body * modes.instantaneous + farther * problem.counterface
     given = [(schedule.at(float(time), after=after), after, -1) for time in schedule.given for after in (False, True)]
+    for begin, end in itertools.pairwise(schedule.given.tolist()):
+        # Loads are linear in time, and here by the clock, which is not even where temperature changes.
+        least, most = schedule.rates(begin, end)
+        count = math.ceil(math.sqrt(math.log(most / least) / (8.0 * _BENT)))
+        given += [(schedule.at(time), True, -1) for time in np.linspace(begin, end, count + 1)[1:-1].tolist()]
     told = [one.instant for one in track.moments]
     given += [(one, one.load == schedule.at(one.time).load, row) for row, one in enumerate(told)]
     clock, load = given[0][0].clock, 0.0 if schedule.before == "untouched" else float(given[0][0].load or 0.0)
