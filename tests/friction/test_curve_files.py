@@ -345,6 +345,56 @@ def test_friction_below_zero_within_its_error_is_of_no_other_direction(tmp_path:
     assert found.viscoelastic.tolist() == [0.06, -0.02]
 
 
+BOTH = "speed (mm/s),load (N),"
+AT = {"temperature": "= 30 degC"}
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        f"{BOTH}COF forward,COF backward\n20,50,0.5,-0.4\n60,50,0.3,-0.32\n",
+        f"{BOTH}friction force fwd (N),friction force bwd (N)\n20,50,25,20\n60,50,15,16\n",
+        f"{BOTH}direction,COF\n20,50,+,0.5\n60,50,+,0.3\n60,50,-,-0.32\n20,50,-,-0.4\n",
+        f"{BOTH}direction,friction force (N)\n20,50,back,20\n20,50,Forward,25\n60,50,Forward,15\n60,50,back,16\n",
+    ],
+    ids=["coefficients", "forces", "rows", "rows of forces"],
+)
+def test_friction_of_both_directions_is_their_mean_magnitude(tmp_path: Path, table: str) -> None:
+    """Half of the difference is the force cell's offset, which is no scatter."""
+    curves = read(tmp_path, table, columns=AT)
+    assert curves.viscoelastic == pytest.approx([0.45, 0.31])
+    assert curves.speed == pytest.approx([0.02, 0.06])
+    assert holds_friction_curves(tmp_path / "curves.csv")
+    notes = {note.code: note for note in map(note_of, curves.notes)}
+    assert "unused-columns" not in notes
+    assert notes["both-directions-averaged"].values == {"pairs": 2, "offset": pytest.approx(0.05 / 0.45)}
+
+
+def test_errors_of_two_directions_are_those_of_their_mean(tmp_path: Path) -> None:
+    """Independent ones fall by √2, as do those of repetitions, which are paired in their order."""
+    table = f"{BOTH}direction,COF,viscoelastic scatter,replicates\n"
+    rows = "20,50,1,0.5,0.03,4\n20,50,1,0.52,0.03,4\n20,50.4,2,0.4,0.04,5\n20,50,2,0.4,0.04,5\n"
+    curves = read(tmp_path, table + rows, columns=AT)
+    assert curves.viscoelastic == pytest.approx([0.45, 0.46])
+    assert curves.load == pytest.approx([50.2, 50.0])
+    assert curves.viscoelastic_scatter == pytest.approx([0.025] * 2)
+    assert curves.viscoelastic_error == pytest.approx([0.025 / 2.0] * 2)
+
+
+@pytest.mark.parametrize(
+    ("table", "code"),
+    [
+        ("COF forward\n20,50,0.5\n", "missing-columns"),
+        ("direction,COF\n20,50,1,0.5\n20,50,2,0.4\n60,50,1,0.3\n", "no-partner"),
+        ("direction,COF\n20,50,1,0.5\n30,50,2,0.4\n", "no-partner"),
+        ("direction,COF\n20,50,1,0.5\n20,50,2,0.4\n20,50,3,0.4\n", "out-of-range"),
+    ],
+)
+def test_a_direction_without_the_other_is_refused(tmp_path: Path, table: str, code: str) -> None:
+    with refused(code, DataFileError):
+        read(tmp_path, BOTH + table, columns=AT)
+
+
 def test_headings_of_curves_are_found_as_those_of_any_table(tmp_path: Path) -> None:
     path = tmp_path / "curves.csv"
     path.write_text(FOREIGN, encoding="utf-8")

@@ -6,7 +6,7 @@ import csv
 import io
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 
 import numpy as np
@@ -15,7 +15,7 @@ from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError, short_notes
 from viscofric.files import file_path, marked, says_synthetic, write_atomically
 from viscofric.friction.curve_checks import CLEAR_OF_ZERO
-from viscofric.friction.curve_words import COLUMNS, CURVES
+from viscofric.friction.curve_words import COLUMNS, CURVES, DIRECTIONS, OF_DIRECTIONS
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.notes import Note, dumped, note_of
 from viscofric.readers.dma.names import FROM_TITLES, insist_on_one_specimen, joined_tables, temperatures_of_titles
@@ -118,7 +118,8 @@ def read_friction_curves(
         load of a line contact is in N/m.  Temperature, load or speed without a column may stand in the headings of
         curves beside each other, such as ``viscoelastic friction 25 °C`` or ``COF 5 N``, or above tables.
         ``frequency`` and ``stroke`` of a motion to and fro give its mean speed, 2 · frequency · stroke, where there is
-        none.
+        none.  Of both directions, in columns ``COF forward`` and ``COF backward``, or in rows that a column
+        ``direction`` tells apart, the mean magnitude is read, with a note.
     columns : mapping, optional
         Headings that are not understood, by quantity: ``{"viscoelastic_friction": "mu_v", "speed": "v1 (mm/s)"}``.  A
         unit in brackets counts instead of that of the file; ``"#3 (N)"`` is the third column, ``"= 20 N"`` a value of
@@ -153,8 +154,9 @@ def read_friction_curves(
     if _is_of_runs(table):
         problem = "this is a table of traction runs, whose friction is not separated yet"
         raise DataFileError(str(path), problem, code="traction-runs", remedy=AS_RUNS)
-    table, notes = _with_temperatures(_with_coefficients(table))
-    table = _with_speeds(table, notes)
+    table, notes = _with_temperatures(table)
+    table, sides = _with_both_directions(table, notes)
+    table = _with_speeds(_with_coefficients(table), notes)
     places = _places(table)
     unit = table.load_unit(places["load"])
     _insist_on_absolute_errors(table, places)
@@ -162,6 +164,7 @@ def read_friction_curves(
     with np.errstate(divide="ignore", invalid="ignore"):
         at = [np.log(found[name]) for name in ("speed", "temperature", "load")]  # to 1 %, which is 3 K
     insist_on_one_specimen(table, np.round(np.stack(at, axis=1), 2), "speed, temperature and load")
+    found = _paired(table, found, np.stack(at, axis=1), notes)
     remarks = _remarks(str(path))
     notes = [*remarks["note"], *table.heading_notes, *notes]
     if table.columns[places["viscoelastic"]].alone and np.max(np.abs(found["viscoelastic"])) > _LARGEST_UNNAMED:
@@ -179,11 +182,12 @@ def read_friction_curves(
     radius = table.place("track radius") if is_revolutions(table.columns[places["speed"]].unit) else None
     force = table.place("friction force") if column.heading.startswith(_OF_FORCES) else None
     moved = [table.place(what) for what in _OF_STROKES if table.columns[places["speed"]].heading == _STROKES]
-    unused = [column.heading for column in table.unused([*places.values(), radius, force, *moved])]
+    moved += [table.place("direction")] * (len(found["speed"]) < len(table.rows))
+    unused = [column.heading for column in table.unused([*places.values(), radius, force, *moved, *sides])]
     if unused:
         said = f"Columns of the file of friction curves that are not read: {', '.join(map(repr, unused))}."
         notes.append(Note("unused-columns", said, values={"headings": unused}))
-    replicates = found.pop("replicates", np.ones(len(table.rows)))
+    replicates = found.pop("replicates", np.ones(len(found["speed"])))
     for kind in ("viscoelastic", "coulomb"):
         _complete(found, kind, replicates, notes)
     coefficients = [found[name] for name in ("viscoelastic", "coulomb") if name in found]
@@ -213,7 +217,10 @@ def holds_friction_curves(path: str | PathLike[str], columns: Mapping[str, str] 
         return error.code in _OF_HEADINGS
     held = [table for table in tables if not _is_of_runs(table)]
     return any(
-        table.has("viscoelastic friction") or (table.has("friction force") and table.has("speed")) for table in held
+        table.has("viscoelastic friction")
+        or table.has("viscoelastic friction forward")
+        or (table.has("speed") and (table.has("friction force") or table.has("friction force forward")))
+        for table in held
     )
 
 
@@ -265,6 +272,72 @@ def _with_coefficients(table: Table) -> Table:
     heading = f"{_OF_FORCES}: {table.columns[force].heading} / {table.columns[load].heading}"
     column = Column(heading, _OF_FORCES, "", "viscoelastic friction")
     return table.with_column(column, [repr(value) for value in coefficients.tolist()])
+
+
+def _with_both_directions(table: Table, notes: list[str]) -> tuple[Table, list[int]]:
+    """Return the table with the mean magnitude of columns of both directions, add a note, and return their places."""
+    for what in OF_DIRECTIONS:
+        places = [table.place(f"{what} {direction}") for direction in DIRECTIONS]
+        if table.has(what) or places == [None, None]:
+            continue
+        lacking = [f"{what} {name}" for name, place in zip(DIRECTIONS, places, strict=True) if place is None]
+        if lacking:
+            raise table.lacking(lacking)
+        both = [place for place in places if place is not None]
+        unit = table.load_unit(both[0]) if what == "friction force" else ""
+        means = _mean_magnitudes([table.values(place, unit) for place in both], notes)
+        first, second = (table.columns[place] for place in both)
+        column = Column(f"mean of {first.heading!r} and {second.heading!r}", first.name, unit, what)
+        return table.with_column(column, [repr(value) for value in means.tolist()]), both
+    return table, []
+
+
+def _mean_magnitudes(friction: Sequence[Array], notes: list[str]) -> Array:
+    """Return the mean magnitude of friction in both directions, each of one sign but for noise, and add a note."""
+    forward, backward = (math.copysign(1.0, float(values.sum())) * values for values in friction)
+    means = 0.5 * (forward + backward)
+    offset = float(np.max(0.5 * np.abs(forward - backward)) / max(float(np.max(means)), np.finfo(float).tiny))
+    said = (
+        f"Friction is the mean magnitude of both directions of motion; half of their difference, up to {offset:.2g} of "
+        "the largest friction, is an offset of the force."
+    )
+    notes.append(Note("both-directions-averaged", said, values={"pairs": means.size, "offset": offset}))
+    return np.asarray(means)
+
+
+#: Speeds and loads, temperatures are those of one point where they differ by less, of their logarithms.
+_SAME_POINT = (0.03, 0.003, 0.03)
+
+
+def _paired(table: Table, found: dict[str, Array], logarithms: Array, notes: list[str]) -> dict[str, Array]:
+    """Return the columns with rows of both directions joined, where a column tells them; `logarithms` are (n, 3)."""
+    place = table.place("direction")
+    labels = [] if place is None else [row[place].strip().lower() for row in table.rows]
+    forward, back = (np.flatnonzero([label in words for label in labels]) for words in DIRECTIONS.values())
+    if place is None or not (forward.size and back.size):
+        return found
+    known = np.isin(np.arange(len(labels)), [*forward, *back])
+    table.insist(known, place, "'forward' or 'backward', '+' or '-', or 1 or 2", "out-of-range")
+    at, lone, partners = logarithms / _SAME_POINT, [], []
+    for row in forward:
+        near = np.flatnonzero(np.all(np.abs(at[back] - at[row]) <= 1.0, axis=1))[:1]
+        lone += [row] * (not near.size)
+        partners += [(row, one) for one in back[near]]
+        back = np.delete(back, near)
+    if lone := [*lone, *back]:
+        problem = f"direction {table.rows[lone[0]][place].strip()!r} has no row of the other direction at its speed, "
+        right = "temperature and load; add it, or remove this row."
+        raise DataFileError(table.path, problem + right, int(table.lines[lone[0]]), code="no-partner")
+    joined = {}
+    for name, values in found.items():
+        pair = values[np.array(partners).T]
+        if name == "viscoelastic":
+            joined[name] = _mean_magnitudes(pair, notes)
+        elif name.endswith(("_error", "_scatter")):  # of two directions that err independently
+            joined[name] = 0.5 * np.hypot(*pair)
+        else:
+            joined[name] = pair.min(axis=0) if name.endswith(("freedom", "replicates")) else pair.mean(axis=0)
+    return joined
 
 
 #: Heading of the column of speeds, and the quantities that gave them.

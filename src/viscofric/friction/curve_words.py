@@ -48,18 +48,43 @@ COLUMNS: dict[str, tuple[str, str, tuple[str, ...]]] = {
 _STROKE = frozenset(
     {"stroke", "stroke length", "hub", "hublänge", "schwingweite", "course", "carrera", "corsa", "冲程", "行程"}
 )
-#: Without these there are no friction curves; a frequency and a stroke give the speed.
-_NEEDED = ("speed", "temperature", "load", "viscoelastic")
+#: The two directions of motion: how columns and rows of each are called.
+DIRECTIONS = {
+    "forward": frozenset(
+        {"forward", "forwards", "fwd", "forth", "positive", "vorwärts", "hin", "aller", "+", "+1", "1"}
+    ),
+    "backward": frozenset(
+        {"backward", "backwards", "bwd", "back", "reverse", "negative", "rückwärts", "zurück", "retour"}
+    )
+    | {"-", "−", "-1", "2"},
+}
+_DIRECTION = frozenset(
+    {"direction", "sliding direction", "stroke direction", "direction of motion", "direction of sliding", "richtung"}
+    | {"gleitrichtung", "bewegungsrichtung", "dirección", "direzione"}
+)
+#: Quantities that may have a column for each direction.
+OF_DIRECTIONS = {
+    "viscoelastic friction": frozenset({"viscoelastic friction", "friction", *COLUMNS["viscoelastic"][2]}),
+    "friction force": FRICTION_FORCE,
+}
 
-#: The words of tables of friction curves.
+#: The words of tables of friction curves; a frequency and a stroke give the speed.
 CURVES = Vocabulary(
     "a table of friction curves",
     {heading.lower(): frozenset({heading, heading.lower(), *others}) for _, heading, others in COLUMNS.values()}
     | {"temperature": TEMPERATURE, "track radius": frozenset({"track radius", "wear track radius"})}
-    | {"friction force": FRICTION_FORCE, "lubricant": LUBRICANT, "frequency": FREQUENCY, "stroke": _STROKE},
+    | {"friction force": FRICTION_FORCE, "lubricant": LUBRICANT, "frequency": FREQUENCY, "stroke": _STROKE}
+    | {"direction": _DIRECTION}
+    | {
+        f"{what} {direction}": frozenset(f"{name} {word}" for name in names for word in words if word.isalpha())
+        for what, names in OF_DIRECTIONS.items()
+        for direction, words in DIRECTIONS.items()
+    },
     needed=(
         ("speed", "stroke"),
-        *((COLUMNS[name][1], *(["friction force"] * (name == "viscoelastic"))) for name in _NEEDED[1:]),
+        ("temperature",),
+        ("load",),
+        (*OF_DIRECTIONS, *(f"{what} {direction}" for what in OF_DIRECTIONS for direction in DIRECTIONS)),
     ),
     example="friction curves have 'speed (mm/s)', 'temperature (degC)', 'load (N)' and 'viscoelastic friction'",
     key="measurement.columns",
