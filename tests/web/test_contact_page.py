@@ -340,3 +340,10 @@ def test_heated_friction_is_drawn_beside_the_isothermal_one(browser: Browser, se
         heads = tab.page.locator(f"{CURVE} th").all_text_contents()
         assert len(set(heads)) == len(heads) == 5  # speed, rise, its error, and both parts
         tab.screenshot("contact-heated")
+        tab.page.get_by_label("Shown").select_option("total_friction")
+        tab.page.set_viewport_size({"width": 390, "height": 900})
+        # The label of the axis, hysteresis and interface together, is no higher than the figure.
+        height = "document.querySelector(given[0]).getBoundingClientRect().height"
+        tab.until(f"document.querySelector('{CURVE} .ytitle').textContent.includes('together')")
+        tab.page.wait_for_timeout(500)
+        assert tab.value(height, f"{CURVE} .ytitle") < tab.value(height, f"{CURVE} .plot")

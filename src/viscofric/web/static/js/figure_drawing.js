@@ -11,6 +11,11 @@ const unitOf = (axis) => units.label(axis?.kind);
 /** An axis's quantity and its unit. */
 export const titled = (axis) => `${axis?.label ?? ""}${unitOf(axis) ? ` (${unitOf(axis)})` : ""}`;
 
+const LONGEST = 36; // letters beside the lowest figure
+
+/** A text of several lines, none longer than LONGEST. */
+const wrapped = (text) => text.replace(new RegExp(`(.{1,${LONGEST}})(?: |$)`, "g"), "$1<br>").replace(/<br>$/, "");
+
 /** The least and the largest value drawn along an axis, SI; bars and bands count of those that are shown. */
 function endsOf(spec, name) {
   if (spec[name]?.range) return spec[name].range;
@@ -59,7 +64,7 @@ function plotlyAxis(spec, name, look) {
   const ends = fromZero ? [0, axis.zero * drawn[1]] : drawn;
   const shown = ends.map((end) => units.number(end, axis.kind));
   return {
-    title: { text: titled(axis), standoff: 8, font: { size: 13, color: look.ink } },
+    title: { text: name === "y" ? wrapped(titled(axis)) : titled(axis), standoff: 8, font: { size: 13, color: look.ink } },
     type: axis.log ? "log" : "linear",
     tickfont: { size: 12 },
     ...(axis.log ? logTicks(shown) : { exponentformat: "power", minexponent: 4 }),
