@@ -62,12 +62,7 @@ SHARED_BY_SPEEDS = "errors-shared-by-speeds"
 
 def clear_of_zero(friction: Array, error: Array) -> bool:
     """Whether all friction (n,) is so far above zero that its logarithm has a normal error; unknown errors are none."""
-    return bool(np.all(are_clear_of_zero(friction, error)))
-
-
-def are_clear_of_zero(friction: Array, error: Array) -> Mask:
-    """Return for each point (n,) whether its friction is so far above zero."""
-    return np.asarray(friction > CLEAR_OF_ZERO * np.where(np.isfinite(error), error, 0.0))
+    return bool(np.all(friction > CLEAR_OF_ZERO * np.where(np.isfinite(error), error, 0.0)))
 
 
 def friction_unit(curves: FrictionCurves) -> Array:

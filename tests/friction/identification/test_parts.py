@@ -239,12 +239,12 @@ def test_points_that_cannot_be_used_are_reported() -> None:
 def test_friction_that_is_not_clear_of_zero_counts_as_it_is() -> None:
     """A point below zero, within its error, is data: μ itself is fitted there, whose error is normal, not ln μ."""
     speed, error = np.geomspace(0.02, 0.2, 8), 1e-3
-    friction = np.where(speed == speed[2], -5e-4, 0.01)
+    friction = np.where(speed == speed[2], -5e-4, 0.011)
     points = usable_points(curves_of(speed, np.full(8, 300.0), friction, error), BALL, None, 1e-6)
     missed, slope = points.missed(np.log(np.full(8, 4e-3)))
-    expected = np.where(friction < 0.0, 4e-3 - friction, 0.01 * np.log(4e-3 / 0.01))
+    expected = np.where(friction < 0.0, 4e-3 - friction, 0.011 * np.log(4e-3 / 0.011))
     np.testing.assert_allclose(missed / points.error, expected / error, rtol=1e-4)
-    np.testing.assert_allclose(slope / points.error, np.where(friction < 0.0, 4e-3, 0.01) / error, rtol=1e-4)
+    np.testing.assert_allclose(slope / points.error, np.where(friction < 0.0, 4e-3, 0.011) / error, rtol=1e-4)
     np.testing.assert_allclose(
         points.at_one_load(curves_of(speed, np.full(8, 300.0), friction, error)).viscoelastic, friction
     )

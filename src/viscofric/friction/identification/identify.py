@@ -153,7 +153,7 @@ def identify_material(
     to 1 % only.  A step that does not improve the fit as predicted is shortened (a trust region).  The uncertainty is
     that of fits to other errors, of the measurement and of the prior (randomised maximum likelihood).
 
-    Of points within four standard errors of zero, or below, μ itself is fitted, not its logarithm.
+    Where some friction is within four standard errors of zero, or below, μ itself is fitted of points within ten.
     Errors of the points are taken as independent.  Those of replicates are moderated towards a common scatter.  Points
     more than two standard errors off the others weigh less by the square of their distance; those off by more than
     chance explains, if they are a tenth at most, have a note.  Errors that points share cannot be seen in the

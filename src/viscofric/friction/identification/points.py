@@ -12,7 +12,7 @@ from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import (
-    are_clear_of_zero,
+    clear_of_zero,
     error_freedom,
     scatter_about_parabolas,
     standard_errors,
@@ -26,6 +26,9 @@ from viscofric.units import Quantity, positive, shown_celsius, shown_number, sho
 
 #: Fewer points do not determine a spectrum's shape.
 FEWEST_POINTS = 6
+#: Where some friction is near zero, ln μ is fitted from so many standard errors on: ln μ weighed by the measured μ is
+#: too high by 1.5 times the square of the relative error, which many points near zero would show.
+FAR_ABOVE_ZERO = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +39,7 @@ class Points:
     log_load: Array  # (n,), ln of the load over `load`, zero where similarity accounts for it
     log_scale: Array  # (n,), ln of a scale of μ of that contact: of its magnitude, or of its error where that is larger
     friction: Array  # (n,), μ over the scale
-    logarithmic: Mask  # (n,), whether ln μ is fitted: points clear of zero; else μ itself, which then may be below
+    logarithmic: Mask  # (n,), whether ln μ is fitted: points far above zero; else μ itself, which then may be below
     error: Array  # (n,), standard error of μ over the scale
     temperatures: Array  # (t,), different ones, ascending, K
     number: Integers  # (n,), index of each point's temperature
@@ -158,7 +161,7 @@ def usable_points(
         log_load=np.zeros(len(rows)) if alike else relative,
         log_scale=np.log(size) - rule.strain * relative,
         friction=friction / size,
-        logarithmic=are_clear_of_zero(friction, own),
+        logarithmic=(friction > FAR_ABOVE_ZERO * own) | clear_of_zero(friction, own),
         error=np.hypot(standard_errors(curves.select(rows)) / size, least_error),
         temperatures=temperatures,
         number=number.astype(np.int64),
