@@ -404,7 +404,7 @@ CALLS: dict[str, Any] = {
     "IsothermalSweeps": lambda: {"isotherms": sweeps().isotherms, "deformation": "tension", "source": "", "notes": (),
         "format": ""},
     "MasterCurve": lambda: {"angular_frequency": np.array([1.0, 10.0]), "storage_modulus": np.array([3e6, 4e6]),
-        "loss_modulus": np.array([3e5, 4e5]), "temperature": np.full(2, 300.0), "reference": 300.0},
+        "loss_modulus": np.array([3e5, 4e5]), "temperature": np.full(2, 300.0), "reference": 300.0, "notes": ()},
     "TemperatureRamp": lambda: {"angular_frequency": 6.0, "temperature": np.array([290.0, 300.0]), "storage_modulus":
         np.array([4e6, 3e6]), "loss_modulus": np.array([4e5, 3e5])},
     "TemperatureRamps": lambda: {"ramps": ramps().ramps, "deformation": "tension", "heating_rate": 0.05, "source": "",
@@ -606,7 +606,7 @@ CALLS: dict[str, Any] = {
     "StepTests.in_tension": lambda: (steps("shear"), {"poisson_ratio": 0.5}),
     "StepTests.thinned": lambda: (steps(), {"per_decade": 20}),
     "StepMasterCurve": lambda: {"time": np.array([1.0, 10.0]), "response": np.array([1e-7, 2e-7]),
-        "temperature": np.full(2, 300.0), "reference": 300.0, "kind": "creep"},
+        "temperature": np.full(2, 300.0), "reference": 300.0, "kind": "creep", "notes": ()},
     "RetardationSpectrum.step_curve_dataset": lambda: (rubber().spectrum, {"curve": vf.readers.StepMasterCurve(
         np.array([1.0, 10.0]), np.array([1e-7, 2e-7]), np.full(2, 300.0), 300.0, "creep")}),
     "read_step_tests": lambda: {"paths": at("creep.csv"), "kind": None, "deformation": "tension", "temperature": None,

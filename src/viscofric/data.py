@@ -361,6 +361,8 @@ class MasterCurve(Moduli, Plotted, Items[tuple[float, float, float]]):
         Of the isotherm that each point comes from, K.
     reference : float
         K.
+    notes : tuple of str
+        What is behind the curve, such as synthetic measurements.
 
     Examples
     --------
@@ -376,6 +378,7 @@ class MasterCurve(Moduli, Plotted, Items[tuple[float, float, float]]):
     loss_modulus: Array
     temperature: Array
     reference: float
+    notes: tuple[str, ...] = ()
 
     if TYPE_CHECKING:  # what is given, converted when made
 
@@ -386,12 +389,14 @@ class MasterCurve(Moduli, Plotted, Items[tuple[float, float, float]]):
             loss_modulus: Quantities,
             temperature: Quantities,
             reference: Quantity,
+            notes: tuple[str, ...] = (),
         ) -> None: ...
 
     def __post_init__(self) -> None:
         columns = ("angular_frequency", "storage_modulus", "loss_modulus", "temperature")
         set_columns(self, *columns, of="a master curve", per="point")
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
+        object.__setattr__(self, "notes", sentences(self.notes, "notes of a master curve"))
         if np.any(np.diff(self.angular_frequency) < 0):
             raise InputError("the frequencies of a master curve must ascend.", code="not-ascending")
 
@@ -405,6 +410,7 @@ class MasterCurve(Moduli, Plotted, Items[tuple[float, float, float]]):
             ("loss modulus", self.loss_modulus, "Pa"),
             ("measured at", self.temperature, "°C"),
             ("reference", self.reference, "°C"),
+            ("notes", self.notes),
         )
 
     @property

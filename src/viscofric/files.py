@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import DataFileError, InputError, brief, not_written
-from viscofric.notes import Note
+from viscofric.notes import Note, note_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -46,6 +46,8 @@ _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f]")
 _SUBSTANCE = "(natural )?rubber|caoutchouc|elastomer|(poly)?isoprene|polymer|resin|fib(re|er)|leather|silica|graphite"
 _FLUID = "(base )?oil|ester|grease|lubricant|sweat|sebum|saliva"
 _SYNTHETIC = re.compile(rf"(?<!not )(?<!non-)\bsynthetic\b(?!\s+({_SUBSTANCE}|{_FLUID}))", re.IGNORECASE)
+#: Beginnings of remarks, in tables and in material cards.
+_MARKS = ("#", "%", "//", "!", "$", "**")
 #: Code of the note on such files, by which a material that is made of them is synthetic, too.
 SYNTHETIC = "synthetic"
 _OF_ELEMENT = re.compile(r">([^<]+)<")
@@ -125,7 +127,8 @@ def read_text(path: str | PathLike[str], most: int | None = None) -> str:
 def says_synthetic(path: str | PathLike[str]) -> bool:
     """Whether a file says of itself that it was not measured.
 
-    A text does so in a remark (#) among its first lines, a workbook in a cell with such a remark or in its properties.
+    A text does so in a remark (#, or as material cards have it) among its first lines, a workbook in a cell with such a
+    remark or in its properties.
     """
     try:
         with file_path(path).open("rb") as file:
@@ -133,7 +136,7 @@ def says_synthetic(path: str | PathLike[str]) -> bool:
         lines = _remarks_of_workbook(path) if data.startswith(b"PK") else decoded(data, path).splitlines()[:50]
     except (OSError, DataFileError, zipfile.BadZipFile):
         return False
-    return any(_SYNTHETIC.search(line) for line in lines if line.startswith("#"))
+    return any(_SYNTHETIC.search(line) for line in lines if line.startswith(_MARKS))
 
 
 def on_synthetic(paths: Iterable[str | PathLike[str]]) -> list[Note]:
@@ -141,6 +144,16 @@ def on_synthetic(paths: Iterable[str | PathLike[str]]) -> list[Note]:
     found = [Path(path).name for path in paths if says_synthetic(path)]
     named = f"{found[0]} says" if len(found) == 1 else f"{len(found)} files say"
     return [Note(SYNTHETIC, f"{named} that the data are synthetic: nothing was measured.")] if found else []
+
+
+def of_synthetic(notes: Iterable[str]) -> tuple[Note, ...]:
+    """Return those of some notes that say that nothing was measured, each once."""
+    return tuple(dict.fromkeys(note for note in map(note_of, notes) if note.code == SYNTHETIC))
+
+
+def on_source(source: str) -> list[Note]:
+    """Return a note if the source of some data says that they are synthetic; see `marked`."""
+    return [Note(SYNTHETIC, f"The data are synthetic ({source}).")] if _SYNTHETIC.search(source) else []
 
 
 def _remarks_of_workbook(path: str | PathLike[str]) -> list[str]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from viscofric.arguments import whole_number
+from viscofric.arguments import sentences, whole_number
 from viscofric.arrays import Array, Indices
 from viscofric.data import Deformation, Origin, set_columns, set_members, tensile_from_shear
 from viscofric.datasets import Dataset, dataset
@@ -238,6 +238,8 @@ class StepMasterCurve(Plotted):
         K.
     kind : {"creep", "relaxation"}
         Which of the two.
+    notes : tuple of str
+        What is behind the curve, such as synthetic measurements.
 
     Raises
     ------
@@ -258,6 +260,7 @@ class StepMasterCurve(Plotted):
     temperature: Array
     reference: float
     kind: StepKind
+    notes: tuple[str, ...] = ()
 
     if TYPE_CHECKING:  # what is given, converted when made
 
@@ -268,6 +271,7 @@ class StepMasterCurve(Plotted):
             temperature: Quantities,
             reference: Quantity,
             kind: StepKind,
+            notes: tuple[str, ...] = (),
         ) -> None: ...
 
     def __post_init__(self) -> None:
@@ -276,6 +280,7 @@ class StepMasterCurve(Plotted):
         object.__setattr__(self, "response", response)
         set_columns(self, "time", "response", "temperature", of="a master curve", per="point")
         object.__setattr__(self, "reference", positive(self.reference, "K", "reference"))
+        object.__setattr__(self, "notes", sentences(self.notes, "notes of a master curve"))
         if np.any(np.diff(self.time) < 0):
             raise InputError("the times of a master curve must ascend.", code="not-ascending")
 
@@ -293,6 +298,7 @@ class StepMasterCurve(Plotted):
             ),
             ("measured at", self.temperature, "°C"),
             ("reference", self.reference, "°C"),
+            ("notes", self.notes),
         )
 
     @property

@@ -291,6 +291,11 @@ def test_identification_says() -> None:
         assert origin == f"The material was identified from friction{behind}; none of its moduli was measured."
         assert origin.code == "identified-from-friction"
         assert known == ["Known."]
+    for source, made_up in (("curves.csv (synthetic)", True), ("curves.csv", False)):
+        assert (
+            any(getattr(one, "code", "") == "synthetic" for one in with_origin(found, source).spectrum.fit.notes)
+            == made_up
+        )
 
 
 def test_points_of_friction_say() -> None:

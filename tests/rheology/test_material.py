@@ -152,6 +152,7 @@ def test_a_material_made_step_by_step_of_files_that_say_so_is_synthetic(tmp_path
         fit = vf.superpose(vf.read_dma(path), reference="25 degC")
         rubber = vf.Material(vf.fit_retardation_spectrum(fit), shift=fit.shift_factors)
         assert rubber.synthetic == rubber.at_reference("30 degC").synthetic == synthetic
+        assert vf.Material(vf.fit_retardation_spectrum(fit.master_curve)).synthetic == synthetic
         vf.write_card(rubber, tmp_path / "rubber.json", format="json")
         assert vf.read_card(tmp_path / "rubber.json").synthetic == synthetic
 
@@ -160,3 +161,19 @@ def test_a_material_of_synthetic_ramps_is_synthetic():
     ramps = replace(planted_ramps(1), notes=(Note(SYNTHETIC, "The data are synthetic."),))
     fit = vf.superpose_ramps(ramps, "25 degC")
     assert vf.Material(vf.fit_retardation_spectrum(fit), shift=fit.shift).synthetic
+    assert vf.Material(vf.fit_retardation_spectrum(fit.master_curve), shift=fit.shift).synthetic
+
+
+@pytest.mark.parametrize(("remark", "synthetic"), [("SYNTHETIC, not measured.", True), ("measured", False)])
+def test_a_material_of_a_master_curve_or_a_card_is_synthetic_where_its_file_says_so(tmp_path, remark, synthetic):
+    omega = np.logspace(-3.0, 3.0, 13)
+    moduli = vf.synthetic_fluoroelastomer().spectrum.complex_modulus(omega)
+    rows = [f"{one},{E.real},{E.imag}" for one, E in zip(omega, moduli, strict=True)]
+    path = tmp_path / "curve.csv"
+    path.write_text("\n".join([f"# {remark}", "omega (rad/s),E' (Pa),E'' (Pa)", *rows]), encoding="utf-8")
+    curve = vf.read_master_curve(path, "30 degC", deformation="tension")
+    assert vf.Material(vf.fit_retardation_spectrum(curve)).synthetic == synthetic
+    path = vf.write_card(vf.Material(vf.synthetic_fluoroelastomer().spectrum), tmp_path / "a.inp", "abaqus")
+    bare = "\n".join(line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("**"))
+    path.write_text(f"** {remark}\n{bare}", encoding="utf-8")
+    assert vf.rheology.open_card(path, modulus_unit="Pa", time_unit="s").material.synthetic == synthetic

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from viscofric.arguments import flag
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset
+from viscofric.files import on_source
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, codes
 from viscofric.rheology.material import Material
@@ -364,7 +365,7 @@ def with_origin(found: Identified, source: str) -> Material:
         E0_extrapolated=True,
         E_inf_extrapolated=True,
         frequency_range=(float(ends[0]), float(ends[1])),
-        notes=(origin, *found.known),
+        notes=(origin, *on_source(source), *found.known),
         method=found.METHOD,
         modes=len(spectrum),
         rms_step=found.rms / LN10 if found.METHOD == FROM_INDENTATION else None,

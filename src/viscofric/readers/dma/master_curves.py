@@ -11,7 +11,7 @@ import numpy as np
 from viscofric.arrays import Array, Integers
 from viscofric.data import DEFORMATIONS, Deformation, MasterCurve
 from viscofric.errors import DataFileError, check_choice
-from viscofric.files import read_bytes
+from viscofric.files import on_synthetic, read_bytes
 from viscofric.readers.dma.names import DMA, decided, insist_on_one_specimen, temperatures_above
 from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
@@ -102,7 +102,10 @@ def read_master_curve(
     kind = decided(source.path, dma_table.deformation([table]), deformation)
     factor = 1.0 if kind != "shear" else 2.0 * (1.0 + ratio)
     order = np.argsort(frequency, kind="stable")
-    return MasterCurve(frequency[order], factor * storage[order], factor * loss[order], temperature[order], kelvin)
+    notes = tuple(on_synthetic([path]))
+    return MasterCurve(
+        frequency[order], factor * storage[order], factor * loss[order], temperature[order], kelvin, notes
+    )
 
 
 def _table(source: Source) -> tuple[Table, float]:

@@ -21,7 +21,7 @@ from viscofric.errors import (
     short_notes,
     wrong_argument,
 )
-from viscofric.files import file_path, read_text
+from viscofric.files import file_path, read_text, says_synthetic
 from viscofric.notes import Note, Remedy, note_of
 from viscofric.rheology.cards import abaqus, ansys, comsol, ls_dyna, native
 from viscofric.rheology.cards.card import SOFTEST, Card, Reading, Solid, UnitSystem, Writing, card_law, give_units
@@ -329,6 +329,7 @@ def open_card(
         solid = _PROGRAMS[found].read(text, reading, content)
         _insist_on_units(solid)
         material, notes = material_of(solid, content)
+        material = replace(material, synthetic=material.synthetic or says_synthetic(path))
         return Card(material, _PROGRAMS[found].name, short_notes((*solid.notes, *notes)))
     except DataFileError:
         raise

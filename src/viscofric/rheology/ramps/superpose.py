@@ -11,6 +11,7 @@ from viscofric.arguments import insist_on
 from viscofric.arrays import Array
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, SuperpositionError, brief, check_choice
+from viscofric.files import of_synthetic
 from viscofric.notes import Note, Remedy
 from viscofric.ramps import TemperatureRamps
 from viscofric.rheology.ramps.common_law import CommonLaw, RampPoints, common_law
@@ -351,7 +352,8 @@ def _master_curve(ramps: TemperatureRamps, points: RampPoints, shift: ShiftLaw, 
     frequency = points.log_frequency + np.asarray(shift.log10(points.temperature))
     order = np.argsort(frequency, kind="stable")
     moduli = 10.0 ** points.moduli[order]
-    return MasterCurve(10.0 ** frequency[order], moduli[:, 0], moduli[:, 1], points.temperature[order], kelvin)
+    temperature, made_up = points.temperature[order], of_synthetic(ramps.notes)
+    return MasterCurve(10.0 ** frequency[order], moduli[:, 0], moduli[:, 1], temperature, kelvin, made_up)
 
 
 def _table(shift: ShiftLaw, ramps: TemperatureRamps, kelvin: float) -> ShiftFactors:

@@ -11,8 +11,8 @@ import numpy as np
 from viscofric.arguments import insist_on, whole_number
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, check_choice, wrong_argument
-from viscofric.files import SYNTHETIC
-from viscofric.notes import Note, note_of
+from viscofric.files import of_synthetic
+from viscofric.notes import Note
 from viscofric.rheology.spectra import mode_fits
 from viscofric.rheology.spectra.fit_verdict import Curve, judged, solid_modes
 from viscofric.rheology.spectra.misfit import (
@@ -129,8 +129,7 @@ def fit_retardation_spectrum(
 def _with_doubts(spectrum: RetardationSpectrum, *tests: object) -> RetardationSpectrum:
     """Return the spectrum with notes on what is behind it: superpositions that do not hold, synthetic measurements."""
     joined = [one for one in tests if isinstance(one, Superposed) and one.isotherms]
-    every = [note_of(note) for one in tests for note in getattr(one, "notes", ())]  # also of ramps
-    made_up = dict.fromkeys(note for note in every if note.code == SYNTHETIC)
+    made_up = of_synthetic(note for one in tests for note in getattr(one, "notes", ()))  # also of ramps
     return spectrum.noted(*(note for one in joined for note in one.check.doubts), *made_up)
 
 

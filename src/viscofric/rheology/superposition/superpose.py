@@ -12,6 +12,7 @@ from viscofric.arguments import insist_on
 from viscofric.arrays import Array
 from viscofric.data import Isotherm, IsothermalSweeps, MasterCurve
 from viscofric.errors import InputError
+from viscofric.files import of_synthetic
 from viscofric.notes import Note
 from viscofric.rheology.shifts.law_comparison import course_notes
 from viscofric.rheology.shifts.laws import ShiftLaw
@@ -226,7 +227,8 @@ def superpose(
         logs = [LogSweep.of_step(one, tests.kind, own) for one, own in zip(tests.tests, weights_of, strict=True)]
         steps, found = shifted_isotherms(tests.tests, logs, kelvin, known, vertical == "free", shift, fixed, STEP)
         found["notes"] = (*tests.notes, *found["notes"], *(flowing(steps.isotherms) if tests.kind == "creep" else []))
-        return StepSuperposition(master_curve=_step_master_curve(steps, found["shift_factors"], tests.kind), **found)
+        steps_curve = _step_master_curve(steps, found["shift_factors"], tests.kind)
+        return StepSuperposition(master_curve=replace(steps_curve, notes=of_synthetic(tests.notes)), **found)
     assert isinstance(sweeps, IsothermalSweeps)
     tensile = sweeps.in_tension(ratio)
     quantities = Quantities.chosen(by, weights)
@@ -237,7 +239,7 @@ def superpose(
     )
     found["notes"] = (*tensile.notes, *quantities.notes, *found["notes"])
     unequal = None if weights is None else (float(quantities.weights[0]), float(quantities.weights[1]))
-    curve = _master_curve(joined, found["shift_factors"])
+    curve = replace(_master_curve(joined, found["shift_factors"]), notes=of_synthetic(tensile.notes))
     return Superposition(master_curve=curve, shifted_by=quantities.by, weights=unequal, **found)
 
 
