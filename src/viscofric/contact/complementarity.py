@@ -50,6 +50,8 @@ _MUCH_LESS = 1e-3
 _HEADWAY = 0.99
 # Overlap, over the root mean square of the gap that known changes leave, from which on a cell beside joins the contact.
 _CLEAR = 0.3
+# Part of the contact up to which cells join that will overlap only after the step.
+_FEW = 0.003
 # Least length of a correction where many spots are solved, of that by the preconditioner.
 _SHORTEST = 0.3
 _DIRECTIONS = 40  # search directions that GCR keeps
@@ -230,10 +232,12 @@ def solve_many_spots(
 
     A step removes from the gap under pressure what known changes of the pressure can remove, preconditions the rest,
     and cuts off pressures below zero.  A free cell beside the contact joins it if it overlaps, and would still do so
-    after the step: the error of a spot's level says nothing about its edges.  One product gives the displacement of the
-    whole change: with it the gap is known, the set is looked at, and the next steps know one change more.  This is GCR
-    one step late, whose directions outlive changes of the set; corrections are shorter where those before were too
-    long.  Changes are in the precision of `inner`; what is returned as converged is confirmed with `operator`.
+    after the step: the error of a spot's level says nothing about its edges.  While they are few, cells join that do
+    not overlap yet, unless they have just left: otherwise wrong ones could come and go forever.  One product gives the
+    displacement of the whole change: with it the gap is known, the set is looked at, and the next steps know one change
+    more.  This is GCR one step late, whose directions outlive changes of the set; corrections are shorter where those
+    before were too long.  Changes are in the precision of `inner`; what is returned as converged is confirmed with
+    `operator`.
 
     Arguments as of `solve_complementarity`, with a depth of 1; of the latest changes as many as `directions` are kept.
     `doubt`: away from the contact, overlap below so many root mean square gaps under pressure does not make contact
@@ -280,7 +284,7 @@ def solve_many_spots(
             # The best length of the last correction is known now; the next one goes half of the way to it.
             length = min(1.0, max(_SHORTEST, length * (1.0 + 0.5 * missing / fresh)))
         enough = _CLEAR * _size(residual) / math.sqrt(len(pressed))
-        contact, field = _joined(known, chosen, level, gap, extended(residual), moved, enough)
+        contact, field = _joined(known, former, chosen, level, gap, extended(residual), moved, enough)
         collected = collected if contact is former else extension.collecting(contact)
         correction = length * collected(inner.precondition(field))
         old = contact.gathered(pressure)
@@ -454,16 +458,27 @@ class KnownChanges:
 
 
 def _joined(
-    known: KnownChanges, chosen: AnyArray, level: float, gap: AnyArray, field: AnyArray, moved: AnyArray, enough: float
+    known: KnownChanges,
+    before: Cells,
+    chosen: AnyArray,
+    level: float,
+    gap: AnyArray,
+    field: AnyArray,
+    moved: AnyArray,
+    enough: float,
 ) -> tuple[Cells, AnyArray]:
     """Return the contact with the cells that join it, and the field of what is to be corrected, with their overlap.
 
     `chosen` (nx, ny) are the cells that join away from the contact; the field is overwritten.  Those beside it have
-    been `moved` by the known changes, and the correction will move them by about the field.
+    been `moved` by the known changes, and the correction will move them by about the field.  `before` is the contact
+    of the step before.
     """
     backend, xp, pressed, beside = known.backend, known.xp, known.contact, known.beside
     expected, overlap = beside.gathered(field), xp.astype(level - beside.gathered(gap), field.dtype)
-    joins = (overlap > 0.0) & (overlap - moved - expected > enough)
+    joins = overlap - moved - expected > enough
+    early = joins & (overlap <= 0.0)
+    many = int(xp.count_nonzero(early)) >= _FEW * len(pressed)
+    joins = joins & ~(early if many else early & beside.gathered(before.chosen))
     field = beside.inserted(field, xp.where(joins, overlap - moved, expected))
     far = backend.cells(chosen & ~(pressed.chosen | beside.chosen))
     if len(far):
