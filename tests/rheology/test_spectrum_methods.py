@@ -85,10 +85,10 @@ def test_storage_modulus_rises_with_frequency_for_any_fit(method, pairs, seed):
 
 
 @settings(max_examples=8, deadline=None)
-@given(st.sampled_from(METHODS), st.integers(-3, 3), st.floats(-9, 9))
-def test_units_of_time_and_modulus_do_not_matter(method, steps, log_modulus):
+@given(st.sampled_from(METHODS), st.floats(-9, 9), st.floats(-9, 9))
+def test_units_of_time_and_modulus_do_not_matter(method, log_time, log_modulus):
     master = master_of(rubber(), points=60)
-    time_unit, unit = math.e**steps, 10.0**log_modulus
+    time_unit, unit = 10.0**log_time, 10.0**log_modulus
     other = MasterCurve(
         time_unit * master.angular_frequency,
         unit * master.storage_modulus,
@@ -126,14 +126,17 @@ def test_a_chosen_strength_finds_the_smooth_spectrum_under_the_noise(choice):
     truth = rubber()
     smooth = fit_retardation_spectrum(master_of(truth), method="regularised", regularisation=choice)
     assert 1e-4 < smooth.fit.regularisation < 0.2
+
     # Compliance per unit of ln τ: the truth has 0.2 decades, the fit e between modes.  It is smooth, so that
     # reading it by interpolation is exact to some per cent; 1 % noise leaves a tenth in single modes.
-    inside = (smooth.tau > 1e-4) & (smooth.tau < 1e-1)
-    density = np.exp(np.interp(np.log(smooth.tau), np.log(truth.tau), np.log(truth.C))) / (0.2 * math.log(10.0))
-    assert smooth.C[inside] == pytest.approx(density[inside], rel=0.25)
-    # Single modes of the non-negative spectrum are nowhere near that: most of them scatter, or are zero.
-    rough = fit_retardation_spectrum(master_of(truth))
-    assert len(rough) < len(smooth)
+    def away(spectrum):
+        inside = (spectrum.tau > 1e-4) & (spectrum.tau < 1e-1)
+        density = np.exp(np.interp(np.log(spectrum.tau), np.log(truth.tau), np.log(truth.C))) / (0.2 * math.log(10.0))
+        return (spectrum.C / density - 1.0)[inside]
+
+    assert np.abs(away(smooth)).max() < 0.25
+    # Single modes of the non-negative spectrum alternate about the truth: by 7 % here, those of the smooth one by 2 %.
+    assert np.std(away(fit_retardation_spectrum(master_of(truth)))) > 2.0 * np.std(away(smooth))
 
 
 def test_cross_validation_smooths_more_where_there_is_more_noise():

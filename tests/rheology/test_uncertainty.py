@@ -277,6 +277,26 @@ def test_units_of_the_modulus_do_not_matter():
     assert large.modulus_band(omega).upper == pytest.approx(1e6 * plain.modulus_band(omega).upper, rel=1e-3)
 
 
+def test_materials_at_a_temperature_do_not_depend_on_the_reference_of_their_master_curve():
+    about = known_superposition()
+    shift = about.shift_factors.at_reference("50 degC")
+    factor = float(about.shift_factors("50 degC"))
+    curve = about.master_curve
+    moved = replace(curve, angular_frequency=curve.angular_frequency / factor, reference=shift.reference)
+    other = replace(about, master_curve=moved, shift_factors=shift)
+    omega = np.geomspace(*curve.angular_frequency[[0, -1]], 20)
+    (plain, drawn), (elsewhere, redrawn) = (
+        (vf.Material(fit_retardation_spectrum(fit), shift=fit.shift_factors), sample_materials(fit, samples=20))
+        for fit in (about, other)
+    )
+    # Rounding, and for samples iterations that stop at a relative fall of 1e-3 of the sum of squares.
+    assert elsewhere.complex_modulus(omega, "30 degC") == pytest.approx(
+        plain.complex_modulus(omega, "30 degC"), rel=1e-6
+    )
+    upper = drawn.modulus_band(omega, "30 degC").upper
+    assert redrawn.modulus_band(omega, "30 degC").upper == pytest.approx(upper, rel=1e-3)
+
+
 def test_what_cannot_be_sampled_is_refused():
     fit = known_superposition()
     with refused("not-fitted"):

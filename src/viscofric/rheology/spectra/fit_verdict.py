@@ -48,7 +48,7 @@ POINTS_OF_A_SLOPE = 4
 def solid_modes(misfit: Misfit, tau: Array, curve: Curve) -> Modes:
     """Fit non-negative modes with a rubber plateau, and raise `LiquidError` where only flow describes the low end."""
     # The slowest retardation time that a mode may have (`Misfit.ends`) is added to `tau` (n,) in s where the curve's
-    # low end is missed without it: whether a fixed lattice has a time near it is chance.
+    # low end is missed without it: whether a lattice has a time near it is chance.
     enough = MISSED_OVER_TIME if isinstance(curve, StepMasterCurve) else MISSED
     solid = nonnegative_modes(misfit, tau)
     if _missed_at_low_end(misfit, solid) <= enough:

@@ -20,14 +20,14 @@ ACTIVE_SET_CONVERGED = 1e-6  # relative fall of the misfit
 
 
 def lattice(misfit: Misfit, ratio: float) -> Array:
-    """Return times on the fixed lattice ratio^k: frequencies shifted by the ratio give the same fit."""
-    return lattice_between(misfit.ends, ratio)
+    """Return times in a geometric progression about the middle of those that modes may have: it moves with the data."""
+    return lattice_between(misfit.ends, ratio, sum(misfit.ends) / 2.0)
 
 
-def lattice_between(ends: tuple[float, float], ratio: float) -> Array:
-    """Return the times ratio^k between two, given by their logarithms."""
-    low, high = (end / math.log(ratio) for end in ends)
-    return np.asarray(ratio ** np.arange(math.ceil(low), math.floor(high) + 1, dtype=float))
+def lattice_between(ends: tuple[float, float], ratio: float, through: float) -> Array:
+    """Return times in a geometric progression between two and through a third, given by their logarithms."""
+    low, high = ((end - through) / math.log(ratio) for end in ends)
+    return np.asarray(np.exp(through + math.log(ratio) * np.arange(math.ceil(low), math.floor(high) + 1, dtype=float)))
 
 
 def nonnegative_modes(

@@ -186,7 +186,7 @@ class Refit:
         if ratio is not None:
             edge = BEYOND * math.log(10.0) + FURTHER + self.spacing
             low, high = like.ends_of(lowest, highest)
-            self.tau = lattice_between((low - edge, high + edge), ratio)
+            self.tau = lattice_between((low - edge, high + edge), ratio, math.log(spectrum.tau[0]))
             away = np.abs(np.log(spectrum.tau)[:, None] - np.log(self.tau)).min(axis=1)
             # The slowest may lie between two times of the lattice.
             self.apart = np.array(spectrum.tau)[away > SAME_TIME]
@@ -229,8 +229,8 @@ class Refit:
             return np.array(self.spectrum.tau)
         low, high = misfit.ends
         low -= FURTHER * self.random.uniform()
-        by = self.spacing * self.random.uniform()
-        tau = np.exp(by) * lattice_between((low - by, high - by), math.exp(self.spacing))
+        through = high - self.spacing * self.random.uniform()
+        tau = lattice_between((low, high), math.exp(self.spacing), through)
         return np.append(tau, self.apart)
 
     def _fitted(self, misfit: Misfit, tau: Array, start: Modes | None) -> Modes:
