@@ -253,7 +253,7 @@ SHADOWED = """
 import viscofric as vf
 from viscofric.units import to_si
 try:
-    to_si("30 degC", "K")
+    to_si("30 furlong", "m")  # a unit that only pint knows
 except vf.ViscofricError as error:
     print(error)
 """

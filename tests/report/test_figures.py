@@ -204,8 +204,13 @@ def test_prediction_beyond_the_measured_frequencies_is_thin(axes: Axes, tree: xr
 
 @pytest.mark.slow
 def test_plotting_is_imported_without_what_annotations_alone_name() -> None:
-    """The first plot does not wait for motion and identification."""
+    """The first plot does not wait for motion, identification and run files."""
     script = "import sys, viscofric.report.plotting; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    unused = ("viscofric.motion", "viscofric.friction.identification", "viscofric.friction.heating", "viscofric.study")
+    unused = (
+        "viscofric.motion",
+        "viscofric.friction.identification",
+        "viscofric.friction.heating",
+        "viscofric.study.run_file",
+    )
     assert not [module for module in done.stdout.split() if module.startswith(unused)]

@@ -11,10 +11,8 @@ const unitOf = (axis) => units.label(axis?.kind);
 /** An axis's quantity and its unit. */
 export const titled = (axis) => `${axis?.label ?? ""}${unitOf(axis) ? ` (${unitOf(axis)})` : ""}`;
 
-const LONGEST = 36; // letters beside the lowest figure
-
-/** A text of several lines, none longer than LONGEST. */
-const wrapped = (text) => text.replace(new RegExp(`(.{1,${LONGEST}})(?: |$)`, "g"), "$1<br>").replace(/<br>$/, "");
+/** A text of several lines, of at most 36 letters each, as fit beside the lowest figure. */
+const wrapped = (text) => text.replace(/(.{1,36})(?: |$)/g, "$1<br>").replace(/<br>$/, "");
 
 /** The least and the largest value drawn along an axis, SI; bars and bands count of those that are shown. */
 function endsOf(spec, name) {
