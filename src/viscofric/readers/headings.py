@@ -99,19 +99,8 @@ _RANGE = re.compile(
 _COUNTING = frozenset(
     {"sweep", "step", "interval", "segment", "run", "set", "part", "no", "nr", "sample", "specimen", "test", "probe"}
     | {"batch", "lot", "mix", "compound", "page", "cycle", "day", "file", "version", "position", "film", "ramp"}
-    | {
-        "coupon",
-        "measurement",
-        "experiment",
-        "exp",
-        "series",
-        "isotherm",
-        "trial",
-        "repeat",
-        "replicate",
-        "point",
-        "block",
-    }
+    | {"coupon", "measurement", "experiment", "exp", "series", "isotherm", "trial"}
+    | {"repeat", "replicate", "point", "block"}
     | {"schritt", "messung", "mischung", "charge", "échantillon", "essai", "muestra", "versuch", "lauf", "zyklus"}
     | {"serie", "prüfung", "mesure", "ensayo", "prova"}
 )

@@ -320,16 +320,8 @@ def _without(sweeps: list[Sorted], temperatures: Array) -> tuple[list[Sorted], l
 def opening(readings: Sequence[Readings], deformation: Deformation | None) -> tuple[str, Deformation, list[Note]]:
     """Return the name of the files, the kind of deformation, and the notes on both and of the readers."""
     kind, on_deformation = _deformation(readings, deformation)
-    return (
-        _source(readings),
-        kind,
-        [
-            *_on_formats(readings),
-            *on_synthetic(one.source for one in readings),
-            *on_deformation,
-            *_own_notes(readings),
-        ],
-    )
+    synthetic = on_synthetic(one.source for one in readings)
+    return _source(readings), kind, [*_on_formats(readings), *synthetic, *on_deformation, *_own_notes(readings)]
 
 
 def _source(readings: Sequence[Readings]) -> str:
