@@ -464,9 +464,7 @@ def _speed_on_waves(
         assert one.field is not None
         toward = tuple((velocity / math.hypot(*velocity)).tolist())
         material, layer, along = problem.material, problem.layer, tuple(velocity.tolist())
-        solid = SlidingSolid(
-            problem.schedule.spectrum, material.poisson_ratio, along, layer, problem.counterface, toward
-        )  # fmt: skip
+        solid = SlidingSolid(schedule.spectrum, material.poisson_ratio, along, layer, problem.counterface, toward)
         transfer, waves = solid.transfer(surface.shape, surface.spacing), scipy.fft.rfft2(one.field.pressure)
         return surface, solid, transfer, waves, dissipation(transfer, surface.shape, surface.spacing, toward, waves)
 
