@@ -96,7 +96,11 @@ class ViscofricError(Exception):
     ----------
     note : Note
         The sentence with its code, place and remedy.
+    solved : FrictionCurves or None
+        What was solved in spite of the error, by `predict_friction`; None if nothing was.
     """
+
+    solved: Any = None
 
     def __init__(
         self,

@@ -14,6 +14,7 @@ import pytest
 import viscofric as vf
 from cli import calls
 from rheology.planted import write_moduli
+from viscofric.cli.commands import SOME_CASES_FAILED
 from viscofric.cli.curve import command
 from viscofric.cli.speed_options import chosen_speeds
 from viscofric.rheology.spectra.quality import SpectrumFit
@@ -157,3 +158,17 @@ def test_curves_go_into_a_pipe_without_the_table() -> None:
 def test_a_range_of_speeds_may_be_written_in_several_ways(text: str) -> None:
     found = chosen_speeds({"speeds": [text], "points": 4})
     np.testing.assert_allclose(found, [1e-3, 1e-2, 1e-1, 1.0], rtol=1e-12)
+
+
+def test_a_contact_without_a_solution_leaves_the_curve_of_the_others(tmp_path: Path) -> None:
+    x = np.linspace(-1.0, 1.0, 81)
+    heights = tmp_path / "profile.csv"
+    np.savetxt(heights, np.c_[x, x**2 / 20.0], delimiter=",", header="x (mm),height (mm)", comments="")
+    stiff_when_fast = ("--E0", "1 MPa", "--E-inf", "20 MPa", "--tau", "5 ms", "--profile", heights)
+    words = (*stiff_when_fast, "--load", "200 N/m", "--accuracy", "0.01", "--speed", "1 mm/s, 20 m/s, 30 m/s")
+    done = calls.call("curve", *words, "--out", tmp_path / "curve.csv", "--json")
+    assert done.exit_code == SOME_CASES_FAILED
+    found = json.loads(done.stdout)
+    assert found["results"]["speed"] == [20.0, 30.0]
+    assert [one["values"]["contacts"] for one in found["note_records"] if one["code"] == "unsolved"] == [1]
+    np.testing.assert_array_equal(vf.read_friction_curves(tmp_path / "curve.csv").speed, [20.0, 30.0])

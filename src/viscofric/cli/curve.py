@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import CONDITIONS, as_command, exit_if_beyond, together
+from viscofric.cli.commands import CONDITIONS, SOME_CASES_FAILED, as_command, exit_if_beyond, together
 from viscofric.cli.contact_options import (
     NamedIndenter,
     chosen_indenter,
@@ -87,6 +87,7 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     """
     refuse_to_overwrite(inputs_of(parameters), out, picture)
     from viscofric.cli.progress import contact_bar
+    from viscofric.errors import ViscofricError
     from viscofric.files import marked
     from viscofric.friction.curve_files import write_friction_curves
     from viscofric.friction.prediction import predict_friction
@@ -97,19 +98,25 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     settings = contact_settings(parameters) | {"layer": chosen_layer(parameters)}
     samples = _samples(rubber, parameters["samples"])
     name = in_contact(shape.words, rubber, settings["layer"])
-    with contact_bar("Contacts", quiet=as_json) as bar:
-        curves = predict_friction(
-            rubber.material,
-            shape.indenter,
-            speeds=velocities,
-            temperatures=chosen_temperatures(parameters) or None,
-            load=parameters["load"],
-            samples=samples,
-            workers=parameters["workers"],
-            progress=bar,
-            heating=chosen_heating(parameters),
-            **settings,
-        )
+    failed = False
+    try:
+        with contact_bar("Contacts", quiet=as_json) as bar:
+            curves = predict_friction(
+                rubber.material,
+                shape.indenter,
+                speeds=velocities,
+                temperatures=chosen_temperatures(parameters) or None,
+                load=parameters["load"],
+                samples=samples,
+                workers=parameters["workers"],
+                progress=bar,
+                heating=chosen_heating(parameters),
+                **settings,
+            )
+    except ViscofricError as error:
+        if error.solved is None:
+            raise
+        curves, failed = error.solved, True
     made_up = is_made_up(rubber, parameters)
     curves = replace(curves, source=marked(curves.source, synthetic=made_up))
     answer(lambda: _record(curves, rubber, shape, parameters), lambda: _print(name, rubber, curves))
@@ -119,6 +126,8 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
         ("curves", out, partial(write_friction_curves, curves)),
         ("picture", picture, drawing(_figure_of(curves), curves, mark=made_up)),
     )
+    if failed:
+        click.get_current_context().exit(SOME_CASES_FAILED)
     exit_if_beyond(parameters["accuracy"], curves.viscoelastic, curves.viscoelastic_error)
 
 

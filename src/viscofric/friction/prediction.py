@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Unpack
+from typing import Any, Unpack, cast
 
 import numpy as np
 
 from viscofric.arguments import exactly_one, flag, insist_on, insist_on_function
-from viscofric.arrays import Array
+from viscofric.arrays import Array, Mask
 from viscofric.contact.bodies import Layer, checked_coulomb
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
-from viscofric.errors import InputError
+from viscofric.errors import ConvergenceError, InputError, ViscofricError
 from viscofric.files import marked
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.cases.record import Record, columns_of_contacts, indenter_record
@@ -24,13 +24,14 @@ from viscofric.friction.heating import predict_heated
 from viscofric.friction.planning.shared import SharedContacts, places_of
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.heat.heating import Heating
+from viscofric.notes import Note
 from viscofric.processes import Workers, at_work, call_all, counted_from
 from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material, insist_on_material, known_at
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.units import Quantities, Quantity, number, positive, shown_number, to_si_array
+from viscofric.units import Quantities, Quantity, number, positive, shown_celsius, shown_number, to_si_array
 
 
 def predict_friction(
@@ -114,6 +115,11 @@ def predict_friction(
     ConvergenceError
         If a contact cannot be solved to the accuracy.
 
+    Notes
+    -----
+    An error of one contact names its conditions, and is raised after the others are solved; without heating its
+    attribute `solved` has their curves.
+
     Examples
     --------
     >>> import viscofric as vf
@@ -169,25 +175,33 @@ def predict_friction(
             progress(done, sum(map(len, parts)) * (1 if heating is None else 2))
 
     report(0)
-    rise = None
+    rise, failure, here = None, None, np.ones(sum(map(len, parts)), dtype=bool)
     with at_work(workers) as processes:
         if heating is not None:
             curves: FrictionCurves
             curves = heated = predict_heated(parts, heating, processes, report, interface, exact=exact)
             slip, rise = None if heating.slip is None else heating.sliding(0.0), heated.face_rise
         else:
-            curves = _isothermal(parts, drawn, processes, report, exact)
+            curves, here, failure = _isothermal(parts, drawn, processes, report, exact)
     if interface is not None:
         slips = None if slip is None else to_si_array(slip, "m/s", "slip")
         if slips is not None and slips.size == len(parts[0]):
-            slips = np.tile(slips, len(parts))  # the same under each load
+            slips = np.tile(slips, len(parts))[here]  # the same under each load
         curves = with_interface(curves, interface, slips, rise=rise)
     warmer = getattr(curves, "temperature_rise", None)
     notes = (*assumed, *curves.notes)
     if curves.coulomb is not None:
         solved = checked_coulomb(settings.get("coulomb", 0.0))
         notes += shear_notes(curves, curves.coulomb, [(material, layer)] * len(curves), warmer, solved)
-    return replace(curves, notes=notes)
+    return _with_error(replace(curves, notes=notes), failure)
+
+
+def _with_error(curves: FrictionCurves, failure: ViscofricError | None) -> FrictionCurves:
+    """Return the curves, or raise the error of contacts that they lack."""
+    if failure is not None:
+        failure.solved = curves
+        raise failure
+    return curves
 
 
 def _isothermal(
@@ -196,34 +210,62 @@ def _isothermal(
     workers: Workers,
     report: Callable[[int], None],
     exact: bool,
-) -> FrictionCurves:
-    """Return the friction of contacts, those of each load in a part of their own, with the material's band."""
-    first = parts[0][0]
-    material, records = first["material"], list[Record]()
+) -> tuple[FrictionCurves, Mask, ViscofricError | None]:
+    """Return the friction of contacts, those of each load in a part of their own, with the material's band.
+
+    Also which of them are solved, (n,), and the first error of those that are not; it is raised where none is.
+    """
+    outcomes: list[Record | ViscofricError] = []
     for part in parts:
-        records += _records(part, drawn is not None, workers, counted_from(len(records), report), exact)
+        outcomes += _outcomes(part, drawn is not None, workers, counted_from(len(outcomes), report), exact)
+    here = np.array([isinstance(one, Record) for one in outcomes])
+    failure = None if here.all() else _failure(parts, outcomes, here)
+    records = [one for one in outcomes if isinstance(one, Record)]
+    first = parts[0][0]
+    material = first["material"]
     columns = columns_of_contacts(material, records, first["indenter"].geometry.load_unit)
     curves = FrictionCurves(**columns, source=marked("predicted", synthetic=is_synthetic(material)))
-    if drawn is None:
-        return curves
-    return with_material_band(curves, [record.sensitivity for record in records], drawn)  # type: ignore[misc]
+    if failure is not None:
+        count = int(np.count_nonzero(~here))
+        said = f"{count} of {here.size} contacts {'has' if count == 1 else 'have'} no solution: {failure}"
+        curves = replace(curves, notes=(Note("unsolved", said, values={"contacts": count}), *curves.notes))
+    if drawn is not None:
+        curves = with_material_band(curves, [record.sensitivity for record in records], drawn)  # type: ignore[misc]
+    return curves, here, failure
 
 
-def _records(
+def _failure(parts: list[list[dict[str, Any]]], outcomes: list[Record | ViscofricError], here: Mask) -> ViscofricError:
+    """Return the first error with the conditions of its contact; raise it as it is if no contact is solved."""
+    row = int(np.argmin(here))
+    error, contact = cast("ViscofricError", outcomes[row]), [one for part in parts for one in part][row]
+    if not here.any():
+        raise error
+    unit = contact["indenter"].geometry.load_unit
+    where = [f"{shown_celsius(contact['temperature'])} °C, {shown_number(1e3 * contact['speed'], '.4g')} mm/s"]
+    where += [f"{shown_number(contact['load'], '.4g')} {unit}"] if len(parts) > 1 else []
+    return error.at(", ".join(where))
+
+
+def _outcomes(
     contacts: list[dict[str, Any]], sensitive: bool, workers: Workers, report: Callable[[int], None], exact: bool
-) -> list[Record]:
-    """Return the records of contacts under one load, interpolated between fewer where that is enough."""
+) -> list[Record | ViscofricError]:
+    """Return the records of contacts under one load, or their errors, interpolated between fewer where enough."""
     if not exact:
         shared = SharedContacts.of(contacts[0]["material"], contacts, workers, report, sensitive=sensitive)
-        records = [] if shared is None else shared(places_of(contacts))
-        if records and not (sensitive and any(record.sensitivity is None for record in records)):
-            return records
-    kelvins = [contact["temperature"] for contact in contacts]
-    if not sensitive:
-        solved = call_all(solve_steady, contacts, workers=workers, progress=report)
-        return [indenter_record(*one) for one in zip(solved, kelvins, strict=True)]
-    pairs = call_all(solve_with_sensitivity, contacts, workers=workers, progress=report)
-    return [indenter_record(one, kelvin, known) for (one, known), kelvin in zip(pairs, kelvins, strict=True)]
+        found = [] if shared is None else shared.outcomes(places_of(contacts))
+        if found and not (sensitive and any(isinstance(one, Record) and one.sensitivity is None for one in found)):
+            return found
+    calls = [{"contact": one, "sensitive": sensitive} for one in contacts]
+    return call_all(_attempt, calls, workers=workers, progress=report)
+
+
+def _attempt(contact: dict[str, Any], sensitive: bool) -> Record | ViscofricError:
+    """Return the record of a contact, arguments of `solve_steady`, or its error."""
+    try:
+        solution, known = solve_with_sensitivity(**contact) if sensitive else (solve_steady(**contact), None)
+    except (ConvergenceError, InputError) as error:
+        return error
+    return indenter_record(solution, contact["temperature"], known)
 
 
 def _insist_on_values(values: Array, name: str, unit: str) -> None:

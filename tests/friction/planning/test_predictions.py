@@ -10,6 +10,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.friction.planning import shared
+from viscofric.notes import codes
 
 SOLID = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="20 MPa", tau="5 ms")
 RUBBER = replace(SOLID, shift=vf.WLF(C1=8.86, C2=101.6, reference="50 degC"))
@@ -82,3 +83,20 @@ def test_a_contact_wider_than_its_indenter_is_refused_as_alone():
         vf.predict_friction(RUBBER, narrow, **wanted, exact=True)
     with refused(alone.value.code):
         vf.predict_friction(RUBBER, narrow, **wanted)
+
+
+@pytest.mark.parametrize("exact", [False, True])
+def test_an_error_of_some_contacts_names_its_conditions_and_has_the_curve_of_the_others(exact):
+    narrow = vf.Profile(np.linspace(-1e-3, 1e-3, 81) ** 2 / 0.02, spacing=2.5e-5)
+    speeds = np.array([1e-3, 2e-3, 20.0, 40.0, 80.0])  # the rubber is twenty times as stiff at the last three
+    wanted = {"temperatures": "60 degC", "accuracy": 1e-2, "exact": exact}
+    with refused("beyond-indenter") as info:
+        vf.predict_friction(RUBBER, narrow, loads=["200 N/m", "250 N/m"], speeds=speeds, **wanted)
+    solved = info.value.solved
+    np.testing.assert_allclose(solved.speed, [*speeds[2:], *speeds[2:]])
+    np.testing.assert_allclose(solved.load, [200.0] * 3 + [250.0] * 3)
+    first = vf.predict_friction(RUBBER, narrow, load="200 N/m", speeds=speeds[2:], **wanted)
+    np.testing.assert_array_equal(solved.viscoelastic[:3], first.viscoelastic)
+    assert info.value.note.where == "60.0 °C, 1 mm/s, 200 N/m"
+    assert "unsolved" in codes(solved.notes)
+    assert np.all(solved.viscoelastic_error > 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any
+from typing import Any, cast
 
 from viscofric.contact.settings import ContactSettings
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
@@ -33,7 +33,7 @@ class SharedContacts:
     """Contacts that differ in speed and temperature only, interpolated between those on their curve.
 
     What has been solved is kept for further contacts.  A call raises InputError or ConvergenceError of the first
-    contact that cannot be solved, and cannot be interpolated either.
+    contact that cannot be solved, and cannot be interpolated either; `outcomes` returns it.
     """
 
     material: Material
@@ -80,18 +80,25 @@ class SharedContacts:
 
     def __call__(self, places: Sequence[tuple[float, float]]) -> list[Record]:
         """Return the records of contacts at speeds, m/s, and temperatures, K."""
+        outcomes = self.outcomes(places)
+        for one in outcomes:
+            if isinstance(one, ViscofricError):
+                raise one
+        return cast("list[Record]", outcomes)
+
+    def outcomes(self, places: Sequence[tuple[float, float]]) -> list[Record | ViscofricError]:
+        """Return the records of contacts, or their errors."""
         cases = self._cases(places)
         # Contacts asked for before make the curve worth its nodes, which are known.
         plan = self._plan([*cases, *self._asked])
         self._asked += cases
         with at_work(self.workers) as processes:
             self._carry_out(plan, processes)
-        found: list[Record] = []
-        for outcome in plan.found()[: len(cases)]:
-            if isinstance(outcome, Failure):
-                errors = {str(one): one for one in self._known.values() if isinstance(one, ViscofricError)}
-                raise errors.get(outcome.reason, InputError(outcome.reason, code=outcome.code))
-            found.append(outcome)
+        errors = {str(one): one for one in self._known.values() if isinstance(one, ViscofricError)}
+        found = [
+            errors.get(one.reason, InputError(one.reason, code=one.code)) if isinstance(one, Failure) else one
+            for one in plan.found()[: len(cases)]
+        ]
         self.report(plan.total)
         return found
 
