@@ -35,9 +35,17 @@ def test_a_table_of_several_temperatures_is_read(tmp_path, delimiter):
     assert tests.notes == ()
 
 
-@pytest.mark.parametrize(("heading", "given"), [("G(t) (MPa)", "tension"), ("E(t) (MPa)", "shear")])
-def test_a_deformation_that_contradicts_the_heading_is_refused(tmp_path, heading, given):
-    path = written(tmp_path / "relax_25C.txt", ("t (s)", heading), [TIME, 10.0 * TIME**-0.2])
+@pytest.mark.parametrize(
+    ("heading", "response", "given"),
+    [
+        ("G(t) (MPa)", 10.0 * TIME**-0.2, "tension"),
+        ("E(t) (MPa)", 10.0 * TIME**-0.2, "shear"),
+        ("D(t) (1/MPa)", 0.1 * TIME**0.2, "shear"),
+    ],
+)
+def test_a_deformation_that_contradicts_the_heading_is_refused(tmp_path, heading, response, given):
+    path = written(tmp_path / "foam_25C.txt", ("t (s)", heading), [TIME, response])
+    assert vf.read_step_tests(path).deformation != given
     with refused("deformation-contradicts", DataFileError):
         vf.read_step_tests(path, deformation=given)
     other = "bending" if given == "shear" else "shear"

@@ -454,7 +454,7 @@ def insist_on_one_specimen(table: Table, conditions: Array, what: str) -> None:
 _SHEAR_WORDS = r"shear|schub|scher|cisaillement|cizall|cortante|taglio|cisalh|сдвиг"
 _SHEAR = re.compile(rf"\|?g['*\s]|j'|g-|gpp?\s|gstor|gloss|.*((?<![a-z])g['*]|{_SHEAR_WORDS})")
 _TENSION = re.compile(
-    r"\|?e['*\s]|d'|e-|epp?\s|estor|eloss|.*((?<![a-z])e['*]|tensi|young|zug|traction|tracción|trazione|tração)"
+    r"\|?e['*\s]|d['\s]|e-|epp?\s|estor|eloss|.*((?<![a-z])e['*]|tensi|young|zug|traction|tracción|trazione|tração)"
 )
 _SHEARED = re.compile(_SHEAR_WORDS)
 
