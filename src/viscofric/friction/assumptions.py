@@ -91,8 +91,8 @@ def check_assumptions(
     -----
     The effect of the thickness is estimated from the waves longer than the layer is thick (see
     `viscofric.friction.finite_thickness`), taking the friction of the curves as that on the half-space.  Compared with
-    solved layers of four contact radii and more, it is accurate to 8 % of the change under a ball, 20 % under a
-    cylinder and 50 % under other shapes, or to 0.002 of friction (0.006 for other shapes) where that is more.  With
+    solved layers of two contact radii and more, it is accurate to 7 % of the change under a ball and 30 % under a
+    cylinder, or to 0.002 of friction; of four and more, under other shapes, to 50 % or 0.006.  With
     broad spectra, and with memory longer than the thickness, vτ > H, the base matters at larger thicknesses than the
     contact's size suggests.
 

@@ -82,7 +82,7 @@ def highest_von_mises(x: ArrayLike, y: ArrayLike, pressure: ArrayLike, poisson_r
 
     The stress is that of the pressure alone.  With Coulomb friction μ_c the shear on the face makes √3 μ_c times the
     largest pressure there at least; below an incompressible line contact, up to 15 % are added for μ_c up to 0.3, and
-    the face is the place of the highest stress from 0.35 on (K. L. Johnson, Contact Mechanics, 1985, Sec. 7.1).
+    the face is the place of the highest stress from 0.37 on (K. L. Johnson, Contact Mechanics, 1985, Sec. 7.1).
 
     Examples
     --------
