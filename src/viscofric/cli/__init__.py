@@ -107,7 +107,7 @@ def _keep_matplotlib_here() -> None:
     cls=_Program,
     package=__name__,
     summaries=COMMANDS,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
     invoke_without_command=True,
 )
 @click.version_option(package_name="viscofric", prog_name="viscofric")

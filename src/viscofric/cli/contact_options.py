@@ -197,7 +197,6 @@ direction_option = click.option(
     "--direction",
     metavar="ANGLE|DX,DY",
     default="1,0",
-    show_default=True,
     help="Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
 )
 elastic_options = together(
@@ -212,9 +211,7 @@ elastic_options = together(
     ),
     heading="Elastic indenter",
 )
-accuracy_option = key(
-    "solver.accuracy", type=float, default=1e-3, show_default=True, help="Target relative error of the friction."
-)
+accuracy_option = key("solver.accuracy", type=float, default=1e-3, help="Target relative error of the friction.")
 contact_options = together(
     direction_option,
     elastic_options,
@@ -223,13 +220,10 @@ contact_options = together(
         type=float,
         default=0.0,
         metavar="μ",
-        help="Coulomb friction coefficient, whose shear changes the pressure; negative for slip against the motion "
-        "[default: none].",
+        help="Coulomb friction coefficient, whose shear changes the pressure; negative for slip against the motion.",
     ),
     accuracy_option,
-    click.option(
-        "--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda."
-    ),
+    click.option("--backend", default="scipy", help="Array and FFT library, e.g. ducc0 or torch:cuda."),
     heading=CONTACT,
 )
 

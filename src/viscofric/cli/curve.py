@@ -73,10 +73,9 @@ Example:
     "--samples",
     type=click.IntRange(0, 10_000),
     default=0,
-    show_default=True,
     help="Bootstrap samples for the 95 % band of friction, with --dma or a run file; 20 or more, 0 for none.",
 )
-@click.option("--workers", type=int, default=1, show_default=True, help="Number of processes.")
+@click.option("--workers", type=int, default=1, help="Number of processes.")
 @out_option("Write the friction curves (CSV); `-` prints them instead of the table.", endings=CSV)
 @picture_option("Draw friction against speed")
 @json_option("Print the friction curves as JSON, in SI units.")

@@ -63,15 +63,12 @@ Examples:
         "--rebounds",
         type=click.IntRange(1, 1000),
         default=1,
-        show_default=True,
         help="Largest number of contacts; several need --gravity.",
     ),
     heading=CONDITIONS,
 )
 @elastic_options
-@click.option(
-    "--accuracy", type=float, default=1e-4, show_default=True, help="Target error of the restitution, absolute."
-)
+@click.option("--accuracy", type=float, default=1e-4, help="Target error of the restitution, absolute.")
 @json_option()
 @out_option("Write the contact over time, or the curve of several (.csv or .nc); `-` prints it.", endings=DATA)
 @picture_option("Draw the contact over time, or the restitution of several")

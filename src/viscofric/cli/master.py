@@ -57,9 +57,7 @@ Example:
     metavar="T",
     help="Reference temperature (α = 1), e.g. '30 degC' [default: that of --shift, or found].",
 )
-@click.option(
-    "--law", type=click.Choice(_LAWS), default="best", show_default=True, help="Law to fit to the shift factors."
-)
+@click.option("--law", type=click.Choice(_LAWS), default="best", help="Law to fit to the shift factors.")
 @click.option(
     "--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'; reduces friction at all loads to one load."
 )
@@ -67,7 +65,6 @@ Example:
     "--level-error",
     type=float,
     default=0.0,
-    show_default=True,
     help="Relative standard error shared by all points of a temperature, to include in the errors of α.",
 )
 @separation_options

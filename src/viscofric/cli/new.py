@@ -40,12 +40,7 @@ _EPILOG = "\b\nTemplates:\n" + "\n".join(f"  {name:12} {words}" for name, words 
 @as_command("new", epilog=_EPILOG)
 @click.argument("folder", required=False, metavar="[FOLDER|-]", type=click.Path(path_type=Path, allow_dash=True))
 @click.option(
-    "--template",
-    metavar="NAME",
-    type=click.Choice(list(TEMPLATES)),
-    default="example",
-    show_default=True,
-    help="Template; see below.",
+    "--template", metavar="NAME", type=click.Choice(list(TEMPLATES)), default="example", help="Template; see below."
 )
 @click.option(
     "--schema",

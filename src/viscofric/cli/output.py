@@ -36,9 +36,7 @@ def out_option(
             check_ending(value, "--out", endings)
         return value
 
-    return click.option(
-        "-o", "--out", type=kind, default=default, show_default=default is not None, callback=chosen, help=words
-    )
+    return click.option("-o", "--out", type=kind, default=default, callback=chosen, help=words)
 
 
 def picture_option(words: str) -> Decorator:

@@ -96,12 +96,7 @@ rubber_options = together(
     ),
     click.option("--E-inf", "glass_modulus", metavar="E", help="Glassy modulus, e.g. '10 MPa'."),
     click.option("--tau", metavar="TIME", help="Retardation time, e.g. '1 ms'."),
-    key(
-        "material.poisson_ratio",
-        metavar="ν",
-        type=float,
-        help="Poisson's ratio with --E0 or --dma [default: 0.5].",
-    ),
+    key("material.poisson_ratio", metavar="ν", type=float, help="Poisson's ratio with --E0 or --dma [default: 0.5]."),
     click.option("--layer", metavar="H", help="Thickness of a layer on a rigid base [default: half-space]."),
     click.option("--sliding-base", is_flag=True, help="The layer slides on its base instead of being bonded."),
     heading="Material",

@@ -28,7 +28,6 @@ def speed_options(speed: str) -> Decorator:
             "--points",
             type=click.IntRange(2, _MOST_POINTS),
             default=13,
-            show_default=True,
             help="Number of speeds of a range, evenly spaced in log v.",
         ),
         click.option(

@@ -75,7 +75,6 @@ Examples:
     "--accuracy",
     type=float,
     default=1e-3,
-    show_default=True,
     help="Target relative error of load, indentation, friction and energy in time.",
 )
 @click.option("--cycle", is_flag=True, help="Solve the periodic state of the history as one repeated period.")
@@ -84,8 +83,7 @@ Examples:
     type=float,
     default=0.0,
     metavar="μ",
-    help="Coulomb friction coefficient, for the total friction; its shear is left out, a note has the effect "
-    "[default: none].",
+    help="Coulomb friction coefficient, for the total friction; its shear is left out, a note has the effect.",
 )
 @click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
 @click.option("--save-state", "state", type=WRITTEN, help="Write the last state (.npz) for --resume.")

@@ -128,7 +128,7 @@ def compare_test(folder: Path, as_json: bool) -> None:
 @click.option("--only", "names", metavar="NAME", multiple=True, help="Run this check or group only; may be repeated.")
 @click.option("--list", "listed", is_flag=True, help="List the checks and exit.")
 @click.option("--details", is_flag=True, help="Print every comparison, and the reasons of the bounds.")
-@click.option("--backend", default="scipy", show_default=True, help="Array and FFT library, e.g. ducc0 or torch:cuda.")
+@click.option("--backend", default="scipy", help="Array and FFT library, e.g. ducc0 or torch:cuda.")
 @out_option("Write every comparison as a table (CSV); `-` prints it.", endings=CSV)
 @json_option("Print everything as JSON.")
 def command(

@@ -13,16 +13,8 @@ _EPILOG = "The page is private: its address contains a token, and it connects to
 
 @as_command("web", epilog=_EPILOG)
 @click.argument("study", required=False, metavar="[STUDY]", type=click.Path(path_type=Path))
-@click.option(
-    "--port",
-    default=8765,
-    show_default=True,
-    type=click.IntRange(0, 65535),
-    help="Port; if it is taken, a free one is used.",
-)
-@click.option(
-    "--host", default="127.0.0.1", show_default=True, help="Address to listen at; other machines may then connect."
-)
+@click.option("--port", default=8765, type=click.IntRange(0, 65535), help="Port; if it is taken, a free one is used.")
+@click.option("--host", default="127.0.0.1", help="Address to listen at; other machines may then connect.")
 @click.option("--no-browser", is_flag=True, help="Print the address without opening a browser.")
 def command(study: Path | None, port: int, host: str, no_browser: bool) -> None:
     """Open the local page in the browser: material, contact and friction, no coding needed. Ctrl-C ends it.

@@ -39,26 +39,21 @@ def reading(unit: str, words: str) -> Decorator:
     "--modulus-unit",
     type=click.Choice(["Pa", "MPa"]),
     default="Pa",
-    show_default=True,
     help="Units of Abaqus, ANSYS and LS-DYNA cards; MPa goes with mm, s and tonne.",
 )
 @click.option(
     "--temperature-unit",
     type=click.Choice(["K", "degC"]),
     default="K",
-    show_default=True,
     help="Temperatures of Abaqus, ANSYS and LS-DYNA cards.",
 )
 @click.option(
     "--domain",
     type=click.Choice(["time", "frequency"]),
     default="time",
-    show_default=True,
     help="Analysis of Abaqus cards: in time (Prony series) or in frequency.",
 )
-@click.option(
-    "--material-id", type=int, default=1, show_default=True, help="Number of the material in ANSYS and LS-DYNA cards."
-)
+@click.option("--material-id", type=int, default=1, help="Number of the material in ANSYS and LS-DYNA cards.")
 @reading("modulus-unit", "Unit of moduli in MATERIAL, a card that does not state it, such as 'MPa'.")
 @reading("time-unit", "The same of times, such as 'ms'.")
 @reading("temperature-unit", "The same of temperatures, such as 'degC'.")

@@ -90,9 +90,7 @@ _BESIDE = ("with_creep", "with_relaxation")
 @click.option(
     "--card-law", type=click.Choice(CARD_LAWS), help="Shift law of the cards, fitted to the measured shift factors."
 )
-@click.option(
-    "--samples", type=int, default=200, show_default=True, help="Bootstrap samples for the bands of E; 0 for none."
-)
+@click.option("--samples", type=int, default=200, help="Bootstrap samples for the bands of E; 0 for none.")
 @out_option("Folder for the results [default: FILE.material beside the first file].", FOLDER)
 @json_option("Print spectrum, key numbers and checks as JSON, in SI units.")
 def command(

@@ -61,27 +61,17 @@ Example:
     help="Standard error of the response, e.g. '0.1 um' [default: found]; relative, e.g. 0.01, with --mass or --depth.",
 )
 @click.option("--start", metavar="TIME", help="Time of the first contact [default: that of the first row].")
-@click.option(
-    "--radius-error",
-    type=float,
-    default=0.0,
-    show_default=True,
-    help="Standard error of the indenter's radius, relative.",
-)
-@click.option(
-    "--load-error", type=float, default=0.0, show_default=True, help="Relative standard error of the load cell's gain."
-)
-@click.option(
-    "--zero-error", metavar="DEPTH", default="0 m", help="Standard error of the zero of the depth [default: 0]."
-)
+@click.option("--radius-error", type=float, default=0.0, help="Standard error of the indenter's radius, relative.")
+@click.option("--load-error", type=float, default=0.0, help="Relative standard error of the load cell's gain.")
+@click.option("--zero-error", metavar="DEPTH", default="0 m", help="Standard error of the zero of the depth.")
 @click.option("--shift", metavar="FILE|NAME", help="Shift factors: a table, a material file or a catalogue name.")
 @shift_factor_options
 @click.option("--reference", metavar="T", help="Reference temperature of the material, e.g. '30 degC'.")
-@click.option("--poisson-ratio", type=float, default=0.5, show_default=True, help="Poisson's ratio, 0 to 0.5.")
-@click.option("--modes", type=int, default=30, show_default=True, help="Least number of retardation times.")
-@click.option("--samples", type=int, default=200, show_default=True, help="Number of uncertainty samples.")
-@click.option("--seed", type=int, default=0, show_default=True, help="Random seed of the samples.")
-@click.option("--name", default="identified from indentation", show_default=True, help="Name of the material.")
+@click.option("--poisson-ratio", type=float, default=0.5, help="Poisson's ratio, 0 to 0.5.")
+@click.option("--modes", type=int, default=30, help="Least number of retardation times.")
+@click.option("--samples", type=int, default=200, help="Number of uncertainty samples.")
+@click.option("--seed", type=int, default=0, help="Random seed of the samples.")
+@click.option("--name", default="identified from indentation", help="Name of the material.")
 @out_option("Write the material (JSON), for `solve`, run files and `material`.", WRITTEN, endings=JSON)
 @click.option("--csv", "table", type=WRITTEN, help="Write the moduli with their 95 % limits (CSV).")
 @picture_option("Draw the moduli with their limits, and every fit")

@@ -42,7 +42,6 @@ from viscofric.notes import listed
     "--law",
     type=click.Choice(["wlf", "arrhenius", "vft", "wlf+arrhenius"]),
     default="wlf",
-    show_default=True,
     help="Shift law to fit; wlf+arrhenius if the ramps begin in the glass.",
 )
 @key("material.assumed_shift", metavar="LAW")
