@@ -113,9 +113,9 @@ def chosen_indenter(parameters: dict[str, Any]) -> NamedIndenter:
 
 def chosen_body(parameters: dict[str, Any]) -> NamedIndenter:
     """Return the indenter or the rough surface that the options name."""
-    path: Path | None = parameters["surface"]
+    path: Path | None = parameters.get("surface")
     if path is None:
-        if parameters["prepare"]:
+        if parameters.get("prepare"):
             raise click.UsageError("--prepare is for --surface only.")
         return chosen_indenter(parameters)
     given = [option(name) for name in SHAPES if parameters.get(name) is not None]
@@ -235,17 +235,6 @@ def inputs_of(parameters: dict[str, Any]) -> list[Path]:
     return [path for path in (*rubber, *parameters["dma"], *shapes) if path.is_file()]
 
 
-def contact_settings(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Return the settings of `solve_steady` of the options."""
-    return {
-        "direction": chosen_direction(parameters["direction"]),
-        **elastic_settings(parameters),
-        "coulomb": parameters["coulomb"],
-        "accuracy": parameters["accuracy"],
-        "backend": parameters["backend"],
-    }
-
-
 def elastic_settings(parameters: dict[str, Any]) -> dict[str, Any]:
     """Return the settings of an elastic indenter of the options."""
     if parameters["indenter_poisson_ratio"] is not None and parameters["indenter_modulus"] is None:
@@ -255,16 +244,6 @@ def elastic_settings(parameters: dict[str, Any]) -> dict[str, Any]:
         "indenter_modulus": parameters["indenter_modulus"],
         "indenter_poisson_ratio": 0.3 if ratio is None else float(ratio),
     }
-
-
-def elastic_record(parameters: dict[str, Any]) -> dict[str, Any] | None:
-    """Return an elastic indenter in plain types, SI; none for a rigid one."""
-    from viscofric.units import to_si
-
-    settings = elastic_settings(parameters)
-    if settings["indenter_modulus"] is None:
-        return None
-    return {"modulus": to_si(settings["indenter_modulus"], "Pa"), "poisson_ratio": settings["indenter_poisson_ratio"]}
 
 
 def chosen_direction(text: str) -> tuple[float, float]:

@@ -9,17 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import CONDITIONS, SOME_CASES_FAILED, as_command, exit_if_beyond, together
-from viscofric.cli.contact_options import (
-    NamedIndenter,
-    chosen_indenter,
-    contact_options,
-    contact_settings,
-    inputs_of,
-    sliding_indenter_options,
-)
+from viscofric.cli.contact import Contact, heating_options
+from viscofric.cli.contact_options import chosen_direction, contact_options, inputs_of, sliding_indenter_options
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, refuse_to_overwrite
-from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
 from viscofric.cli.output import (
     answer,
     drawing,
@@ -29,14 +22,7 @@ from viscofric.cli.output import (
     picture_option,
     write_files,
 )
-from viscofric.cli.rubber_options import (
-    NamedRubber,
-    chosen_layer,
-    chosen_rubber,
-    in_contact,
-    is_made_up,
-    rubber_options,
-)
+from viscofric.cli.rubber_options import NamedRubber, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
@@ -93,37 +79,42 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     from viscofric.notes import codes
 
     velocities = chosen_speeds(parameters)
-    rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
-    settings = contact_settings(parameters) | {"layer": chosen_layer(parameters)}
-    samples = _samples(rubber, parameters["samples"])
-    name = in_contact(shape.words, rubber, settings["layer"])
+    contact = Contact(parameters)
+    direction = chosen_direction(parameters["direction"])
+    samples = _samples(contact.rubber, parameters["samples"])
     failed = False
     try:
         with contact_bar("Contacts", quiet=as_json) as bar:
             curves = predict_friction(
-                rubber.material,
-                shape.indenter,
+                contact.rubber.material,
+                contact.body.indenter,
                 speeds=velocities,
                 temperatures=chosen_temperatures(parameters) or None,
                 load=parameters["load"],
                 samples=samples,
                 workers=parameters["workers"],
                 progress=bar,
-                heating=chosen_heating(parameters),
-                **settings,
+                heating=contact.heating,
+                direction=direction,
+                **contact.settings,
             )
     except ViscofricError as error:
         if error.solved is None:
             raise
         curves, failed = error.solved, True
-    made_up = is_made_up(rubber, parameters)
-    curves = replace(curves, source=marked(curves.source, synthetic=made_up))
-    answer(lambda: _record(curves, rubber, shape, parameters), lambda: _print(name, rubber, curves))
+    curves = replace(curves, source=marked(curves.source, synthetic=contact.synthetic))
+
+    def record() -> dict[str, Any]:
+        inputs = contact.record(None) | {name: parameters[name] for name in ("samples", "workers")}
+        inputs |= {"direction": list(direction), "load": float(curves.load[0])}
+        return json_record("friction curves 2", inputs, curves.points_dataset(), notes=curves.notes)
+
+    answer(record, lambda: _print(contact.title, curves))
     for note in curves.notes:  # those of contacts are warnings, as of `solve`
         print_notes([note], word="Note" if codes([note]) & _ON_MATERIAL else "Warning")
     write_files(
         ("curves", out, partial(write_friction_curves, curves)),
-        ("picture", picture, drawing(_figure_of(curves), curves, mark=made_up)),
+        ("picture", picture, drawing(_figure_of(curves), curves, mark=contact.synthetic)),
     )
     if failed:
         click.get_current_context().exit(SOME_CASES_FAILED)
@@ -146,16 +137,6 @@ def _samples(rubber: NamedRubber, count: int) -> MaterialSamples | None:
     return drawn
 
 
-def _record(
-    curves: FrictionCurves, rubber: NamedRubber, shape: NamedIndenter, parameters: dict[str, Any]
-) -> dict[str, Any]:
-    inputs = contact_inputs(parameters, rubber, shape, None)
-    inputs |= {name: parameters[name] for name in ("coulomb", "accuracy", "backend", "samples", "workers")}
-    direction = contact_settings(parameters)["direction"]
-    inputs |= {"direction": list(direction), "load": float(curves.load[0])}
-    return json_record("friction curves 2", inputs, curves.points_dataset(), notes=curves.notes)
-
-
 def _figure_of(curves: FrictionCurves) -> str:
     from viscofric.friction.heating import HeatedFrictionCurves
 
@@ -163,12 +144,12 @@ def _figure_of(curves: FrictionCurves) -> str:
     return "heating.heated_curves_figure" if heated else "friction.predicted_figure"
 
 
-def _print(name: str, rubber: NamedRubber, curves: FrictionCurves) -> None:
+def _print(title: str, curves: FrictionCurves) -> None:
     """Print a table of friction: a line for each temperature and speed."""
     from viscofric.report.texts.friction import friction_table
     from viscofric.report.texts.numbers import percent
 
-    click.echo("\n".join([f"{name}{rubber.mark}\n", *friction_table(curves)]))
+    click.echo("\n".join([f"{title}\n", *friction_table(curves)]))
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
     click.echo(f"\nnumerical error  {percent(worst)} at most")
     if curves.within_measured_frequencies is not None and not curves.within_measured_frequencies.all():

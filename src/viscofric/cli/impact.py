@@ -8,16 +8,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import CONDITIONS, as_command, together
-from viscofric.cli.contact_options import (
-    chosen_indenter,
-    elastic_options,
-    elastic_settings,
-    indenter_options,
-    inputs_of,
-)
+from viscofric.cli.contact import Contact
+from viscofric.cli.contact_options import elastic_options, indenter_options, inputs_of
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_dataset
-from viscofric.cli.heating_options import contact_inputs
 from viscofric.cli.keys import key
 from viscofric.cli.output import (
     answer,
@@ -29,7 +23,7 @@ from viscofric.cli.output import (
     print_pairs,
     write_files,
 )
-from viscofric.cli.rubber_options import chosen_rubber, is_made_up, rubber_options
+from viscofric.cli.rubber_options import rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
@@ -80,24 +74,22 @@ def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
     refuse_to_overwrite(inputs_of(parameters), out, picture)
     if parameters["layer"] is not None or parameters["sliding_base"]:
         raise click.UsageError("impacts are solved on a half-space only; leave out --layer and --sliding-base.")
-    rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
+    contact = Contact(parameters)
     speeds = chosen_speeds(parameters)
-    reference = rubber.material.reference
+    reference = contact.rubber.material.reference
     kelvins = chosen_temperatures(parameters) or (None if reference is None else [reference])
     several = len(speeds) > 1 or len(kelvins or []) > 1
     if several and parameters["rebounds"] > 1:
         raise click.UsageError("--rebounds is for one speed and one temperature.")
     began = time.perf_counter()
-    result = _solved(rubber.material, shape.indenter, speeds, kelvins, parameters)
+    result = _solved(contact, speeds, kelvins, parameters)
     seconds = time.perf_counter() - began
-    name = f"{shape.words} on {rubber.name}"
 
     def record() -> dict[str, Any]:
         from viscofric.units import to_si
 
         gravity = 0.0 if parameters["gravity"] is None else to_si(parameters["gravity"], "m/s**2")
-        inputs = contact_inputs(parameters, rubber, shape, None if kelvins is None else kelvins[0])
-        inputs |= {name: parameters[name] for name in ("rebounds", "accuracy")}
+        inputs = contact.record(None if kelvins is None else kelvins[0]) | {"rebounds": parameters["rebounds"]}
         inputs |= {"mass": to_si(parameters["mass"], "kg"), "gravity": gravity}
         inputs |= {"speed": speeds, "temperature": kelvins}
         contacts = [one._asdict() for one in getattr(result, "contacts", ())]
@@ -105,24 +97,25 @@ def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
             "impact 2", inputs, result.to_dataset(), contacts=contacts, seconds=seconds, warnings=result.warnings
         )
 
-    answer(record, lambda: _print(f"{name}{rubber.mark}, {parameters['mass']}\n", result, seconds), indent=None)
+    answer(record, lambda: _print(f"{contact.title}, {parameters['mass']}\n", result, seconds), indent=None)
     write_files(
         ("data", out, lambda path: write_dataset(path, result.to_dataset())),
-        ("picture", picture, drawing("pressures.impact_figure", result, name, mark=is_made_up(rubber, parameters))),
+        ("picture", picture, drawing("pressures.impact_figure", result, contact.name, mark=contact.synthetic)),
     )
     print_notes(result.warnings, word="Warning")
 
 
 def _solved(
-    material: Any, indenter: Any, speeds: list[float], kelvins: list[float] | None, parameters: dict[str, Any]
+    contact: Contact, speeds: list[float], kelvins: list[float] | None, parameters: dict[str, Any]
 ) -> ImpactSolution | RestitutionCurve:
     from viscofric.motion.impact import restitution_curve, solve_impact
 
+    material, indenter = contact.rubber.material, contact.body.indenter
     settings = {
         "mass": parameters["mass"],
         "gravity": 0.0 if parameters["gravity"] is None else parameters["gravity"],
         "accuracy": parameters["accuracy"],
-        **elastic_settings(parameters),
+        **contact.elastic,
     }
     if len(speeds) == 1 and len(kelvins or [None]) == 1:
         one = None if kelvins is None else kelvins[0]

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from viscofric.cli.commands import Decorator, together
-from viscofric.cli.contact_options import inputs_of, option
+from viscofric.cli.contact_options import option
 from viscofric.cli.errors import print_doubtful_checks, print_notes, typed_as
 from viscofric.cli.files import DASH, Source, plainly
 from viscofric.cli.keys import key, table_of
-from viscofric.cli.output import is_synthetic
 
 if TYPE_CHECKING:
     from xarray import DataTree
@@ -116,11 +115,6 @@ class NamedRubber(NamedTuple):
     synthetic: bool
     made: Rubber | None = None
 
-    @property
-    def mark(self) -> str:
-        """What follows a name where the rubber is made up."""
-        return " (SYNTHETIC, not measured)" if self.synthetic else ""
-
     def record(self, temperature: float | None) -> dict[str, Any]:
         """Return it in plain types, with its modes at a temperature (K)."""
         spectrum = self.material.modes_at(temperature)
@@ -134,11 +128,6 @@ class NamedRubber(NamedTuple):
             "C": [float(one) for one in spectrum.C],
             "tau": [float(one) for one in spectrum.tau],
         }
-
-
-def is_made_up(rubber: NamedRubber, parameters: dict[str, Any]) -> bool:
-    """Whether the rubber is synthetic, or a file of it or of the indenter says so."""
-    return is_synthetic(rubber.synthetic, inputs_of(parameters))
 
 
 def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
@@ -226,16 +215,6 @@ def chosen_layer(parameters: dict[str, Any]) -> Layer | None:
     from viscofric.contact.bodies import Layer
 
     return Layer(parameters["layer"], not parameters["sliding_base"])
-
-
-def in_contact(words: str, rubber: NamedRubber, layer: Layer | None) -> str:
-    """Return what is in contact, in words: those of the indenter, the rubber, and how thick it is."""
-    if layer is None:
-        return f"{words} on {rubber.name}"
-    from viscofric.report.texts.numbers import length
-
-    base = "bonded" if layer.bonded else "sliding on its base"
-    return f"{words} on a layer of {rubber.name}, {length(float(layer.thickness))} thick, {base}"
 
 
 shift_factor_options = column_options(

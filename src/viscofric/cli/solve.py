@@ -9,17 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import CONDITIONS, CONTACT, as_command, exit_if_beyond, together
-from viscofric.cli.contact_options import (
-    NamedIndenter,
-    chosen_indenter,
-    contact_options,
-    contact_settings,
-    indenter_options,
-    inputs_of,
-)
+from viscofric.cli.contact import Contact, heating_options
+from viscofric.cli.contact_options import chosen_direction, contact_options, indenter_options, inputs_of
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_fields
-from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
 from viscofric.cli.output import (
     answer,
     drawing,
@@ -30,14 +23,7 @@ from viscofric.cli.output import (
     print_pairs,
     write_files,
 )
-from viscofric.cli.rubber_options import (
-    NamedRubber,
-    chosen_layer,
-    chosen_rubber,
-    in_contact,
-    is_made_up,
-    rubber_options,
-)
+from viscofric.cli.rubber_options import rubber_options
 from viscofric.cli.speed_options import list_of
 from viscofric.contact.settings import ContactSettings
 
@@ -114,23 +100,22 @@ def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
         raise click.UsageError("give either --load or --indentation, one of them.")
     from viscofric.contact.steady import solve_steady
 
-    rubber, shape = chosen_rubber(parameters), chosen_indenter(parameters)
-    settings = {name: parameters[name] for name in _SETTINGS} | contact_settings(parameters)
-    settings["layer"] = chosen_layer(parameters)
+    contact = Contact(parameters)
+    material, indenter = contact.rubber.material, contact.body.indenter
+    settings = {name: parameters[name] for name in _SETTINGS} | contact.settings | {"heating": contact.heating}
+    settings["direction"] = chosen_direction(parameters["direction"])
     settings["window"] = parameters["window"] and list_of(parameters["window"])
-    settings["heating"] = heating = chosen_heating(parameters)
-    if heating is not None and parameters["temperature"] is None:
-        settings["temperature"] = rubber.material.reference
+    if contact.heating is not None and parameters["temperature"] is None:
+        settings["temperature"] = material.reference
     began = time.perf_counter()
-    solution = solve_steady(rubber.material, shape.indenter, speed=_speed(parameters["speed"]), **settings)
+    solution = solve_steady(material, indenter, speed=_speed(parameters["speed"]), **settings)
     seconds = time.perf_counter() - began
-    name = in_contact(shape.words, rubber, settings["layer"])
 
     def record() -> dict[str, Any]:
         levels = [level._asdict() for level in solution.diagnostics.levels]
         return json_record(
             "contact 2",
-            _inputs(parameters, rubber, shape, solution),
+            _inputs(parameters, contact, solution),
             solution.to_dataset().drop_dims(("x", "y")),
             warnings=solution.warnings,
             derivatives=solution.derivatives and solution.derivatives.to_dataset(),
@@ -138,8 +123,8 @@ def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
             seconds=seconds,
         )
 
-    answer(record, lambda: _print(name, rubber, solution, seconds))
-    draw = drawing("contact.contact_figure", solution, shape.indenter, name, mark=is_made_up(rubber, parameters))
+    answer(record, lambda: _print(contact, solution, seconds))
+    draw = drawing("contact.contact_figure", solution, indenter, contact.name, mark=contact.synthetic)
     write_files(("picture", picture, draw), ("fields", out, lambda path: write_fields(path, solution)))
     if parameters["grid"] is None:
         exit_if_beyond(parameters["accuracy"], solution.friction_coefficient, solution.diagnostics.friction_error)
@@ -152,32 +137,27 @@ def _speed(text: str) -> float | str:
     return text
 
 
-def _inputs(
-    parameters: dict[str, Any], rubber: NamedRubber, shape: NamedIndenter, solution: ContactSolution
-) -> dict[str, Any]:
+def _inputs(parameters: dict[str, Any], contact: Contact, solution: ContactSolution) -> dict[str, Any]:
     """Return the request, in SI units; an infinite speed is the word."""
     from viscofric.units import to_si
 
     return {
-        **contact_inputs(parameters, rubber, shape, solution.temperature),
+        **contact.record(solution.temperature),
         "speed": solution.speed if math.isfinite(solution.speed) else "infinite",
         "direction": list(solution.direction),
-        "coulomb": parameters["coulomb"],
         "held": "load" if parameters["load"] is not None else "indentation",
         "load": solution.load if parameters["load"] is not None else None,
         "indentation": solution.indentation if parameters["indentation"] is not None else None,
         "temperature": solution.temperature,
-        "accuracy": parameters["accuracy"],
         "tolerance": ContactSettings(accuracy=parameters["accuracy"], tolerance=parameters["tolerance"]).residual,
         "finest": parameters["finest"],
         "grid": parameters["grid"],
         "window": parameters["window"] and [to_si(length, "m") for length in list_of(parameters["window"])],
-        "backend": parameters["backend"],
         "derivatives": parameters["derivatives"],
     }
 
 
-def _print(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: float) -> None:
+def _print(contact: Contact, solution: ContactSolution, seconds: float) -> None:
     from viscofric.report.texts.contact import contact_lines, derivative_lines
     from viscofric.report.texts.numbers import prefixed
     from viscofric.units import shown_celsius, shown_number
@@ -187,10 +167,10 @@ def _print(name: str, rubber: NamedRubber, solution: ContactSolution, seconds: f
         angle = math.degrees(math.atan2(solution.direction[1], solution.direction[0]))
         speed += f" towards {shown_number(angle, 'z.4g')}° from its x axis"
     where = "" if solution.temperature is None else f", {shown_celsius(solution.temperature, 'z.4g')} °C"
-    click.echo(f"{name}{rubber.mark}, {speed}{where}")
+    click.echo(f"{contact.title}, {speed}{where}")
     click.echo()
     print_pairs(contact_lines(solution, seconds))
     if solution.derivatives is not None:
         click.echo()
-        click.echo("\n".join(derivative_lines(solution, rubber.material.modes_at(solution.temperature))))
+        click.echo("\n".join(derivative_lines(solution, contact.rubber.material.modes_at(solution.temperature))))
     print_notes(solution.warnings, word="Warning")

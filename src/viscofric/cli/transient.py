@@ -10,19 +10,16 @@ import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.commands import as_command
+from viscofric.cli.contact import Contact, heating_options
 from viscofric.cli.contact_options import (
-    NamedIndenter,
-    chosen_body,
     direction_option,
     elastic_options,
-    elastic_settings,
     indenter_options,
     inputs_of,
     surface_options,
 )
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, PICTURES, WRITTEN, Source, check_ending, refuse_to_overwrite, write_dataset
-from viscofric.cli.heating_options import chosen_heating, contact_inputs, heating_options
 from viscofric.cli.history_options import chosen_history, chosen_times, history_options
 from viscofric.cli.output import (
     answer,
@@ -36,21 +33,12 @@ from viscofric.cli.output import (
     print_written,
     write_files,
 )
-from viscofric.cli.rubber_options import (
-    NamedRubber,
-    chosen_layer,
-    chosen_rubber,
-    in_contact,
-    is_made_up,
-    rubber_options,
-)
+from viscofric.cli.rubber_options import rubber_options
 
 if TYPE_CHECKING:
-    from viscofric.contact.bodies import Layer
     from viscofric.motion.cycle_solution import CycleSolution
     from viscofric.motion.history import History
     from viscofric.motion.solution import TransientSolution
-    from viscofric.rheology.material import Material
 
 _EXAMPLE = """\b
 Examples:
@@ -103,25 +91,23 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
     _check_pairs(parameters)
     from viscofric.motion.cycle_solution import CycleSolution
 
-    rubber, shape = chosen_rubber(parameters), chosen_body(parameters)
-    layer = chosen_layer(parameters)
-    geometry = getattr(shape.indenter, "geometry", None)  # a rough surface has none
+    contact = Contact(parameters)
+    geometry = getattr(contact.body.indenter, "geometry", None)  # a rough surface has none
     line = geometry is not None and geometry.dimension == 1
-    history = chosen_history(parameters, line, rubber.material.reference)
+    history = chosen_history(parameters, line, contact.rubber.material.reference)
     began = time.perf_counter()
     film, drawn = drawings["animation"] is not None, any(drawings.values())
-    result = _solved(parameters, rubber.material, shape.indenter, history, layer, film=film, drawn=drawn, quiet=as_json)
+    result = _solved(parameters, contact, history, film=film, drawn=drawn, quiet=as_json)
     seconds = time.perf_counter() - began
     run = result.run if isinstance(result, CycleSolution) else result
     if not len(run.time):  # nothing was reached
         raise KeyboardInterrupt
-    name = in_contact(shape.words, rubber, layer)
     answer(
-        lambda: _record(parameters, rubber, shape, history, result, seconds),
-        lambda: _print(name, rubber, history, result, seconds),
+        lambda: _record(contact, history, result, seconds),
+        lambda: _print(contact.title, history, result, seconds),
         indent=None,
     )
-    _write(name, is_made_up(rubber, parameters), result, parameters["times"] is not None, out, drawings)
+    _write(contact, result, parameters["times"] is not None, out, drawings)
     if parameters["state"] is not None:
         print_written(("state", parameters["state"]), err=is_piped())
     print_notes(run.warnings, word="Warning")
@@ -148,10 +134,8 @@ def _check_pairs(parameters: dict[str, Any]) -> None:
 
 def _solved(
     parameters: dict[str, Any],
-    material: Material,
-    body: Any,
+    contact: Contact,
     history: History,
-    layer: Layer | None,
     *,
     film: bool,
     drawn: bool,
@@ -162,18 +146,17 @@ def _solved(
     from viscofric.motion.cycle import solve_cycle
     from viscofric.motion.solve import solve_transient
 
-    contact = {name: parameters[name] for name in ("accuracy", "coulomb")}
-    contact |= {"layer": layer, **elastic_settings(parameters)}
+    material, body = contact.rubber.material, contact.body.indenter
     pictures = film or (drawn and parameters["cycle"])  # of a cycle, only the pressures asked for are kept
     times = chosen_times(parameters, history, film=pictures)
     if parameters["cycle"]:
         shown = "{:.0f} periods, {:.2g} away from the periodic state"
         with time_bar("Periodic state", quiet=quiet, shown=shown) as bar:
-            return solve_cycle(material, body, history, times=times, progress=bar, **contact)
+            return solve_cycle(material, body, history, times=times, progress=bar, **contact.settings)
     with time_bar("Contact over time", quiet=quiet) as bar:
         run = solve_transient(
             material, body, history, times=times, progress=bar, resume=parameters["resume"],
-            heating=chosen_heating(parameters), **contact,
+            heating=contact.heating, **contact.settings,
         )  # fmt: skip
     if parameters["state"] is not None:
         run.save_state(parameters["state"])
@@ -190,9 +173,7 @@ def _check_targets(parameters: dict[str, Any], out: Path | None, drawings: dict[
 
 
 def _record(
-    parameters: dict[str, Any],
-    rubber: NamedRubber,
-    shape: NamedIndenter,
+    contact: Contact,
     history: History,
     result: TransientSolution | CycleSolution,
     seconds: float,
@@ -202,13 +183,11 @@ def _record(
 
     run: Any = getattr(result, "run", result)
     kelvin = None if history.temperature is None else float(history.temperature[0])
-    inputs = contact_inputs(parameters, rubber, shape, kelvin)
-    inputs |= {name: parameters[name] for name in ("coulomb", "accuracy")}
     names = ("time", history.control, "position", "speed", "temperature", "before", "direction")
     said = {name: getattr(history, name) for name in names if getattr(history, name) is not None}
     return json_record(
         "transient 2",
-        inputs | {"history": said},
+        contact.record(kelvin) | {"history": said},
         result.to_dataset(),
         **{name: getattr(run, name) for name in ("interrupted", "steps", "rejected_steps")},
         seconds=seconds,
@@ -217,13 +196,11 @@ def _record(
     )
 
 
-def _print(
-    name: str, rubber: NamedRubber, history: History, result: TransientSolution | CycleSolution, seconds: float
-) -> None:
+def _print(title: str, history: History, result: TransientSolution | CycleSolution, seconds: float) -> None:
     from viscofric.motion.cycle_solution import CycleSolution
     from viscofric.report.texts.motion import cycle_lines, history_words, notes_on_errors, transient_lines
 
-    click.echo(f"{name}{rubber.mark}")
+    click.echo(title)
     if isinstance(result, CycleSolution):
         click.echo(f"{history_words(history, result.run.geometry)}, repeated\n")
         print_pairs(cycle_lines(result, seconds))
@@ -235,8 +212,7 @@ def _print(
 
 
 def _write(
-    name: str,
-    synthetic: bool,
+    contact: Contact,
     result: TransientSolution | CycleSolution,
     at_times: bool,
     out: Path | None,
@@ -244,7 +220,7 @@ def _write(
 ) -> None:
     """Write the requested files; pressures `at_times` are those at all times of the solution."""
     run: Any = getattr(result, "run", result)
-
+    name, synthetic = contact.name, contact.synthetic
     whole = drawing("pressures.transient_figure", run, name, mark=synthetic)
     strip = drawing("pressures.pressure_strip", run, run.time if at_times else None, name, mark=synthetic)
 

@@ -49,8 +49,7 @@ class AnyIndenterTable(Table):
     #: Whether its load is per length.
     LINE: ClassVar[bool] = False
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
+    def _problems(self) -> Iterator[Problem]:
         if "poisson_ratio" in self.model_fields_set and self.modulus is None:
             said = "is for an elastic indenter, but modulus is not given; a rigid one has none"
             yield "poisson_ratio", worded(said, "is of an elastic indenter; give its Young's modulus")
@@ -98,9 +97,8 @@ class ConeTable(AnyIndenterTable):
     angle: Angles = Field(description="Angle between flank and undeformed surface; small for linear contact.")
     AXES, KIND = ("angle",), Cone
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
-        yield from super().problems()
+    def _problems(self) -> Iterator[Problem]:
+        yield from super()._problems()
         if max(self.angle) >= 0.5 * math.pi:
             yield "angle", f"{math.degrees(max(self.angle)):.4g}° is not less than a right angle, such as '10 deg'"
 

@@ -99,8 +99,7 @@ class HeatingTable(Table):
         "cold", description="State of contacts that have two: that of a rising speed, or that of a falling one."
     )
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
+    def _problems(self) -> Iterator[Problem]:
         if self.passes > 0 and self.track_radius is None:
             yield "passes", worded("needs track_radius, the radius of the circle", "need the radius of the track")
         if self.track_radius is not None and self.passes == 0:

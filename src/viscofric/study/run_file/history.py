@@ -81,8 +81,7 @@ class HistoryTable(Table):
     )
     sheet: Words | None = Field(None, description="The only sheet of a workbook to read.")
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
+    def _problems(self) -> Iterator[Problem]:
         if self.cycle:
             for name in ("before", "load_time"):
                 if name in self.model_fields_set:

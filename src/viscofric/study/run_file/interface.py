@@ -50,8 +50,7 @@ class InterfaceTable(Table):
     level_error: Part = Field(0.0, description="Relative standard error shared by the points of a temperature.")
     area_error: Part = Field(0.0, description="Relative standard error shared by all contact areas.")
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
+    def _problems(self) -> Iterator[Problem]:
         if not self.is_given:
             for name in ("activation_energy", "reference"):
                 if getattr(self, name) is not None:

@@ -170,7 +170,7 @@ class MaterialTable(Table):
         None, description="Tensile strain of the sweeps, a fraction; small if left out."
     )
 
-    def _doubts(self) -> Iterator[str]:
+    def _problems(self) -> Iterator[str]:
         given = [name for name in SOURCES if getattr(self, name) is not None]
         if not given:
             yield (

@@ -63,7 +63,7 @@ class MeasurementTable(Table):
         1.0, description="Gap that separates nominal temperatures.", json_schema_extra={"default": "1 delta_degC"}
     )
 
-    def _doubts(self) -> Iterator[str]:
+    def _problems(self) -> Iterator[str]:
         if not self.mtm and self.curves is None:
             yield 'has no data; give mtm = "runs.txt" (or friction curves, curves = "curves.csv")'
         if self.mtm and self.curves is not None:

@@ -29,8 +29,7 @@ class SweepTable(Table):
         description="Groups of axes that vary together, such as [['load', 'radius']]; all of the same length.",
     )
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
+    def _problems(self) -> Iterator[Problem]:
         seen: set[str] = set()
         for number, group in enumerate(self.together):
             for place, name in enumerate(group):

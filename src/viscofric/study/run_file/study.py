@@ -119,8 +119,7 @@ class Study(Shown, Table):
             ("notes", self.notes),
         )
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions between tables."""
+    def _problems(self) -> Iterator[Problem]:
         yield from relations(self._tables)
 
     @property

@@ -109,8 +109,7 @@ class SurfaceTable(Table):
     modulus: Modulus | None = Field(None, description="Young's modulus of an elastic surface; rigid without it.")
     poisson_ratio: Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic surface.")
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
+    def _problems(self) -> Iterator[Problem]:
         if "poisson_ratio" in self.model_fields_set and self.modulus is None:
             yield "poisson_ratio", "is for an elastic surface, but modulus is not given; a rigid one has none"
         given = self.model_fields_set

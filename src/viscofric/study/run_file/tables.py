@@ -86,18 +86,14 @@ class Table(BaseModel):
                 changes[key] = tuple(path for each in one for path in files_of(folder, each))
         return self.model_copy(update=changes)
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
-        for words in self._doubts():
-            yield "", with_options(words, type(self).model_fields)
-
-    def _doubts(self) -> Iterator[str]:
-        """Yield the contradictions between its keys, in words."""
+    def _problems(self) -> Iterator[Problem | str]:
+        """Yield the contradictions within the table, each at its key, or between its keys in words alone."""
         yield from ()
 
     @model_validator(mode="after")
     def _fits_together(self) -> Self:
-        found = list(self.problems())
+        found = [("", with_options(one, type(self).model_fields)) if isinstance(one, str) else one
+                 for one in self._problems()]  # fmt: skip
         if found:
             raise all_at_once(type(self).__name__, found)
         return self
@@ -284,8 +280,7 @@ class _Range(_Span):
         "log", description="Equal ratios (log) or equal steps (linear) between the values."
     )
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
+    def _problems(self) -> Iterator[Problem]:
         if self.first == self.last:
             yield "to", "is the same as from; give one value instead of a range"
         if type(self.first) is not type(self.last):
@@ -327,8 +322,7 @@ class SeedRange(_Span):
     first: Seed = _ends()[0]
     last: Seed = _ends()[1]
 
-    def problems(self) -> Iterator[Problem]:
-        """Yield the contradictions within the table."""
+    def _problems(self) -> Iterator[Problem]:
         if not 0 < self.last - self.first < MOST_POINTS:
             yield "to", f"must lie above from, by less than {MOST_POINTS:,}"
 

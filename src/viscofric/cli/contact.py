@@ -1,4 +1,4 @@
-"""Options of contacts that their own friction heats."""
+"""What the options of a command put in contact: a rubber or a layer of it, a body, and the heat of their friction."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import Decorator, together
-from viscofric.cli.contact_options import NamedIndenter, elastic_record, option
+from viscofric.cli.contact_options import chosen_body, elastic_settings, inputs_of, option
 from viscofric.cli.keys import key, keys_given, table_of
-from viscofric.cli.rubber_options import NamedRubber, chosen_layer
+from viscofric.cli.output import is_synthetic
+from viscofric.cli.rubber_options import chosen_layer, chosen_rubber
 
 if TYPE_CHECKING:
     from viscofric.heat.heating import Heating
@@ -91,17 +92,54 @@ def _track(text: str) -> dict[str, Any]:
     return {"track_radius": radius, "passes": count} if count else {}
 
 
-def contact_inputs(
-    parameters: dict[str, Any], rubber: NamedRubber, shape: NamedIndenter, kelvin: float | None
-) -> dict[str, Any]:
-    """Return what is in contact in plain types, SI: the rubber with its modes at a temperature, indenter, and heat."""
-    layer = chosen_layer(parameters)
-    return {
-        "material": rubber.record(kelvin),
-        "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
-        "indenter": shape.record | {"elastic": elastic_record(parameters)},
-        "heating": _record(chosen_heating(parameters)),
-    }
+class Contact:
+    """What the options of a command put in contact; `settings` are arguments of the solvers."""
+
+    def __init__(self, parameters: dict[str, Any]) -> None:
+        self.rubber, self.body = chosen_rubber(parameters), chosen_body(parameters)
+        self.layer, self.heating = chosen_layer(parameters), chosen_heating(parameters)
+        self.elastic = elastic_settings(parameters)
+        self._others: dict[str, Any] = {
+            name: parameters[name] for name in ("coulomb", "accuracy", "backend") if name in parameters
+        }
+        self.settings = {"layer": self.layer, **self.elastic, **self._others}
+        self._inputs = inputs_of(parameters)
+
+    @property
+    def name(self) -> str:
+        """What is in contact, in words."""
+        words = f"{self.body.words} on "
+        if self.layer is None:
+            return words + self.rubber.name
+        from viscofric.report.texts.numbers import length
+
+        base = "bonded" if self.layer.bonded else "sliding on its base"
+        return f"{words}a layer of {self.rubber.name}, {length(float(self.layer.thickness))} thick, {base}"
+
+    @property
+    def title(self) -> str:
+        """Its name, marked where the rubber is made up."""
+        return self.name + (" (SYNTHETIC, not measured)" if self.rubber.synthetic else "")
+
+    @property
+    def synthetic(self) -> bool:
+        """Whether the rubber is synthetic, or a file of it or of the body says so."""
+        return is_synthetic(self.rubber.synthetic, self._inputs)
+
+    def record(self, kelvin: float | None) -> dict[str, Any]:
+        """Return it in plain types, SI: the rubber with its modes at a temperature, the body, and the heat."""
+        from viscofric.units import to_si
+
+        layer, modulus = self.layer, self.elastic["indenter_modulus"]
+        elastic = {"poisson_ratio": self.elastic["indenter_poisson_ratio"]}
+        return {
+            "material": self.rubber.record(kelvin),
+            "layer": None if layer is None else {"thickness": layer.thickness, "bonded": layer.bonded},
+            "indenter": self.body.record
+            | {"elastic": None if modulus is None else {"modulus": to_si(modulus, "Pa"), **elastic}},
+            "heating": _record(self.heating),
+            **self._others,
+        }
 
 
 def _record(heating: Heating | None) -> dict[str, Any] | None:
