@@ -15,6 +15,7 @@ from refusals import refused
 from viscofric.arrays import Array
 from viscofric.contact.indenters.shapes import Ball
 from viscofric.errors import SuperpositionError
+from viscofric.friction.curve_checks import Decades
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.prediction import predict_friction
 from viscofric.friction.shifting.found_shifts import CURVE_LEFT_OUT, widened, widening
@@ -420,6 +421,34 @@ def test_unknown_errors_and_friction_near_zero_are_fitted_too() -> None:
     found = shift_friction(about_zero).shift_factors
     assert np.any(about_zero.viscoelastic < 0.0)
     assert np.all(np.abs(deviation(found)) < 4.0 * found.standard_errors + 1e-9)
+
+
+@pytest.mark.parametrize(("value", "error"), [(1.5e-5, 1e-5), (-1e-5, 1e-5), (2e-3, 3e-3), (0.0, 0.0)])
+def test_a_point_near_zero_leaves_the_others_on_their_logarithms(value: float, error: float) -> None:
+    """Friction over three decades: one point, known well or badly, moves no factor by a third of its error."""
+    curves = made(
+        lambda reduced: 2e-3 * reduced**0.9, 44.0, 50.0, 56.0, speeds=np.geomspace(0.002, 0.2, 9), noise=NOISE
+    )
+    least = int(np.argmin(curves.viscoelastic))
+    friction, errors = curves.viscoelastic.copy(), curves.viscoelastic_error.copy()
+    friction[least], errors[least] = value, error
+    beside = replace(curves, viscoelastic=friction, viscoelastic_error=errors)
+    one, other = (shift_friction(some, reference="50 degC").shift_factors for some in (curves, beside))
+    np.testing.assert_array_less(np.abs(one.log10_values - other.log10_values)[[0, 2]], one.standard_errors[[0, 2]] / 3)
+    np.testing.assert_allclose(other.standard_errors, one.standard_errors, rtol=0.3)  # the last point is wrong
+
+
+@given(st.lists(st.floats(-1e3, 1e3), min_size=2, max_size=6), st.floats(1e-6, 1.0))
+def test_the_scale_is_the_logarithm_far_above_zero_and_linear_about_it(values: list[float], zero: float) -> None:
+    """Errors on it are those of its slope; values come back; 100 times above zero it is ln to 1e-4."""
+    scale, some = Decades(zero), zero * np.array(values)
+    # Of 1e3 below zero the place has 1e-3 of the size of what is subtracted, and this is rounded to 1e-16.
+    np.testing.assert_allclose(scale.value(scale(some)), some, rtol=1e-9, atol=1e-9 * zero)
+    step = 1e-4 * scale.unit(some)
+    np.testing.assert_allclose(
+        (scale(some + step) - scale(some - step)) / (2.0 * step) * scale.unit(some) * np.log(10.0), 1.0, rtol=1e-6
+    )
+    np.testing.assert_allclose(scale(np.array([100.0 * zero])), np.log10(100.0 * zero), atol=5e-5)
 
 
 @settings(max_examples=10, deadline=None)

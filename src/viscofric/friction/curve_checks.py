@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -14,6 +15,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.intervals import threshold
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note, note_of
+from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.rheology.uncertainty.material_samples import freedom_of_scatter, prior_freedom
 from viscofric.units import Quantity, number, plain, shown_celsius, shown_speed
 
@@ -63,6 +65,45 @@ SHARED_BY_SPEEDS = "errors-shared-by-speeds"
 def clear_of_zero(friction: Array, error: Array) -> bool:
     """Whether all friction (n,) is so far above zero that its logarithm has a normal error; unknown errors are none."""
     return bool(np.all(friction > CLEAR_OF_ZERO * np.where(np.isfinite(error), error, 0.0)))
+
+
+@dataclass(frozen=True)
+class Decades:
+    """A scale of measured values: log10 of those far above `zero`, and linear about zero, where they may lie.
+
+    log10 of z/2 + √(z²/4 + zero²) for a value z: that of z where `zero` is 0.  Values that are known absolutely have
+    errors on it of a size that does not depend on them near zero, and all others keep their logarithm.
+    """
+
+    zero: float  # size of values that are lost in their errors; 0 if none is
+
+    @classmethod
+    def of(cls, values: Array, error: Array) -> Decades:
+        """Return the scale of values (n,) with their standard errors, those unknown taken as none."""
+        size = np.where(np.isfinite(error), error, 0.0)
+        clear = values > CLEAR_OF_ZERO * size
+        if np.all(clear):
+            return cls(0.0)
+        # A value below zero tells that errors are as large. One whose error is above what others clearly have tells
+        # nothing of these.
+        zero = float(np.median(np.maximum(size, -values)[~clear]))
+        others = np.abs(values[clear if np.any(clear) else values != 0.0])
+        return cls(min(zero or np.inf, float(np.min(others, initial=np.inf)))) if zero or others.size else cls(1.0)
+
+    def __call__(self, values: Array) -> Array:
+        """Return values (n,) on the scale, in decades."""
+        if self.zero == 0.0:
+            return np.log10(values)
+        return np.asarray(math.log10(self.zero) + np.arcsinh(0.5 * values / self.zero) / LN10)
+
+    def value(self, decades: Array) -> Array:
+        """Return what has places (n,) on the scale."""
+        power = 10.0**decades
+        return np.asarray(power - self.zero**2 / power)
+
+    def unit(self, values: Array) -> Array:
+        """Return what errors of values (n,) are relative to: their change with the natural logarithm on the scale."""
+        return np.hypot(values, 2.0 * self.zero)
 
 
 def friction_unit(curves: FrictionCurves) -> Array:

@@ -13,9 +13,10 @@ from functools import cached_property
 import numpy as np
 
 from viscofric.arrays import Array, Indices, Integers, Mask
-from viscofric.friction.curve_checks import LEFT_OUT, clear_of_zero, error_freedom, scatter_of, with_tails
+from viscofric.friction.curve_checks import LEFT_OUT, Decades, error_freedom, scatter_of, with_tails
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import nominal_rows
+from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.rheology.superposition.common_curve import Basis, Curves
 from viscofric.rheology.superposition.overlap import LogSweep
 from viscofric.rheology.uncertainty.material_samples import freedom_of_scatter
@@ -45,12 +46,10 @@ class FrictionIsotherm:
 
     temperature: float  # mean of the points, K
     speed: Array  # (n,), log10 of the speed; ascending, all different
-    # (n,), log10 of the friction coefficient, or the coefficient on a scale where its largest value has the slope of a
-    # logarithm
-    friction: Array
+    friction: Array  # (n,), log10 of the friction coefficient, or this on the scale of all, which is linear about zero
     variance: Array  # (n,), of `friction`, up to a factor common to all isotherms
     range: tuple[float, float]  # smallest and largest friction coefficient
-    logarithmic: bool  # whether `friction` is the logarithm
+    scale: Decades  # of all temperatures
     larger: Array  # (n,), factors of the variance of points that lie off the others; 1 for the others
     basis: Basis  # of the curve through them
 
@@ -91,8 +90,7 @@ class FrictionIsotherm:
 
     def raised(self, part: float) -> FrictionIsotherm:
         """Return the same with all friction larger by a relative amount."""
-        friction = self.friction + math.log10(1.0 + part) if self.logarithmic else (1.0 + part) * self.friction
-        return replace(self, friction=friction)
+        return replace(self, friction=self.scale((1.0 + part) * self.scale.value(self.friction)))
 
     def sweep(self, unit: float) -> LogSweep:
         """Return the points in the form of superposition, weights in units of an inverse variance."""
@@ -102,17 +100,14 @@ class FrictionIsotherm:
 def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
     """Sort the points of friction curves at one load into isotherms of ascending temperature."""
     friction, error = curves.viscoelastic, curves.viscoelastic_error
-    logarithmic = clear_of_zero(friction, error)
-    largest = float(np.max(np.abs(friction), initial=np.finfo(float).tiny))
-    unit = friction if logarithmic else np.full(friction.shape, largest)
-    ordinate = np.log10(friction) if logarithmic else friction / (math.log(10.0) * largest)
-    decades = error / (math.log(10.0) * unit)
+    scale = Decades.of(friction, error)
+    ordinate, decades = scale(friction), error / (LN10 * scale.unit(friction))
     rows = nominal_rows(curves.temperature)
     variance = _variances(decades, curves.replicates, error_freedom(curves)[0], rows)
     speed, kelvin = np.log10(curves.speed), curves.temperature
     return _with_tails(
         [
-            _merged(float(kelvin[row].mean()), speed[row], ordinate[row], variance[row], friction[row], logarithmic)
+            _merged(float(kelvin[row].mean()), speed[row], ordinate[row], variance[row], friction[row], scale)
             for row in rows
         ]
     )
@@ -269,7 +264,7 @@ def _variances(error: Array, replicates: Integers, freedom: Array, rows: list[In
 
 
 def _merged(
-    temperature: float, speed: Array, ordinate: Array, variance: Array, friction: Array, logarithmic: bool
+    temperature: float, speed: Array, ordinate: Array, variance: Array, friction: Array, scale: Decades
 ) -> FrictionIsotherm:
     """Merge points of equal speeds."""
     order = np.argsort(speed, kind="stable")
@@ -284,7 +279,7 @@ def _merged(
         np.bincount(number, weight * ordinate[order]) / total,
         1.0 / total,
         (float(friction.min()), float(friction.max())),
-        logarithmic,
+        scale,
         np.ones(len(total)),
         Basis.of(speed),
     )

@@ -16,6 +16,7 @@ from viscofric.friction.curve_checks import (
     LEAST_FREEDOM,
     LEFT_OUT,
     MEAN_SQUARE,
+    Decades,
     clear_of_zero,
     error_freedom,
     outliers,
@@ -31,6 +32,7 @@ from viscofric.nominal import SAME_LOAD
 from viscofric.notes import Note
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
+from viscofric.rheology.shifts.shift_law import LN10
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.showing import Plotted, Rows
 from viscofric.units import Quantities, Quantity, positive, shown_celsius, shown_number, to_si_in_shape
@@ -166,17 +168,16 @@ class SmoothedPoints:
 
     def _found_to_lie_off(self, stated: Array) -> tuple[Array, Array]:
         """Return factors (n,) of the variances of points, and squared distances (n,) of outliers; else zero."""
-        # They are distances from one smooth curve of each stretch, of logarithms if all friction is clear of zero.
+        # They are distances from one smooth curve of each stretch, on the scale of all friction.
         known = np.isfinite(stated) & (stated > 0.0)
         larger, squares, freedom = np.ones(len(stated)), np.zeros(len(stated)), 0.0
-        logarithmic = clear_of_zero(self.friction[known], self.error[known])
+        scale = Decades.of(self.friction[known], self.error[known])
         for low, high in self.stretches:
             rows = np.flatnonzero(known & (self.decades >= low) & (self.decades <= high))
-            unit = self.friction[rows] if logarithmic else np.ones(len(rows))
-            value = np.log(unit) if logarithmic else self.friction[rows]
-            columns = self.decades[rows], value, (stated[rows] / unit) ** 2
-            shared = self.sharing[:, rows] * self.friction[rows] / unit
-            near = _BIAS * np.abs(self.friction[rows] / unit)
+            friction = self.friction[rows]
+            unit = scale.unit(friction)
+            columns = self.decades[rows], LN10 * scale(friction), (stated[rows] / unit) ** 2
+            shared, near = self.sharing[:, rows] * friction / unit, _BIAS * np.abs(friction) / unit
             larger[rows], squares[rows], more = about_one_curve(*columns, shared, float(self.stated), near)
             freedom += more
         over, outlying = outliers(squares, larger, freedom, 1.0)
