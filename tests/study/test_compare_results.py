@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray
 
 import viscofric as vf
 from refusals import refused
@@ -66,6 +67,37 @@ def test_numbers_of_rough_contacts_are_compared(tmp_path: Path, name: str) -> No
     found = vf.compare_results(results, changed(results, tmp_path / "b", name, 1.05, 7))
     assert [one.name for one in found.differences if not one.equal] == [name]
     assert difference(found, name).in_errors is None  # on their grid, without a stated error
+
+
+def with_heat(folder: Path, rises: tuple[float, ...] = (2.0, 5.0), coulomb: tuple[float, ...] = (0.2, 0.5)) -> Any:
+    """Return results whose cases also have heat, for each Coulomb friction a rise of temperature with its error."""
+    results = made(folder)
+    tree = results.tree.copy(deep=True)
+    cases = tree["prediction"].to_dataset()
+    rise = cases["friction_coefficient"].expand_dims(coulomb=list(coulomb)) * 0.0 + np.array(rises).reshape(2, 1, 1, 1)
+    group = {"temperature_rise": rise, "temperature_rise_error": 0.0 * rise + 0.1}
+    tree["heating"] = xarray.DataTree(xarray.Dataset(group))
+    return StudyResults(tree, folder)
+
+
+@pytest.mark.parametrize(
+    ("rises", "coulomb", "equal"),
+    [((2.0, 5.0), (0.2, 0.5), True), ((2.0, 5.5), (0.2, 0.5), False), ((2.0, 5.0), (0.2, 0.6), False)],
+)
+def test_results_of_another_heat_are_different_though_their_isothermal_friction_is_the_same(
+    tmp_path: Path, rises: tuple[float, ...], coulomb: tuple[float, ...], equal: bool
+) -> None:
+    found = vf.compare_results(with_heat(tmp_path / "a"), with_heat(tmp_path / "b", rises, coulomb))
+    assert found.equal == equal
+    assert found.same_cases == (coulomb == (0.2, 0.5))
+    assert difference(found, "friction_coefficient").equal
+    assert difference(found, "heating/temperature_rise").equal == (rises == (2.0, 5.0))
+
+
+def test_results_that_alone_have_heat_are_different(tmp_path: Path) -> None:
+    found = vf.compare_results(made(tmp_path / "a"), with_heat(tmp_path / "b"))
+    assert (found.equal, found.same_cases) == (False, False)
+    assert len(found.axes) == 1
 
 
 def test_the_largest_difference_is_found_where_it_is(tmp_path: Path) -> None:

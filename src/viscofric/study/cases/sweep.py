@@ -60,6 +60,12 @@ COORDINATES: dict[str, Coordinate] = {
     "temperature": Coordinate("K", "temperature", "°C"),
     "speed": Coordinate("m/s", "speed at which the rubber is deformed", "mm/s", 1e-3, "$v$"),
 }
+#: Units of those that only cases with heat, over time, or of impacts have.
+_OF_OTHERS = {
+    "slip": Coordinate("m/s", "sliding velocity", "mm/s", 1e-3),
+    "dwell": Coordinate("s", "time at rest", "s"),
+    "impact_speed": Coordinate("m/s", "speed at the first touch", "m/s"),
+}
 #: Those that vary along no curve of friction.
 VARIED = tuple(name for name in COORDINATES if name not in ("temperature", "speed"))
 
@@ -180,7 +186,7 @@ def shown(name: str, value: float | str, line: bool = False, digits: int = 4) ->
         return shown_speed(value, digits)
     if name == "load" and line:
         return f"{plain(value / 1e3, digits)} N/mm"
-    about = COORDINATES[name]
+    about = COORDINATES.get(name) or _OF_OTHERS.get(name) or Coordinate("1", name)
     if not about.unit:
         return f"{value:.{max(digits, 6)}g}"
     return f"{plain(value / about.scale, digits)}{'' if about.unit == '°' else ' '}{about.unit}"

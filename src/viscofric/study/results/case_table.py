@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.datasets import DataTree
+from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
 from viscofric.files import file_path
 from viscofric.study.cases.sweep import shown
@@ -37,6 +37,8 @@ _COORDINATES = ("speed", "temperature", "load")
 # Coordinates whose value needs no name.
 _SPEAKING = ("material", "load", "temperature", "speed")
 _TABLES = (".csv", ".txt", ".tsv")
+#: Groups of cases beside the prediction.
+_OTHER_GROUPS = ("heating", "history", "impact")
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,24 +53,15 @@ class CaseTable:
     attributes: dict[Any, Any] = field(default_factory=dict)  # provenance
 
     @classmethod
-    def of_file(cls, path: str | Path) -> CaseTable:
-        """Read results, or a table of friction curves."""
-        if file_path(path).suffix.lower() not in _TABLES:
-            return cls.of_tree(*open_tree(path))
-        from viscofric.friction.curve_files import read_friction_curves
-
-        return cls.of_curves(read_friction_curves(path), str(path))
-
-    @classmethod
-    def of_tree(cls, tree: DataTree, folder: Path) -> CaseTable:
-        """Return the cases of results in a folder."""
-        dataset = cases_of(tree, folder)
-        columns = {str(name): over_all_dimensions(dataset, str(name)).ravel() for name in dataset.variables}
-        places = [str(name) for name in dataset.coords] or [name for name in _COORDINATES if name in columns]
-        friction = columns["friction_coefficient"]
-        units = {name: str(dataset[name].attrs.get("units", "1")) for name in columns}
-        solved = np.isfinite(friction)
-        return cls(str(folder), tuple(places), columns, units, solved, dict(dataset.attrs))
+    def of_group(cls, name: str, data: Dataset) -> CaseTable:
+        """Return the cases of a group of results, of contacts over time their instants too."""
+        if "instant" in data.dims:
+            data = data.assign_coords(instant=np.arange(data.sizes["instant"]))
+        columns = {str(one): over_all_dimensions(data, str(one)).ravel() for one in data.variables}
+        places = [str(one) for one in data.coords] or [one for one in _COORDINATES if one in columns]
+        units = {one: str(data[one].attrs.get("units", "1")) for one in columns}
+        first = next(str(one) for one in data.data_vars if one not in places)
+        return cls(name, tuple(places), columns, units, np.isfinite(columns[first]), dict(data.attrs))
 
     @classmethod
     def of_curves(cls, curves: FrictionCurves, name: str = "friction curves") -> CaseTable:
@@ -99,6 +92,23 @@ class CaseTable:
     def place(self, row: int) -> dict[str, float | str]:
         """Return the coordinates of a case."""
         return {name: self.columns[name][row].item() for name in self.coordinates}
+
+
+def tables_of_file(path: str | Path) -> dict[str, CaseTable]:
+    """Read results, each group a table, or a table of friction curves as their prediction."""
+    if file_path(path).suffix.lower() not in _TABLES:
+        return tables_of_tree(*open_tree(path))
+    from viscofric.friction.curve_files import read_friction_curves
+
+    return {"prediction": CaseTable.of_curves(read_friction_curves(path), str(path))}
+
+
+def tables_of_tree(tree: DataTree, folder: Path) -> dict[str, CaseTable]:
+    """Return the cases of results in a folder, by their group."""
+    cases = cases_of(tree, folder)
+    others = {name: child.to_dataset() for name, child in tree.children.items() if name in _OTHER_GROUPS}
+    others = {name: data.assign_attrs(accuracy=cases.attrs.get("accuracy")) for name, data in others.items()}
+    return {name: CaseTable.of_group(str(folder), data) for name, data in ({"prediction": cases} | others).items()}
 
 
 class Common(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import Any
 
@@ -14,18 +14,28 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.contact.solution import ERRORS
 from viscofric.datasets import Dataset, dataset
+from viscofric.errors import InputError
 from viscofric.files import parse_toml
 from viscofric.notes import Note, table_in
 from viscofric.showing import Rows, Shown
-from viscofric.study.results.case_table import CaseTable, common_cases
+from viscofric.study.results.case_table import CaseTable, Common, common_cases
 
-#: Variables that are compared -> the variable with its stated error; those of rough contacts, on their grid, have none.
+#: Variables that are compared, by the groups of results; those of rough contacts, on their grid, have no stated error.
 COMPARED = {
-    name: ERRORS.get(name, "")
-    for name in (
+    "prediction": (
         *("friction_coefficient", "indentation", "contact_area", "front", "rear", "half_width"),
         *("max_pressure", "centre_of_pressure", "contact_area_fraction", "corrected_area_fraction", "mean_gap"),
-    )
+        *("interface_friction", "total_friction"),
+    ),
+    "heating": ("friction_coefficient", "temperature_rise", "interface_friction", "total_friction"),
+    "history": ("friction_force", "indentation", "temperature_rise", "time"),
+    "impact": ("restitution", "contact_time", "peak_force", "largest_indentation"),
+}
+_PREDICTION = "prediction"
+#: Variables -> those with their stated errors.
+_ERRORS = ERRORS | {
+    "interface_friction": "interface_error",
+    **{name: f"{name}_error" for name in ("temperature_rise", "restitution")},
 }
 #: Variables without a stated error agree within the accuracy, or within this if it is unknown.
 _USUAL_ACCURACY = 1e-3
@@ -38,7 +48,7 @@ _LAST_DIGITS = 1e-12
 class VariableDifference:
     """Difference of one variable over the common cases of two results."""
 
-    name: str
+    name: str  # with its group before it, as in "heating/friction_coefficient", if that is not the prediction
     unit: str
     points: int  # cases that both solved
     largest: float  # relative to the larger of the two values
@@ -72,6 +82,8 @@ class ResultsComparison(Shown):
         Relative; None: the stated errors.
     load_unit : str
         Of loads in `differences`: ``"N"``, or ``"N/m"`` of line contacts.
+    same_cases : bool
+        Whether both have solved the same cases, also those with heat, over time, and of impacts.
     """
 
     cases: int
@@ -83,6 +95,7 @@ class ResultsComparison(Shown):
     differences: tuple[VariableDifference, ...]
     tolerance: float | None
     load_unit: str
+    same_cases: bool
 
     def _shown(self) -> Rows:
         return (
@@ -99,8 +112,7 @@ class ResultsComparison(Shown):
     @property
     def equal(self) -> bool:
         """Whether both have the same cases, and the same values within the tolerance."""
-        same_cases = self.only_first == self.only_second == self.solved_once == 0
-        return same_cases and all(difference.equal for difference in self.differences)
+        return self.same_cases and all(difference.equal for difference in self.differences)
 
     def to_dataset(self) -> Dataset:
         """Return the differences along the dimension ``variable``.
@@ -142,29 +154,60 @@ _OF_A_DIFFERENCE = {
 }
 
 
-def compare_tables(one: CaseTable, other: CaseTable, tolerance: float | None) -> ResultsComparison:
-    """Compare two tables case by case; see `viscofric.compare_results`."""
+def compare_tables(
+    one: Mapping[str, CaseTable], other: Mapping[str, CaseTable], tolerance: float | None
+) -> ResultsComparison:
+    """Compare two results, of each group a table, case by case; see `viscofric.compare_results`."""
+    first, second = (tables[_PREDICTION] for tables in (one, other))
+    pairs, solved_once, differences = _compared(_PREDICTION, first, second, tolerance)
+    only_first, only_second = len(first) - len(pairs.first), len(second) - len(pairs.second)
+    same, remarks = only_first == only_second == solved_once == 0, list(pairs.remarks)
+    known = bool(first.attributes and second.attributes)  # friction curves have no other groups
+    for name in [name for name in COMPARED if known and name != _PREDICTION and (name in one or name in other)]:
+        if name not in one or name not in other:
+            same = False
+            remarks.append(f"Only {(first if name in one else second).name} has a group '{name}'.")
+            continue
+        try:
+            found, apart, more = _compared(name, one[name], other[name], tolerance)
+        except InputError as error:
+            same = False
+            remarks.append(f"{name}: {error}")
+            continue
+        alike = len(one[name]) == len(other[name]) == len(found.first) and not apart
+        same = same and alike
+        remarks += [f"{name}: {said}" for said in found.remarks] if not alike else []
+        differences += more
+    return ResultsComparison(
+        cases=len(pairs.first),
+        only_first=only_first,
+        only_second=only_second,
+        solved_once=solved_once,
+        axes=tuple(remarks),
+        provenance=tuple(provenance_differences(first.attributes, second.attributes)),
+        differences=tuple(differences),
+        tolerance=tolerance,
+        load_unit="N/m" if first.per_length else "N",
+        same_cases=same,
+    )
+
+
+def _compared(
+    group: str, one: CaseTable, other: CaseTable, tolerance: float | None
+) -> tuple[Common, int, list[VariableDifference]]:
+    """Return the common cases of a group, how many of them one only has solved, and the differences of the others."""
     pairs = common_cases(one, other)
     accuracy = max(table.accuracy or 0.0 for table in (one, other)) or _USUAL_ACCURACY
-    shared = [name for name in COMPARED if name in one.columns and name in other.columns]
+    shared = [name for name in COMPARED[group] if name in one.columns and name in other.columns]
     # A line contact has no end across the motion.
     names = [name for name in shared if any(np.isfinite(table.columns[name]).any() for table in (one, other))]
     solved = one.solved[pairs.first], other.solved[pairs.second]
     both = solved[0] & solved[1]
     rows = pairs.first[both], pairs.second[both]
-    return ResultsComparison(
-        cases=len(pairs.first),
-        only_first=len(one) - len(pairs.first),
-        only_second=len(other) - len(pairs.second),
-        solved_once=int(np.count_nonzero(solved[0] != solved[1])),
-        axes=pairs.remarks,
-        provenance=tuple(provenance_differences(one.attributes, other.attributes)),
-        differences=tuple(_difference(name, (one, other), rows, tolerance, accuracy) for name in names)
-        if both.any()
-        else (),
-        tolerance=tolerance,
-        load_unit="N/m" if one.per_length else "N",
-    )
+    differences = [_difference(name, (one, other), rows, tolerance, accuracy) for name in names] if both.any() else []
+    if group != _PREDICTION:
+        differences = [replace(found, name=f"{group}/{found.name}") for found in differences]
+    return pairs, int(np.count_nonzero(solved[0] != solved[1])), differences
 
 
 def _difference(
@@ -200,11 +243,8 @@ def _difference(
 
 def _combined_error(name: str, tables: tuple[CaseTable, CaseTable], rows: tuple[Any, Any]) -> Array | None:
     """Return the stated errors of both, added in squares; None if neither states any."""
-    stated = [
-        table.columns[COMPARED[name]][row]
-        for table, row in zip(tables, rows, strict=True)
-        if COMPARED[name] in table.columns
-    ]
+    column = _ERRORS.get(name, "")
+    stated = [table.columns[column][row] for table, row in zip(tables, rows, strict=True) if column in table.columns]
     if not stated:
         return None
     known = [np.where(np.isfinite(error), error, 0.0) for error in stated]

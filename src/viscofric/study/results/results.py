@@ -18,7 +18,7 @@ from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, notes_in
 from viscofric.showing import Plotted, Rows
-from viscofric.study.results.case_table import CaseTable
+from viscofric.study.results.case_table import CaseTable, tables_of_file, tables_of_tree
 from viscofric.study.results.compare import ResultsComparison, compare_tables
 from viscofric.study.results.export import Form, export_results
 from viscofric.study.results.file import cases_of, open_tree, rubbers_of
@@ -255,16 +255,16 @@ def compare_results(
     """
     if tolerance is not None and (tolerance := number(tolerance, "tolerance")) < 0.0:
         raise InputError(f"tolerance = {brief(tolerance)}: must be a number from 0 on, such as 1e-3.", code="tolerance")
-    return compare_tables(_table_of(first), _table_of(second), tolerance)
+    return compare_tables(_tables_of(first), _tables_of(second), tolerance)
 
 
-def _table_of(given: StudyResults | FrictionCurves | str | Path) -> CaseTable:
-    """Return the cases of results or friction curves, or of their file."""
+def _tables_of(given: StudyResults | FrictionCurves | str | Path) -> dict[str, CaseTable]:
+    """Return the cases of results or friction curves, or of their file, by their group."""
     if isinstance(given, StudyResults):
-        return CaseTable.of_tree(given.tree, given.folder)
+        return tables_of_tree(given.tree, given.folder)
     from viscofric.friction.curves import FrictionCurves
 
-    return CaseTable.of_curves(given) if isinstance(given, FrictionCurves) else CaseTable.of_file(given)
+    return {"prediction": CaseTable.of_curves(given)} if isinstance(given, FrictionCurves) else tables_of_file(given)
 
 
 def input_hashes(inputs: Iterable[Path], folder: Path | None = None) -> str:
