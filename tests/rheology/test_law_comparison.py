@@ -204,6 +204,13 @@ def test_what_the_factors_leave_open_is_said():
     assert sum(row.weight for row in open_.rows if not row.same_as) == pytest.approx(1.0)
 
 
+def test_laws_are_compared_at_temperatures_within_one_kelvin():
+    """WLF passes through these with its pole less than a kelvin below the coldest."""
+    errors = np.diag([0.41, 0.20, 0.0, 0.33]) ** 2
+    laws = ShiftFactors([253.0, 253.3, 253.5, 253.8], [0.580, 0.052, 0.0, -0.187], 253.5, errors).compare_laws()
+    assert "laws-undecided" in codes(laws.notes)
+
+
 def test_measured_polystyrene_follows_wlf(real_data):
     """Creep of a melt at four temperatures, shifted by hand along the time; Arrhenius misses them by 0.1 decades."""
     curves = [np.log10(np.loadtxt(real_data / "creep" / f"creep_ps{t}.csv", skiprows=1)) for t in (145, 160, 175, 190)]

@@ -341,11 +341,11 @@ def _notes(chosen: LawRow[ParametricLaw], rows: list[LawRow[ParametricLaw]], tab
 def _rivalry(chosen: LawRow[ParametricLaw], rival: LawRow[ParametricLaw], table: FactorTable) -> Note:
     """Return a sentence on the difference of a law that cannot be excluded from the chosen one."""
     low, high = float(table.temperatures[0]), float(table.temperatures[-1])
-    kelvin = np.linspace(low - BEYOND, high + BEYOND, 81)
     laws = [row.law.unbounded() for row in (chosen, rival) if row.law is not None]
-    kelvin = kelvin[kelvin > max(law.extrapolation_limits[0] for law in laws) + 1.0]
+    coldest = max(low - BEYOND, min(low, max(law.extrapolation_limits[0] for law in laws) + 1.0))
+    kelvin = np.stack([np.linspace(low, high, 81), np.linspace(coldest, high + BEYOND, 81)])
     apart = np.abs(laws[0].log10(kelvin) - laws[1].log10(kelvin))
-    inside = float(np.max(apart[(kelvin >= low) & (kelvin <= high)]))
+    inside = float(apart[0].max())
     far = f"{inside:.2g} decades between the temperatures and {float(apart.max()):.2g} up to {BEYOND:g} K beyond them"
     weights = f"Akaike weights {chosen.weight:.2f} and {rival.weight:.2f}"
     if float(apart.max()) <= LARGEST_SCATTER:
