@@ -124,11 +124,12 @@ def kramers_kronig(master_curve: MasterCurve) -> KramersKronig:
     judged = (omega >= omega[0] * 10.0**EDGE) & (omega <= omega[-1] / 10.0**EDGE)
 
     modes = _non_negative(viscous, loss, weight)
-    rise = elastic @ modes
+    fast, slow = tau < 1.0 / omega[-1], tau > 1.0 / omega[0]
+    # Slow modes add a constant, which E'' does not tell: it is a part of the plateau.
+    rise = elastic @ modes - modes[slow].sum()
     constant = np.ones((len(omega), 1))
     plateau = float(_non_negative(constant, storage, weight, storage - rise)[0])
-    storage_deviation = np.log10((plateau + rise) / storage)
-    fast, slow = tau < 1.0 / omega[-1], tau > 1.0 / omega[0]
+    storage_deviation = np.log10(np.maximum((plateau + rise) / storage, _FLOOR))
     unseen = elastic[:, fast] @ modes[fast] + (1.0 - elastic[:, slow]) @ modes[slow]
 
     back = _non_negative(np.concatenate([constant, elastic], axis=1), storage, weight)
