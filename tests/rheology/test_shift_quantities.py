@@ -9,7 +9,7 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
-from rheology.planted import planted_sweeps, synthetic_polymer
+from rheology.planted import planted_sweeps, random_sweeps, synthetic_polymer
 from viscofric.notes import codes
 from viscofric.rheology.shifts.vertical_shift import DensityShift
 
@@ -81,6 +81,20 @@ def test_offsets_that_both_moduli_show_are_in_the_errors_of_one(by):
     # One modulus shows a shift less well than both, whose offsets partly cancel.
     errors, of_both = (np.median(one.shift_factors.standard_errors) for one in (found, joint))
     assert errors > 0.9 * of_both
+
+
+@pytest.mark.parametrize(("family", "seed"), [("few modes", 41), ("power law", 0)])
+def test_tan_delta_does_not_move_isotherms_apart_whose_storage_moduli_overlap(family, seed):
+    """A common curve of tan δ, which has peaks, moved them apart by 3 and 6 decades."""
+    planted = random_sweeps(seed, family)
+    reference = float(np.median(planted.sweeps.temperatures))
+    fit = vf.superpose(planted.sweeps, reference, by="loss-tangent")
+    assert "joined-by-pairs" in codes(fit.notes)
+    assert fit.quality.without_overlap == 0
+    factors = fit.shift_factors
+    away = np.abs(factors.log10_values - planted.log10_alpha(factors.temperatures, reference))
+    assert np.all(away < 0.5)  # decades, what the joins of pairs are uncertain by
+    assert np.all(away <= 2.5 * factors.standard_errors + 1e-9)  # of 14 factors, which move together
 
 
 def test_tan_delta_is_free_of_vertical_shifts():

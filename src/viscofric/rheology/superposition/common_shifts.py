@@ -64,13 +64,13 @@ def common_shifts(
     # they are apart. `sweeps` contain the moduli
     # measured. The `quantities` shifted may be one of them or tan δ, or have other weights; `joins` are those of the
     # quantities.
-    search, apart = _torn_apart(quantities.of(sweeps), joins, gauge, quantities)
+    search, apart = _torn_apart(sweeps, joins, gauge, quantities)
     inside = identified(search.signal, gauge)
     if inside is None:
         return replace(_with_offsets(search, sweeps, quantities), parted=tuple(sorted(apart)))
     first, last = inside
     part = sweeps[first:last]
-    search, apart = _torn_apart(quantities.of(part), joins[first : last - 1], gauge.within(first, last), quantities)
+    search, apart = _torn_apart(part, joins[first : last - 1], gauge.within(first, last), quantities)
     found = _with_offsets(search, part, quantities)
     nothing = np.zeros(len(sweeps))
     return replace(
@@ -113,10 +113,9 @@ def _torn_apart(
     """Fit all isotherms, join those pair by pair that the fit moves apart, and return their indices too."""
     apart: set[int] = set()
     held = {place for place in gauge.held if place + 1 in gauge.held}
+    shifted = quantities.of(sweeps)
     while True:
-        search = _search(ShiftProblem(sweeps, joins, gauge, apart, quantities.weights), joins)
-        if not quantities.rising:
-            return search, apart
+        search = _search(ShiftProblem(shifted, joins, gauge, apart, quantities.weights), joins)
         values, _ = search.problem.split(search.parameters)
         more = set(parted(sweeps, values)) - apart - held
         if not more:
@@ -124,7 +123,7 @@ def _torn_apart(
         apart |= more
         joins = list(joins)
         for place in more:
-            one = join(sweeps[place], sweeps[place + 1], search.noise)
+            one = join(shifted[place], shifted[place + 1], search.noise)
             joins[place] = replace(one, uncertainty=max(one.uncertainty, PAIR_UNCERTAINTY))
 
 

@@ -74,11 +74,6 @@ class Quantities:
         return self.by == "both"
 
     @property
-    def rising(self) -> bool:
-        """Whether the first of them is E', which rises with frequency."""
-        return self.by in ("both", "storage")
-
-    @property
     def onto_moduli(self) -> Array:
         """Smallest offsets of log E' and log E'' per offset of each quantity, (2, m)."""
         return np.asarray(np.linalg.pinv(self.seen))
