@@ -11,7 +11,7 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
-from viscofric.cli.output import json_option, print_json
+from viscofric.cli.output import outputs, print_json
 from viscofric.cli.rubber_options import tree_of
 from viscofric.notes import listed
 
@@ -37,7 +37,7 @@ _PLURAL = {"radius": "radii", "radius x": "radii x", "radius y": "radii y", "thi
     type=click.Path(path_type=Path, file_okay=False),
     help="Results folder to check instead of STUDY: compare every stored contact, and results.nc, with its checksum.",
 )
-@json_option("Print the findings as JSON, in SI units.")
+@outputs()
 def command(study: Path | None, results: Path | None, as_json: bool) -> None:
     """Validate a run file and its data files, and estimate the work; nothing is solved.
 

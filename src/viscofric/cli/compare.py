@@ -12,7 +12,7 @@ import click
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import words_of
 from viscofric.cli.files import CSV, DASH
-from viscofric.cli.output import json_option, out_option, print_json, write_rows
+from viscofric.cli.output import outputs, print_json, write_rows
 
 if TYPE_CHECKING:
     from viscofric.study.results.compare import ResultsComparison, VariableDifference
@@ -34,8 +34,7 @@ Example:
     metavar="SHARE",
     help="Largest relative difference accepted as equal; 0: identical digits [default: twice the stated errors].",
 )
-@out_option("Write the table of differences (CSV); `-` prints it.", endings=CSV)
-@json_option("Print everything as JSON, in SI units.")
+@outputs("Write the table of differences (CSV); `-` prints it.", endings=CSV)
 def command(first: Path, second: Path, tolerance: float | None, out: Path | None, as_json: bool) -> None:
     """Compare two results case by case: folders of studies, results.nc files or tables of friction curves (CSV).
 

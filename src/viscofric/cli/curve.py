@@ -13,15 +13,7 @@ from viscofric.cli.contact import Contact, heating_options
 from viscofric.cli.contact_options import chosen_direction, contact_options, inputs_of, sliding_indenter_options
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, refuse_to_overwrite
-from viscofric.cli.output import (
-    answer,
-    drawing,
-    json_option,
-    json_record,
-    out_option,
-    picture_option,
-    write_files,
-)
+from viscofric.cli.output import answer, drawing, json_record, outputs, write_files
 from viscofric.cli.rubber_options import NamedRubber, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -62,9 +54,11 @@ Example:
     help="Bootstrap samples for the 95 % band of friction, with --dma or a run file; 20 or more, 0 for none.",
 )
 @click.option("--workers", type=int, default=1, help="Number of processes.")
-@out_option("Write the friction curves (CSV); `-` prints them instead of the table.", endings=CSV)
-@picture_option("Draw friction against speed")
-@json_option("Print the friction curves as JSON, in SI units.")
+@outputs(
+    "Write the friction curves (CSV); `-` prints them instead of the table.",
+    endings=CSV,
+    picture="Draw friction against speed",
+)
 def command(out: Path | None, picture: Path | None, as_json: bool, **parameters: Any) -> None:
     """Predict viscoelastic friction against speed, at one or several temperatures.
 

@@ -9,12 +9,11 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.files import FOLDER
-from viscofric.cli.output import RUN_JSON, json_option, out_option
+from viscofric.cli.output import RUN_JSON, outputs
 
 
 @as_command("demo")
-@out_option("Folder for the results.", FOLDER, default=Path("viscofric-demo"))
-@json_option(RUN_JSON)
+@outputs("Folder for the results.", FOLDER, default=Path("viscofric-demo"), json=RUN_JSON)
 def command(out: Path, as_json: bool) -> None:
     """Run the built-in example: DMA and friction data of a SYNTHETIC fluoroelastomer.
 

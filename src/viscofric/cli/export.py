@@ -8,7 +8,7 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.files import DASH, Written, check_ending
-from viscofric.cli.output import json_option, out_option, print_json
+from viscofric.cli.output import outputs, print_json
 
 # format -> how its file's name ends
 _ENDINGS = {"csv": ".csv", "excel": ".xlsx", "netcdf": ".nc"}
@@ -31,11 +31,11 @@ Example:
     type=click.Choice(list(_ENDINGS)),
     help="Output format; Excel has all tables, the others the cases. Repeat for several formats.",
 )
-@out_option(
+@outputs(
     "Output file; `-` prints a csv [default: results.csv, results.xlsx, or prediction.nc in the results folder].",
     Written(allow_dash=True),
+    json="Print the written files as JSON.",
 )
-@json_option("Print the written files as JSON.")
 def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bool) -> None:
     """Export RESULTS, a study's results folder or its results.nc, to other formats.
 

@@ -18,18 +18,7 @@ from viscofric.cli.friction_sources import (
     separation_record,
     shifts,
 )
-from viscofric.cli.output import (
-    answer,
-    drawing,
-    is_synthetic,
-    json_option,
-    json_record,
-    optional_si,
-    out_option,
-    picture_option,
-    synthetic_option,
-    write_files,
-)
+from viscofric.cli.output import answer, drawing, is_synthetic, json_record, optional_si, outputs, write_files
 from viscofric.cli.rubber_options import find_rubber, shift_factor_options
 from viscofric.cli.speed_options import list_of
 
@@ -163,11 +152,14 @@ _shared_options = together(
 @click.option("--workers", type=int, default=1, help="Number of processes.")
 @click.option("--name", default="rubber identified from friction", help="Name of the material.")
 @separation_options
-@out_option("Write the material (JSON), for `solve`, run files and `material`.", WRITTEN, endings=JSON)
-@picture_option("Draw the modulus with its limits")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
-@synthetic_option
-@json_option("Print everything as JSON, in SI units.")
+@outputs(
+    "Write the material (JSON), for `solve`, run files and `material`.",
+    WRITTEN,
+    endings=JSON,
+    picture="Draw the modulus with its limits",
+    synthetic=True,
+)
 def command(
     sources: tuple[Path, ...],
     out: Path | None,

@@ -13,16 +13,7 @@ from viscofric.cli.contact_options import elastic_options, indenter_options, inp
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_dataset
 from viscofric.cli.keys import key
-from viscofric.cli.output import (
-    answer,
-    drawing,
-    json_option,
-    json_record,
-    out_option,
-    picture_option,
-    print_pairs,
-    write_files,
-)
+from viscofric.cli.output import answer, drawing, json_record, outputs, print_pairs, write_files
 from viscofric.cli.rubber_options import rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -63,9 +54,11 @@ Examples:
 )
 @elastic_options
 @click.option("--accuracy", type=float, default=1e-4, help="Target error of the restitution, absolute.")
-@json_option()
-@out_option("Write the contact over time, or the curve of several (.csv or .nc); `-` prints it.", endings=DATA)
-@picture_option("Draw the contact over time, or the restitution of several")
+@outputs(
+    "Write the contact over time, or the curve of several (.csv or .nc); `-` prints it.",
+    endings=DATA,
+    picture="Draw the contact over time, or the restitution of several",
+)
 def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
     """Solve the impact of a body of revolution of given mass: restitution, contact time, largest force.
 

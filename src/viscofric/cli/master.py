@@ -14,13 +14,10 @@ from viscofric.cli.output import (
     answer,
     drawing,
     is_synthetic,
-    json_option,
     json_record,
     optional_si,
-    out_option,
-    picture_option,
+    outputs,
     print_pairs,
-    synthetic_option,
     write_files,
 )
 from viscofric.cli.rubber_options import shift_factor_options
@@ -68,10 +65,12 @@ Example:
     help="Relative standard error shared by all points of a temperature, to include in the errors of α.",
 )
 @separation_options
-@out_option("Write the shift factors with their errors (CSV); `-` prints them instead of the table.", endings=CSV)
-@picture_option("Draw master curve and shift factors")
-@synthetic_option
-@json_option("Print everything as JSON, in SI units.")
+@outputs(
+    "Write the shift factors with their errors (CSV); `-` prints them instead of the table.",
+    endings=CSV,
+    picture="Draw master curve and shift factors",
+    synthetic=True,
+)
 def command(
     sources: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, **parameters: Any
 ) -> None:

@@ -11,18 +11,7 @@ from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, Source, plainly, refuse_to_overwrite
 from viscofric.cli.friction_sources import separated_runs, separation_options, separation_record
-from viscofric.cli.output import (
-    answer,
-    drawing,
-    is_synthetic,
-    json_option,
-    json_record,
-    out_option,
-    picture_option,
-    print_pairs,
-    synthetic_option,
-    write_files,
-)
+from viscofric.cli.output import answer, drawing, is_synthetic, json_record, outputs, print_pairs, write_files
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,10 +27,12 @@ Example:
 @as_command("measure", epilog=_EXAMPLE)
 @click.argument("runs", nargs=-1, required=True, type=Source())
 @separation_options
-@out_option("Write the friction curves (CSV); `-` prints them instead of the table.", endings=CSV)
-@picture_option("Draw viscoelastic and Coulomb friction against speed")
-@synthetic_option
-@json_option("Print the friction curves as JSON, in SI units.")
+@outputs(
+    "Write the friction curves (CSV); `-` prints them instead of the table.",
+    endings=CSV,
+    picture="Draw viscoelastic and Coulomb friction against speed",
+    synthetic=True,
+)
 def command(runs: tuple[Path, ...], out: Path | None, picture: Path | None, synthetic: bool, **parameters: Any) -> None:
     """Separate viscoelastic from Coulomb friction in RUNS, files of a mini-traction machine (MTM, ETM).
 

@@ -11,7 +11,7 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.files import FOLDER, refusal
-from viscofric.cli.output import json_option, out_option, print_json
+from viscofric.cli.output import outputs, print_json
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
@@ -47,8 +47,7 @@ _EPILOG = "\b\nTemplates:\n" + "\n".join(f"  {name:12} {words}" for name, words 
     is_flag=True,
     help=f"Also write {SCHEMA}, with which editors complete and check the run file; without FOLDER, print it.",
 )
-@out_option("Folder to write into, instead of FOLDER.", FOLDER)
-@json_option("Print the written files as JSON.")
+@outputs("Folder to write into, instead of FOLDER.", FOLDER, json="Print the written files as JSON.")
 def command(folder: Path | None, template: str, schema: bool, out: Path | None, as_json: bool) -> None:
     """Write an example study to FOLDER: a commented run file and SYNTHETIC data to replace by your own.
 

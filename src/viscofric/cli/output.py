@@ -12,7 +12,7 @@ from typing import Any
 
 import click
 
-from viscofric.cli.commands import Decorator
+from viscofric.cli.commands import Decorator, together
 from viscofric.cli.files import DASH, OUT, PICTURES, WRITTEN, check_ending, to_be_written
 from viscofric.cli.overview import TYPED
 from viscofric.datasets import Dataset
@@ -22,39 +22,35 @@ from viscofric.files import says_synthetic
 RUN_JSON = "Print progress as JSON, one object a line; the last one has the outcome."
 
 
-def out_option(
-    words: str, kind: click.Path = OUT, *, endings: tuple[str, ...] = (), default: Path | None = None
+def outputs(
+    out: str = "",
+    kind: click.Path = OUT,
+    endings: tuple[str, ...] = (),
+    *,
+    default: Path | None = None,
+    picture: str = "",
+    synthetic: bool = False,
+    json: str = "Print everything as JSON, in SI units.",
 ) -> Decorator:
-    """Return a decorator that adds `--out`."""
+    """Return a decorator that adds `--out`, `--picture` and `--json` with such a help, and `--synthetic`."""
 
-    def chosen(ctx: click.Context, param: click.Parameter, value: Path | None) -> Path | None:
+    def checked(ctx: click.Context, param: click.Parameter, value: Path | None) -> Path | None:
         if value == DASH and ctx.params.get("as_json"):
             raise click.UsageError(
                 "--json and --out - both write to standard output; use one of them, or give --out a file."
             )
-        if endings:
-            check_ending(value, "--out", endings)
+        if allowed := PICTURES if param.name == "picture" else endings:
+            check_ending(value, f"--{param.name}", allowed)
         return value
 
-    return click.option("-o", "--out", type=kind, default=default, callback=chosen, help=words)
-
-
-def picture_option(words: str) -> Decorator:
-    """Return a decorator that adds `--picture`."""
-
-    def checked(ctx: click.Context, param: click.Parameter, value: Path | None) -> Path | None:
-        check_ending(value, "--picture", PICTURES)
-        return value
-
-    return click.option("--picture", type=WRITTEN, callback=checked, help=f"{words} (PNG, SVG or PDF).")
-
-
-#: Where data may be synthetic that do not say so themselves.
-synthetic_option = click.option(
-    "--synthetic",
-    is_flag=True,
-    help="The data are synthetic, and no remark (#) in a file says so: label figures and report accordingly.",
-)
+    about = "The data are synthetic, and no remark (#) in a file says so: label figures and report accordingly."
+    options = (
+        (out, click.option("-o", "--out", type=kind, default=default, callback=checked, help=out)),
+        (picture, click.option("--picture", type=WRITTEN, callback=checked, help=f"{picture} (PNG, SVG or PDF).")),
+        (synthetic, click.option("--synthetic", is_flag=True, help=about)),
+        (json, click.option("--json", "as_json", is_flag=True, is_eager=True, help=json)),
+    )
+    return together(*(option for offered, option in options if offered))
 
 
 def optional_si(text: str | None, unit: str) -> float | None:
@@ -67,11 +63,6 @@ def optional_si(text: str | None, unit: str) -> float | None:
 def is_synthetic(flag: bool, files: Iterable[Path]) -> bool:
     """Whether data are synthetic, by the option or by what their files say."""
     return flag or any(map(says_synthetic, files))
-
-
-def json_option(words: str = "Print inputs and results as JSON, in SI units.") -> Decorator:
-    """Return a decorator that adds `--json`."""
-    return click.option("--json", "as_json", is_flag=True, is_eager=True, help=words)
 
 
 def typed_command() -> str:

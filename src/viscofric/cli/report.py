@@ -9,13 +9,16 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.files import FOLDER
-from viscofric.cli.output import json_option, out_option, print_json, print_written
+from viscofric.cli.output import outputs, print_json, print_written
 
 
 @as_command("report", reader="run_file")
 @click.argument("results", type=click.Path(path_type=Path))
-@out_option("Folder for report.html and figures [default: RESULTS].", FOLDER)
-@json_option("Print the written files, and what the report says of failed cases and checks, as JSON.")
+@outputs(
+    "Folder for report.html and figures [default: RESULTS].",
+    FOLDER,
+    json="Print the written files, and what the report says of failed cases and checks, as JSON.",
+)
 def command(results: Path, out: Path | None, as_json: bool) -> None:
     """Write figures and report of a study again, from its RESULTS folder; the exit status is that of `run`."""
     from viscofric.cli.run import outcome_record, print_outcome, status_of

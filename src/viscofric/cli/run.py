@@ -12,7 +12,7 @@ from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
 from viscofric.cli.commands import NOT_ACCURATE, SOME_CASES_FAILED, as_command
 from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.files import FOLDER
-from viscofric.cli.output import RUN_JSON, json_option, out_option, print_written
+from viscofric.cli.output import RUN_JSON, outputs, print_written
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -36,7 +36,6 @@ _REPORTED_OTHERWISE = (
 
 @as_command("run")
 @click.argument("study", type=click.Path(path_type=Path))
-@out_option("Folder for the results [default: STUDY.results beside the run file].", FOLDER)
 @click.option(
     "--resume",
     is_flag=True,
@@ -49,8 +48,8 @@ _REPORTED_OTHERWISE = (
 )
 @click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes on this machine.")
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler, e.g. tcp://10.0.0.1:8786.")
-@json_option(RUN_JSON)
 @click.option("-q", "--quiet", is_flag=True, help="Print only errors, warnings and failed cases.")
+@outputs("Folder for the results [default: STUDY.results beside the run file].", FOLDER, json=RUN_JSON)
 def command(study: Path, out: Path | None, **how: Any) -> None:
     """Run a study: from DMA sweeps to friction, figures and a report.
 

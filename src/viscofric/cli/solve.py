@@ -13,16 +13,7 @@ from viscofric.cli.contact import Contact, heating_options
 from viscofric.cli.contact_options import chosen_direction, contact_options, indenter_options, inputs_of
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_fields
-from viscofric.cli.output import (
-    answer,
-    drawing,
-    json_option,
-    json_record,
-    out_option,
-    picture_option,
-    print_pairs,
-    write_files,
-)
+from viscofric.cli.output import answer, drawing, json_record, outputs, print_pairs, write_files
 from viscofric.cli.rubber_options import rubber_options
 from viscofric.cli.speed_options import list_of
 from viscofric.contact.settings import ContactSettings
@@ -87,9 +78,11 @@ Example:
     heading=CONTACT,
 )
 @heating_options(steady=True)
-@json_option("Print inputs, results and diagnostics as JSON, in SI units.")
-@picture_option("Draw pressure and profile")
-@out_option("Write pressure and displacement (.nc or .csv); `-` prints the table.", endings=DATA)
+@outputs(
+    "Write pressure and displacement (.nc or .csv); `-` prints the table.",
+    endings=DATA,
+    picture="Draw pressure and profile",
+)
 def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
     """Solve one steady contact of an indenter that slides or rolls over rubber.
 

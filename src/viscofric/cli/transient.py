@@ -25,10 +25,8 @@ from viscofric.cli.output import (
     answer,
     drawing,
     is_piped,
-    json_option,
     json_record,
-    out_option,
-    picture_option,
+    outputs,
     print_pairs,
     print_written,
     write_files,
@@ -75,9 +73,11 @@ Examples:
 )
 @click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
 @click.option("--save-state", "state", type=WRITTEN, help="Write the last state (.npz) for --resume.")
-@json_option("Print inputs and results over time as JSON, in SI units.")
-@out_option("Write the results over time (.csv or .nc); `-` prints the table.", endings=DATA)
-@picture_option("Draw forces, indentation, contact and pressures")
+@outputs(
+    "Write the results over time (.csv or .nc); `-` prints the table.",
+    endings=DATA,
+    picture="Draw forces, indentation, contact and pressures",
+)
 @click.option("--pressures", type=WRITTEN, help="Draw the pressure at --times, or at five times (PNG, SVG or PDF).")
 @click.option("--animation", type=WRITTEN, help="Draw the pressure over time beside the friction (GIF).")
 def command(as_json: bool, out: Path | None, **parameters: Any) -> None:

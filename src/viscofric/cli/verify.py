@@ -12,7 +12,7 @@ import click
 from viscofric.cli.commands import NOT_ACCURATE, SOME_CASES_FAILED, as_command
 from viscofric.cli.errors import placed_at
 from viscofric.cli.files import CSV, DASH
-from viscofric.cli.output import json_option, out_option, print_json, write_rows
+from viscofric.cli.output import outputs, print_json, write_rows
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -129,8 +129,7 @@ def compare_test(folder: Path, as_json: bool) -> None:
 @click.option("--list", "listed", is_flag=True, help="List the checks and exit.")
 @click.option("--details", is_flag=True, help="Print every comparison, and the reasons of the bounds.")
 @click.option("--backend", default="scipy", help="Array and FFT library, e.g. ducc0 or torch:cuda.")
-@out_option("Write every comparison as a table (CSV); `-` prints it.", endings=CSV)
-@json_option("Print everything as JSON.")
+@outputs("Write every comparison as a table (CSV); `-` prints it.", endings=CSV)
 def command(
     published: bool,
     folder: Path | None,

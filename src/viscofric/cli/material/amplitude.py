@@ -10,16 +10,7 @@ from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import accuracy_option, chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import WRITTEN, Source, refuse_to_overwrite
-from viscofric.cli.output import (
-    drawing,
-    is_synthetic,
-    json_option,
-    out_option,
-    picture_option,
-    print_json,
-    synthetic_option,
-    write_files,
-)
+from viscofric.cli.output import drawing, is_synthetic, outputs, print_json, write_files
 from viscofric.cli.rubber_options import reading_options
 from viscofric.notes import listed
 
@@ -53,10 +44,12 @@ _PERCENT = click.FloatRange(0.0, 1000.0)
 @click.option("--speed", metavar="V", help="Its speed, e.g. '20 mm/s'.")
 @click.option("--contact-temperature", metavar="T", help="Its temperature, e.g. '60 degC'.")
 @accuracy_option
-@synthetic_option
-@picture_option("Draw the sweep")
-@json_option("Print everything as JSON, in SI units.")
-@out_option("Write the scaled material (JSON), for run files and the other commands.", WRITTEN)
+@outputs(
+    "Write the scaled material (JSON), for run files and the other commands.",
+    WRITTEN,
+    picture="Draw the sweep",
+    synthetic=True,
+)
 def command(files: tuple[Path, ...], as_json: bool, picture: Path | None, out: Path | None, **chosen: Any) -> None:
     """Print the linear range and Kraus's law of an amplitude sweep in FILES.
 

@@ -10,7 +10,7 @@ import click
 from viscofric.cli.commands import Decorator, as_command
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import WRITTEN, refuse_to_overwrite
-from viscofric.cli.output import json_option, out_option, print_json
+from viscofric.cli.output import outputs, print_json
 
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat, CardLaw
@@ -27,8 +27,6 @@ def reading(unit: str, words: str) -> Decorator:
 @as_command("convert")
 @click.argument("rubber", metavar="MATERIAL")
 @click.argument("output", required=False, type=WRITTEN)
-@out_option("File to write, instead of OUTPUT.", WRITTEN)
-@json_option("Print the written file and the notes as JSON.")
 @click.option("--format", "form", type=click.Choice(FORMATS), required=True, help="Format of the card.")
 @click.option(
     "--poisson-ratio",
@@ -63,6 +61,7 @@ def reading(unit: str, words: str) -> Decorator:
     type=click.Choice(CARD_LAWS),
     help="Shift law fitted to a table of shift factors, written instead of it.",
 )
+@outputs("File to write, instead of OUTPUT.", WRITTEN, json="Print the written file and the notes as JSON.")
 def command(
     rubber: str,
     output: Path | None,

@@ -13,14 +13,7 @@ from viscofric.cli.errors import print_doubtful_checks, print_notes
 from viscofric.cli.files import FILE, FOLDER
 from viscofric.cli.keys import key, table_of
 from viscofric.cli.material.convert import CARD_LAWS, FORMATS
-from viscofric.cli.output import (
-    json_option,
-    out_option,
-    print_json,
-    print_written,
-    synthetic_option,
-    typed_command,
-)
+from viscofric.cli.output import outputs, print_json, print_written, typed_command
 from viscofric.cli.rubber_options import reading_options, shift_factor_options
 
 if TYPE_CHECKING:
@@ -67,7 +60,6 @@ _BESIDE = ("with_creep", "with_relaxation")
     help="Relaxation tests of the same material, besides the sweeps in FILES; repeatable.",
 )
 @click.option("--master-curve", is_flag=True, help="FILES is one finished master curve at the reference temperature.")
-@synthetic_option
 @key("material.poisson_ratio")
 @key("material.vertical_shift")
 @key("material.shift_by")
@@ -91,8 +83,7 @@ _BESIDE = ("with_creep", "with_relaxation")
     "--card-law", type=click.Choice(CARD_LAWS), help="Shift law of the cards, fitted to the measured shift factors."
 )
 @click.option("--samples", type=int, default=200, help="Bootstrap samples for the bands of E; 0 for none.")
-@out_option("Folder for the results [default: FILE.material beside the first file].", FOLDER)
-@json_option("Print spectrum, key numbers and checks as JSON, in SI units.")
+@outputs("Folder for the results [default: FILE.material beside the first file].", FOLDER, synthetic=True)
 def command(
     files: tuple[Path, ...],
     out: Path | None,

@@ -11,16 +11,7 @@ from viscofric.cli.commands import as_command
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, indenter_options
 from viscofric.cli.errors import typed_as
 from viscofric.cli.files import CSV, JSON, WRITTEN, Source, check_ending, refuse_to_overwrite
-from viscofric.cli.output import (
-    answer,
-    drawing,
-    is_synthetic,
-    json_option,
-    out_option,
-    picture_option,
-    synthetic_option,
-    write_files,
-)
+from viscofric.cli.output import answer, drawing, is_synthetic, outputs, write_files
 from viscofric.cli.rubber_options import column_options, find_rubber, shift_factor_options
 
 if TYPE_CHECKING:
@@ -72,12 +63,15 @@ Example:
 @click.option("--samples", type=int, default=200, help="Number of uncertainty samples.")
 @click.option("--seed", type=int, default=0, help="Random seed of the samples.")
 @click.option("--name", default="identified from indentation", help="Name of the material.")
-@out_option("Write the material (JSON), for `solve`, run files and `material`.", WRITTEN, endings=JSON)
 @click.option("--csv", "table", type=WRITTEN, help="Write the moduli with their 95 % limits (CSV).")
-@picture_option("Draw the moduli with their limits, and every fit")
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
-@synthetic_option
-@json_option("Print the moduli and the notes as JSON, in SI units.")
+@outputs(
+    "Write the material (JSON), for `solve`, run files and `material`.",
+    WRITTEN,
+    endings=JSON,
+    picture="Draw the moduli with their limits, and every fit",
+    synthetic=True,
+)
 def command(
     files: tuple[Path, ...],
     temperatures: tuple[str, ...],

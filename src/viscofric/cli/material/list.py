@@ -5,11 +5,11 @@ from __future__ import annotations
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.output import json_option, print_json
+from viscofric.cli.output import outputs, print_json
 
 
 @as_command("list")
-@json_option("Print the materials as JSON.")
+@outputs(json="Print the materials as JSON.")
 def command(as_json: bool) -> None:
     """List the materials of the catalogue, with their sources."""
     from viscofric.rheology.catalogue import catalogue

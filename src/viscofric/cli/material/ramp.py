@@ -11,14 +11,7 @@ from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import FOLDER, Source
 from viscofric.cli.keys import key, table_of
-from viscofric.cli.output import (
-    json_option,
-    out_option,
-    print_json,
-    print_written,
-    synthetic_option,
-    typed_command,
-)
+from viscofric.cli.output import outputs, print_json, print_written, typed_command
 from viscofric.cli.rubber_options import column_options
 from viscofric.notes import listed
 
@@ -47,9 +40,9 @@ from viscofric.notes import listed
 @key("material.assumed_shift", metavar="LAW")
 @key("material.poisson_ratio")
 @key("material.name", help="Name of the material, for reports and cards.")
-@synthetic_option
-@json_option("Print ramps and peaks as JSON, in SI units.")
-@out_option("With --reference: folder for the results [default: FILE.material beside the first file].", FOLDER)
+@outputs(
+    "With --reference: folder for the results [default: FILE.material beside the first file].", FOLDER, synthetic=True
+)
 def command(files: tuple[Path, ...], as_json: bool, out: Path | None, **chosen: Any) -> None:
     """Print the frequencies and the glass transition of temperature ramps in FILES.
 

@@ -10,7 +10,7 @@ import click
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import WRITTEN, Source, plainly, refuse_to_overwrite
-from viscofric.cli.output import json_option, out_option, print_json
+from viscofric.cli.output import outputs, print_json
 from viscofric.cli.rubber_options import reading_options
 
 if TYPE_CHECKING:
@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 @as_command("read")
 @click.argument("files", nargs=-1, required=True, type=Source())
 @reading_options
-@out_option("Also write the points used of frequency sweeps to a table (CSV).", WRITTEN)
-@json_option("Print what was read as JSON, in SI units.")
+@outputs("Also write the points used of frequency sweeps to a table (CSV).", WRITTEN)
 def command(files: tuple[Path, ...], out: Path | None, as_json: bool, **reading: Any) -> None:
     """Print the kind of test, format, isotherms and doubtful data of FILES.
 

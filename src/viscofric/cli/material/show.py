@@ -8,7 +8,7 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.files import DASH, DATA, to_be_written, write_dataset
-from viscofric.cli.output import json_option, out_option, print_json
+from viscofric.cli.output import outputs, print_json
 from viscofric.datasets import Dataset
 
 if TYPE_CHECKING:
@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     multiple=True,
     help="Frequency, e.g. '10 Hz' or '1 rad/s'; may be repeated [default: each decade].",
 )
-@out_option("Write the modulus (.csv or .nc); `-` prints the table.", endings=DATA)
-@json_option("Print the material and its modulus as JSON, in SI units.")
+@outputs("Write the modulus (.csv or .nc); `-` prints the table.", endings=DATA)
 def command(rubber: str, temperature: str | None, frequency: tuple[str, ...], out: Path | None, as_json: bool) -> None:
     """Print a summary of MATERIAL and its modulus at a temperature.
 
