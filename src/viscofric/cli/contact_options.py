@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
-from viscofric.cli.commands import CONTACT, together
+from viscofric.cli.commands import CONTACT, Decorator, together
 from viscofric.cli.errors import placed_at, print_notes, typed_as
 from viscofric.cli.files import FILE
 from viscofric.cli.keys import key
@@ -193,6 +193,12 @@ def _mapped(shape: str, parameters: dict[str, Any]) -> NamedIndenter:
     return NamedIndenter(made, words, {"shape": shape, "file": str(path), "points": points, "spacing": spacing})
 
 
+def load_option(also: str = "", **how: Any) -> Decorator:
+    """Return a decorator that adds the normal load, or what else may be given."""
+    words = f"Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m'){also}."
+    return click.option("--load", metavar="F", help=words, **how)
+
+
 direction_option = click.option(
     "--direction",
     metavar="ANGLE|DX,DY",
@@ -217,7 +223,6 @@ contact_options = together(
     elastic_options,
     click.option(
         "--coulomb",
-        type=float,
         default=0.0,
         metavar="μ",
         help="Coulomb friction coefficient, whose shear changes the pressure; negative for slip against the motion.",

@@ -10,7 +10,13 @@ import click
 
 from viscofric.cli.commands import CONDITIONS, SOME_CASES_FAILED, as_command, exit_if_beyond, together
 from viscofric.cli.contact import Contact, heating_options
-from viscofric.cli.contact_options import chosen_direction, contact_options, inputs_of, sliding_indenter_options
+from viscofric.cli.contact_options import (
+    chosen_direction,
+    contact_options,
+    inputs_of,
+    load_option,
+    sliding_indenter_options,
+)
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, refuse_to_overwrite
 from viscofric.cli.output import answer, drawing, json_record, outputs, write_files
@@ -37,12 +43,7 @@ Example:
 @sliding_indenter_options
 @together(
     speed_options("Speed"),
-    click.option(
-        "--load",
-        required=True,
-        metavar="F",
-        help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m').",
-    ),
+    load_option(required=True),
     heading=CONDITIONS,
 )
 @contact_options
@@ -53,7 +54,7 @@ Example:
     default=0,
     help="Bootstrap samples for the 95 % band of friction, with --dma or a run file; 20 or more, 0 for none.",
 )
-@click.option("--workers", type=int, default=1, help="Number of processes.")
+@click.option("--workers", default=1, help="Number of processes.")
 @outputs(
     "Write the friction curves (CSV); `-` prints them instead of the table.",
     endings=CSV,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import together
-from viscofric.cli.contact_options import chosen_direction, option
+from viscofric.cli.contact_options import chosen_direction, load_option, option
 from viscofric.cli.files import Source
 from viscofric.cli.keys import key
 from viscofric.cli.rubber_options import column_options
@@ -31,9 +31,7 @@ history_options = together(
         "the headings.",
     ),
     column_options("'load=Fz (N)'", "history-", "With --history: ", table="history."),
-    click.option(
-        "--load", metavar="F", help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m')."
-    ),
+    load_option(),
     click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load."),
     click.option("--pressure", metavar="P", help="Mean pressure on a rough surface, instead of --load."),
     click.option(

@@ -119,7 +119,7 @@ Example:
 
 _shared_options = together(
     *(
-        click.option(f"--{name.replace('_', '-')}", type=float, default=0.0, help=f"Relative standard error {words}.")
+        click.option(f"--{name.replace('_', '-')}", default=0.0, help=f"Relative standard error {words}.")
         for name, words in _SHARED.items()
     ),
     heading="Errors that points have in common",
@@ -142,14 +142,14 @@ _shared_options = together(
 @click.option(
     "--prior-band", metavar="LOW,HIGH", help="Frequencies over which the prior is known, e.g. '0.1 Hz,10 Hz'."
 )
-@click.option("--prior-error", type=float, default=0.02, help="Relative standard error of the prior.")
+@click.option("--prior-error", default=0.02, help="Relative standard error of the prior.")
 @_shared_options
-@click.option("--poisson-ratio", type=float, default=0.5, help="Poisson's ratio, 0 to 0.5.")
-@click.option("--modes", type=int, default=30, help="Least number of retardation times.")
-@click.option("--samples", type=int, default=200, help="Number of uncertainty samples for the limits.")
-@click.option("--seed", type=int, default=0, help="Random seed of the samples.")
-@click.option("--accuracy", type=float, default=1e-3, help="Target relative error of each solved contact.")
-@click.option("--workers", type=int, default=1, help="Number of processes.")
+@click.option("--poisson-ratio", default=0.5, help="Poisson's ratio, 0 to 0.5.")
+@click.option("--modes", default=30, help="Least number of retardation times.")
+@click.option("--samples", default=200, help="Number of uncertainty samples for the limits.")
+@click.option("--seed", default=0, help="Random seed of the samples.")
+@click.option("--accuracy", default=1e-3, help="Target relative error of each solved contact.")
+@click.option("--workers", default=1, help="Number of processes.")
 @click.option("--name", default="rubber identified from friction", help="Name of the material.")
 @separation_options
 @click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")

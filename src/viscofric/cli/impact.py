@@ -53,7 +53,7 @@ Examples:
     heading=CONDITIONS,
 )
 @elastic_options
-@click.option("--accuracy", type=float, default=1e-4, help="Target error of the restitution, absolute.")
+@click.option("--accuracy", default=1e-4, help="Target error of the restitution, absolute.")
 @outputs(
     "Write the contact over time, or the curve of several (.csv or .nc); `-` prints it.",
     endings=DATA,

@@ -60,7 +60,6 @@ Example:
 )
 @click.option(
     "--level-error",
-    type=float,
     default=0.0,
     help="Relative standard error shared by all points of a temperature, to include in the errors of α.",
 )

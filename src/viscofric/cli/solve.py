@@ -10,7 +10,7 @@ import click
 
 from viscofric.cli.commands import CONDITIONS, CONTACT, as_command, exit_if_beyond, together
 from viscofric.cli.contact import Contact, heating_options
-from viscofric.cli.contact_options import chosen_direction, contact_options, indenter_options, inputs_of
+from viscofric.cli.contact_options import chosen_direction, contact_options, indenter_options, inputs_of, load_option
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, refuse_to_overwrite, write_fields
 from viscofric.cli.output import answer, drawing, json_record, outputs, print_pairs, write_files
@@ -44,11 +44,7 @@ Example:
         metavar="V",
         help="Speed, e.g. '100 mm/s'; '0 m/s' and 'infinite' are the elastic limits.",
     ),
-    click.option(
-        "--load",
-        metavar="F",
-        help="Normal load, e.g. '25 N' (per unit length for a line contact: '1 kN/m'); or --indentation.",
-    ),
+    load_option("; or --indentation"),
     click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load."),
     click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference]."),
     heading=CONDITIONS,

@@ -58,15 +58,11 @@ Examples:
 @elastic_options
 @heating_options(steady=False)
 @click.option(
-    "--accuracy",
-    type=float,
-    default=1e-3,
-    help="Target relative error of load, indentation, friction and energy in time.",
+    "--accuracy", default=1e-3, help="Target relative error of load, indentation, friction and energy in time."
 )
 @click.option("--cycle", is_flag=True, help="Solve the periodic state of the history as one repeated period.")
 @click.option(
     "--coulomb",
-    type=float,
     default=0.0,
     metavar="μ",
     help="Coulomb friction coefficient, for the total friction; its shear is left out, a note has the effect.",

@@ -51,7 +51,7 @@ def reading(unit: str, words: str) -> Decorator:
     default="time",
     help="Analysis of Abaqus cards: in time (Prony series) or in frequency.",
 )
-@click.option("--material-id", type=int, default=1, help="Number of the material in ANSYS and LS-DYNA cards.")
+@click.option("--material-id", default=1, help="Number of the material in ANSYS and LS-DYNA cards.")
 @reading("modulus-unit", "Unit of moduli in MATERIAL, a card that does not state it, such as 'MPa'.")
 @reading("time-unit", "The same of times, such as 'ms'.")
 @reading("temperature-unit", "The same of temperatures, such as 'degC'.")

@@ -82,7 +82,7 @@ _BESIDE = ("with_creep", "with_relaxation")
 @click.option(
     "--card-law", type=click.Choice(CARD_LAWS), help="Shift law of the cards, fitted to the measured shift factors."
 )
-@click.option("--samples", type=int, default=200, help="Bootstrap samples for the bands of E; 0 for none.")
+@click.option("--samples", default=200, help="Bootstrap samples for the bands of E; 0 for none.")
 @outputs("Folder for the results [default: FILE.material beside the first file].", FOLDER, synthetic=True)
 def command(
     files: tuple[Path, ...],
