@@ -46,14 +46,8 @@ SHAPE = [
     choice(
         "indenter.shape",
         "Shape",
-        [
-            ["ball", "Ball"],
-            ["cylinder", "Cylinder (line contact)"],
-            ["ellipsoid", "Ellipsoid"],
-            ["cone", "Cone"],
-            ["made", "Rough surface, generated"],
-            ["scan", "Rough surface, measured"],
-        ],
+        "ball: Ball; cylinder: Cylinder (line contact); ellipsoid: Ellipsoid; cone: Cone; "
+        "made: Rough surface, generated; scan: Rough surface, measured",
         id="contact-shape",
     ),
     *when({"shape": ["ball", "cylinder"]}, field("indenter.radius", "Radius", "length", slider=[1e-4, 1])),
@@ -82,12 +76,7 @@ SCAN = when(
     choice(
         "surface.prepare",
         "Preparation",
-        [
-            ["fill", "fill gaps"],
-            ["remove tilt", "remove tilt"],
-            ["remove curvature", "remove curvature"],
-            ["window", "window the edges"],
-        ],
+        "fill: fill gaps; remove tilt; remove curvature; window: window the edges",
         **{"as": "ticks"},
     ),
     field("surface.unit", "Unit of heights", placeholder="from the file"),
@@ -107,7 +96,7 @@ LOAD = [
     *when(
         {"layer": True},
         field("layer.thickness", "Thickness", "length"),
-        choice("layer.base", "Base", ["bonded", ["sliding", "sliding, no friction"]], "bonded"),
+        choice("layer.base", "Base", "bonded; sliding: sliding, no friction", "bonded"),
     ),
 ]
 CONDITIONS = [
@@ -158,13 +147,8 @@ INTERFACE = [
         choice(
             "interface.law",
             "Law of the shear stress",
-            [
-                "constant",
-                ["power", "power of the slip speed"],
-                ["eyring", "Eyring"],
-                ["gaussian", "Gaussian (Persson)"],
-                ["best", "fitted to measured Coulomb friction"],
-            ],
+            "constant; power: power of the slip speed; eyring: Eyring; gaussian: Gaussian (Persson); "
+            "best: fitted to measured Coulomb friction",
             "best",
             sets={
                 law: {**dict.fromkeys(one["path"] for one in _CONSTANTS)}
@@ -218,13 +202,13 @@ HEATING = [
         choice(
             "heating.average",
             "Temperature of the rubber",
-            [["loss", "where the loss is released"], ["contact", "mean of the face"]],
+            "loss: where the loss is released; contact: mean of the face",
             "loss",
         ),
         choice(
             "heating.branch",
             "Thermal branch",
-            [["cold", "cold: the speed rises"], ["hot", "hot: the speed falls"]],
+            "cold: cold: the speed rises; hot: hot: the speed falls",
             "cold",
             help="for contacts that have two states",
         ),

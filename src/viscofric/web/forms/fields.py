@@ -22,8 +22,10 @@ def spread(path: str, label: str, kind: str, **more: Any) -> Field:
     return field(path, label, kind, **{"as": "range", **more})
 
 
-def choice(path: str, label: str, options: list[Any], otherwise: Any = None, **more: Any) -> Field:
-    """Return a choice among values, each with its words on the page or alone."""
+def choice(path: str, label: str, options: str | list[Any], otherwise: Any = None, **more: Any) -> Field:
+    """Return a choice among values, each with its words on the page or alone: a list, or "value; value: words"."""
+    if isinstance(options, str):
+        options = [[value, words or value] for value, _, words in (one.partition(": ") for one in options.split("; "))]
     return field(path, label, None, **{"as": "choice", "options": options, "otherwise": otherwise, **more})
 
 

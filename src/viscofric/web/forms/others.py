@@ -11,15 +11,9 @@ SOURCE = [
     choice(
         "@sweeps.source",
         "Source of the material",
-        [
-            ["dma", "Sweeps of a DMA or rheometer"],
-            ["creep", "Creep tests"],
-            ["relaxation", "Relaxation tests"],
-            ["ramps", "Temperature ramps"],
-            ["master_curve", "A master curve"],
-            ["file", "A material file or a card"],
-            ["catalogue", "The catalogue"],
-        ],
+        "dma: Sweeps of a DMA or rheometer; creep: Creep tests; relaxation: Relaxation tests; "
+        "ramps: Temperature ramps; master_curve: A master curve; file: A material file or a card; "
+        "catalogue: The catalogue",
     )
 ]
 #: What a file of tests may leave to the user.
@@ -93,7 +87,7 @@ SHIFT = [
     choice(
         "material.vertical_shift",
         "Vertical shift b(T)",
-        [["none", "none"], ["free", "fitted"], ["density", "density times temperature"]],
+        "none; free: fitted; density: density times temperature",
         "none",
     ),
 ]
@@ -112,11 +106,7 @@ SPECTRUM = [
     choice(
         "material.spectrum",
         "Fit method",
-        [
-            ["non-negative", "non-negative: smallest misfit"],
-            ["regularised", "regularised: smooth"],
-            ["sparse", "sparse: few modes"],
-        ],
+        "non-negative: non-negative: smallest misfit; regularised: regularised: smooth; sparse: sparse: few modes",
         "non-negative",
         sets={
             "non-negative": {"material.spectrum": None, "material.modes": None},
@@ -176,7 +166,7 @@ SEPARATION = [
         help="For example unsteady steps.",
     ),
     field("measurement.sheet", "Sheet", help="Name of the sheet of a workbook to read."),
-    choice("measurement.outliers", "Outliers", ["keep", "leave out"], "keep"),
+    choice("measurement.outliers", "Outliers", "keep; leave out", "keep"),
     number(
         "measurement.speed_tolerance",
         "Gap between speeds",
@@ -190,15 +180,12 @@ SEPARATION = [
 #: Options of the job master, which are no part of the study, and which of its curves is shown.
 MASTER = [
     choice(
-        "@friction.beside",
-        "Compare with",
-        [["rubber", "the page's material"], ["nothing", "nothing (friction alone)"]],
-        "rubber",
+        "@friction.beside", "Compare with", "rubber: the page's material; nothing: nothing (friction alone)", "rubber"
     ),
     choice(
         "@friction.shifted",
         "Shifted by",
-        [["rubber", "the material's shift factors"], ["found", "shift factors from friction"]],
+        "rubber: the material's shift factors; found: shift factors from friction",
         "rubber",
     ),
     choice("@friction.law", "Law fitted to the shift factors from friction", [*_LAWS, ["none", "none"]], "best"),
@@ -206,20 +193,13 @@ MASTER = [
 _CONTACTS = ["indentation", "contact_area", "half_width"]
 #: Options of the job identify, which are no part of the study.
 IDENTIFY = [
-    choice(
-        "@identify.shift", "Shift factors", [["friction", "found from friction"], ["rubber", "of the page's material"]]
-    ),
+    choice("@identify.shift", "Shift factors", "friction: found from friction; rubber: of the page's material"),
     choice(
         "@identify.anchor",
         "Anchor (fixes the magnitude of the modulus)",
-        [
-            ["rubber", "|E| of the page's material at one frequency"],
-            ["modulus", "a known modulus"],
-            ["indentation", "indentation of the ball"],
-            ["contact_area", "contact area"],
-            ["half_width", "contact half-width"],
-            ["nothing", "none: magnitude not identified"],
-        ],
+        "rubber: |E| of the page's material at one frequency; modulus: a known modulus; "
+        "indentation: indentation of the ball; contact_area: contact area; half_width: contact half-width; "
+        "nothing: none: magnitude not identified",
         "rubber",
         help="Friction determines the shape of E(ω) but hardly its magnitude.",
     ),
@@ -254,19 +234,14 @@ MOTION = [
     choice(
         "@motion.preset",
         "Example",
-        [
-            ["hold", "Press and hold"],
-            ["start", "Start from rest"],
-            ["stop", "Start and stop"],
-            ["back", "Back and forth"],
-            ["impact", "Impact of a mass"],
-        ],
+        "hold: Press and hold; start: Start from rest; stop: Start and stop; back: Back and forth; "
+        "impact: Impact of a mass",
     ),
     *when(
         _ROWS,
         choice("@motion.control", "Prescribed", []),
-        choice("@motion.path", "Motion given as", [["speed", "Speed"], ["position", "Position"]]),
-        choice("@motion.before", "Before the first time", ["untouched", "at rest", "sliding"]),
+        choice("@motion.path", "Motion given as", "speed: Speed; position: Position"),
+        choice("@motion.before", "Before the first time", "untouched; at rest; sliding"),
         number("@motion.coulomb", "Coulomb friction", min=0, step=0.01, placeholder="0"),
     ),
     *when(
@@ -290,12 +265,7 @@ HISTORY = when(
 SOLVING = [
     number("solver.accuracy", "Accuracy of friction", min=1e-4, max=0.1, placeholder="0.001"),
     number("uncertainty.draws", "Bootstrap samples", min=0, step=1, placeholder="200"),
-    choice(
-        "outputs.fields",
-        "Stored pressure maps",
-        [["few", "of a few cases"], ["all", "of all cases"], ["none", "none"]],
-        "few",
-    ),
+    choice("outputs.fields", "Stored pressure maps", "few: of a few cases; all: of all cases; none", "few"),
     number("@export.workers", "Processes", min=1, max=os.cpu_count() or 1, step=1, placeholder="1"),
 ]
 _UNITS, _PROGRAMS = ["abaqus", "ansys", "ls-dyna"], ["abaqus", "ansys", "ls-dyna", "comsol", "comsol-branches"]
@@ -304,24 +274,18 @@ CARD = [
     choice(
         "@card.format",
         "Program",
-        [
-            ["abaqus", "Abaqus"],
-            ["ansys", "ANSYS"],
-            ["ls-dyna", "LS-DYNA"],
-            ["comsol", "COMSOL, parameters"],
-            ["comsol-branches", "COMSOL, table of branches"],
-            ["json", "viscofric (JSON)"],
-        ],
+        "abaqus: Abaqus; ansys: ANSYS; ls-dyna: LS-DYNA; comsol: COMSOL, parameters; "
+        "comsol-branches: COMSOL, table of branches; json: viscofric (JSON)",
         "abaqus",
     ),
     *when(
         {"@card.format": _UNITS},
-        choice("@card.modulus_unit", "Units of the model", [["Pa", "Pa, m, s, kg"], ["MPa", "MPa, mm, s, t"]], "Pa"),
-        choice("@card.temperature_unit", "Temperatures of the model", [["K", "kelvin"], ["degC", "°C"]], "K"),
+        choice("@card.modulus_unit", "Units of the model", "Pa: Pa, m, s, kg; MPa: MPa, mm, s, t", "Pa"),
+        choice("@card.temperature_unit", "Temperatures of the model", "K: kelvin; degC: °C", "K"),
     ),
     *when(
         {"@card.format": ["abaqus"]},
-        choice("@card.domain", "Analysis", [["time", "time (Prony series)"], ["frequency", "frequency"]], "time"),
+        choice("@card.domain", "Analysis", "time: time (Prony series); frequency", "time"),
     ),
     *when(
         {"@card.format": _PROGRAMS},
