@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import defaultdict
 from dataclasses import dataclass
 from typing import Any
@@ -12,9 +11,9 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
 from viscofric.report.results import group
-from viscofric.report.texts.numbers import degrees, length, megapascals, short, speed
+from viscofric.report.texts.numbers import degrees, short
 from viscofric.rheology.uncertainty.sampling import FEWEST_SAMPLES
-from viscofric.study.cases.sweep import COORDINATES
+from viscofric.study.cases.sweep import COORDINATES, shown
 
 #: Dimension of results that are listed case by case.
 CASE = "case"
@@ -109,33 +108,19 @@ def axis_label(dataset: Dataset, name: str) -> str:
 
 
 def value_label(dataset: Dataset, name: str, value: object) -> str:
-    """Return one value of a coordinate in words: 30 °C, 20 mm/s, 25 N, NBR 70."""
-    if isinstance(value, str):
-        return value
+    """Return one value of a coordinate in words: 30 °C, 20 mm/s, 25 N, NBR 70, seed 3."""
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         return str(value)
     if not np.isfinite(number):
         return f"no {_spoken(name)}"
-    unit = str(dataset[name].attrs.get("units", ""))
     if name == _TEMPERATURE:
         return degrees(number)
-    if name == _SPEED:
-        return speed(number)
-    if name == "pressure":
-        return f"{short(number / 1e3)} kPa"
-    if unit == "Pa":
-        return megapascals(number)
-    if unit == "rad":
-        return f"{short(math.degrees(number))}°"
-    if unit == "m":
-        return length(number)
-    if unit == "N/m":
-        return f"{short(number / 1e3)} N/mm"
-    if unit in ("", "1"):
-        return f"{_spoken(name)} {short(number)}"
-    return f"{short(number)} {unit}"
+    unit = str(dataset[name].attrs.get("units", ""))
+    if name in COORDINATES and COORDINATES[name].unit:
+        return shown(name, number, unit == "N/m")
+    return f"{_spoken(name)} {short(number)}" if unit in ("", "1") else f"{short(number)} {unit}"
 
 
 def cases_of(dataset: Dataset) -> Dataset:

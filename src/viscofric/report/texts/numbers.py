@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from viscofric.showing import ABSENT, prefixed, short, significant, with_error
-from viscofric.units import shown_celsius, shown_number
+from viscofric.units import shown_celsius, shown_number, shown_speed
 
 __all__ = [
     "ABSENT",
@@ -52,23 +53,17 @@ def megapascals(pascals: float) -> str:
     return f"{significant(pascals / 1e6)}{_SPACE}MPa"
 
 
-def speed(metres_per_second: float) -> str:
-    """Return a speed with its unit: mm/s, or m/s from 1 m/s on."""
-    return " ".join(_speed(metres_per_second))
+#: Speed (m/s) with its unit: mm/s, or m/s from 1 m/s on.
+speed = partial(shown_speed, digits=3)
 
 
 def speeds(lowest: float, highest: float) -> str:
     """Return a range of speeds (m/s): 20 to 200 mm/s, 0.1 mm/s to 10 m/s."""
-    (low, unit), (high, last) = _speed(lowest), _speed(highest)
-    if (low, unit) == (high, last):
-        return f"{low} {unit}"
-    return f"{low} to {high} {unit}" if unit == last else f"{low} {unit} to {high} {last}"
-
-
-def _speed(metres_per_second: float) -> tuple[str, str]:
-    if metres_per_second >= 0.99995:
-        return short(metres_per_second, 3), "m/s"
-    return short(1e3 * metres_per_second, 3), "mm/s"
+    low, high = speed(lowest), speed(highest)
+    if low == high:
+        return low
+    number, _, unit = low.partition(" ")
+    return f"{number if high.endswith(f' {unit}') else low} to {high}"
 
 
 def unbroken(text: str) -> str:
