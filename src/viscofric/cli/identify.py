@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import as_command, together
+from viscofric.cli.commands import Decorator, as_command, together
 from viscofric.cli.contact_options import chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import JSON, WRITTEN, Source, plainly, refuse_to_overwrite
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from viscofric.friction.identification.anchors import Anchor
     from viscofric.friction.identification.result import IdentifiedMaterial
+    from viscofric.rheology.material import Material
 
 
 _SIZES = ("indentation", "area", "half_width")
@@ -126,17 +127,48 @@ _shared_options = together(
 )
 
 
+def identified_options(name: str, picture: str) -> Decorator:
+    """Return a decorator that adds the options of a material to be identified: its name, and what is drawn of it."""
+    words = "Shift factors: a table (CSV), a material file or a catalogue name [default: found from the data]."
+    return together(
+        click.option("--shift", metavar="FILE|NAME", help=words),
+        shift_factor_options,
+        click.option("--reference", metavar="T", help="Reference temperature of the material, e.g. '30 degC'."),
+        click.option("--poisson-ratio", default=0.5, help="Poisson's ratio, 0 to 0.5."),
+        click.option("--modes", default=30, help="Least number of retardation times."),
+        click.option("--samples", default=200, help="Number of uncertainty samples for the limits."),
+        click.option("--seed", default=0, help="Random seed of the samples."),
+        click.option("--name", default=name, help="Name of the material."),
+        click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA."),
+        outputs(
+            "Write the material (JSON), for `solve`, run files and `material`.",
+            WRITTEN,
+            endings=JSON,
+            picture=picture,
+            synthetic=True,
+        ),
+    )
+
+
+def chosen_beside(parameters: dict[str, Any], picture: Path | None) -> Material | None:
+    """Return the material to be drawn for comparison, None without one."""
+    if parameters["beside"] is None:
+        return None
+    if picture is None:
+        raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
+    return find_rubber(parameters["beside"], "beside")
+
+
+def chosen_shift(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Return the shift factors of the options as a setting, none if they are to be found."""
+    shift, _ = shifts(parameters)
+    return {} if shift is None else {"shift": shift}
+
+
 @as_command("identify", epilog=_EXAMPLE)
 @click.argument("sources", nargs=-1, required=True, type=Source())
 @sliding_indenter_options
 @click.option("--load", metavar="F", help="Normal load of all points, e.g. '25 N' [default: each point's own].")
-@click.option(
-    "--shift",
-    metavar="FILE|NAME",
-    help="Shift factors: a table (CSV), a material file or a catalogue name [default: found from friction].",
-)
-@shift_factor_options
-@click.option("--reference", metavar="T", help="Reference temperature of the identified material, e.g. '30 degC'.")
 @anchor_options
 @click.option("--prior", metavar="FILE|NAME", help="Material known over a part of the frequencies.")
 @click.option(
@@ -144,27 +176,14 @@ _shared_options = together(
 )
 @click.option("--prior-error", default=0.02, help="Relative standard error of the prior.")
 @_shared_options
-@click.option("--poisson-ratio", default=0.5, help="Poisson's ratio, 0 to 0.5.")
-@click.option("--modes", default=30, help="Least number of retardation times.")
-@click.option("--samples", default=200, help="Number of uncertainty samples for the limits.")
-@click.option("--seed", default=0, help="Random seed of the samples.")
 @click.option("--accuracy", default=1e-3, help="Target relative error of each solved contact.")
 @click.option("--workers", default=1, help="Number of processes.")
-@click.option("--name", default="rubber identified from friction", help="Name of the material.")
 @separation_options
-@click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
-@outputs(
-    "Write the material (JSON), for `solve`, run files and `material`.",
-    WRITTEN,
-    endings=JSON,
-    picture="Draw the modulus with its limits",
-    synthetic=True,
-)
+@identified_options("rubber identified from friction", "Draw the modulus with its limits")
 def command(
     sources: tuple[Path, ...],
     out: Path | None,
     picture: Path | None,
-    beside: str | None,
     synthetic: bool,
     as_json: bool,
     **parameters: Any,
@@ -175,23 +194,17 @@ def command(
     `-` for standard input. Friction hardly determines the magnitude of the modulus: give an anchor or a prior.
     """
     refuse_to_overwrite(sources, out, picture)
-    if beside is not None and picture is None:
-        raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
-    anchor = check_anchor(parameters)
+    known, anchor = chosen_beside(parameters, picture), check_anchor(parameters)
     from viscofric.cli.progress import contact_bar
     from viscofric.friction.identification.identify import identify_material
     from viscofric.report.texts.inverse import shown_frequencies
     from viscofric.rheology.cards import native, write_card
 
     shape = chosen_indenter(parameters)
-    known = None if beside is None else find_rubber(beside, "beside")
     options = {name: parameters[name] for name in (*_SETTINGS, *_SHARED)}
-    options |= _prior(parameters)
+    options |= _prior(parameters) | chosen_shift(parameters)
     if anchor is not None:
         options["anchor"] = make_anchor(parameters, anchor, shape.indenter.geometry.load_unit)
-    shift, _ = shifts(parameters)
-    if shift is not None:
-        options["shift"] = shift
     curves = friction_curves(sources, parameters)
     with contact_bar("Shift factors", quiet=as_json) as bar:
 

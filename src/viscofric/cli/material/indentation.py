@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import as_command
-from viscofric.cli.contact_options import chosen_indenter, elastic_options, indenter_options
+from viscofric.cli.contact_options import chosen_indenter, elastic_options, elastic_settings, indenter_options
 from viscofric.cli.errors import typed_as
-from viscofric.cli.files import CSV, JSON, WRITTEN, Source, check_ending, refuse_to_overwrite
-from viscofric.cli.output import answer, drawing, is_synthetic, outputs, write_files
-from viscofric.cli.rubber_options import column_options, find_rubber, shift_factor_options
+from viscofric.cli.files import CSV, WRITTEN, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.identify import chosen_beside, chosen_shift, identified_options
+from viscofric.cli.output import answer, drawing, is_synthetic, write_files
+from viscofric.cli.rubber_options import column_options
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -55,30 +56,14 @@ Example:
 @click.option("--radius-error", default=0.0, help="Standard error of the indenter's radius, relative.")
 @click.option("--load-error", default=0.0, help="Relative standard error of the load cell's gain.")
 @click.option("--zero-error", metavar="DEPTH", default="0 m", help="Standard error of the zero of the depth.")
-@click.option("--shift", metavar="FILE|NAME", help="Shift factors: a table, a material file or a catalogue name.")
-@shift_factor_options
-@click.option("--reference", metavar="T", help="Reference temperature of the material, e.g. '30 degC'.")
-@click.option("--poisson-ratio", default=0.5, help="Poisson's ratio, 0 to 0.5.")
-@click.option("--modes", default=30, help="Least number of retardation times.")
-@click.option("--samples", default=200, help="Number of uncertainty samples.")
-@click.option("--seed", default=0, help="Random seed of the samples.")
-@click.option("--name", default="identified from indentation", help="Name of the material.")
 @click.option("--csv", "table", type=WRITTEN, help="Write the moduli with their 95 % limits (CSV).")
-@click.option("--beside", metavar="FILE|NAME", help="Material to draw for comparison, e.g. from DMA.")
-@outputs(
-    "Write the material (JSON), for `solve`, run files and `material`.",
-    WRITTEN,
-    endings=JSON,
-    picture="Draw the moduli with their limits, and every fit",
-    synthetic=True,
-)
+@identified_options("identified from indentation", "Draw the moduli with their limits, and every fit")
 def command(
     files: tuple[Path, ...],
     temperatures: tuple[str, ...],
     out: Path | None,
     table: Path | None,
     picture: Path | None,
-    beside: str | None,
     synthetic: bool,
     **parameters: Any,
 ) -> None:
@@ -93,15 +78,13 @@ def command(
         raise click.UsageError(f"--temperature is given {len(temperatures)} times for {len(files)} files.")
     if sum(parameters[name] is not None for name in ("control", "depth", "mass")) != 1:
         raise click.UsageError("give one of --control, --depth and --mass.")
-    if beside is not None and picture is None:
-        raise click.UsageError("--beside is drawn into the --picture; give --picture too.")
     from viscofric.datasets import record
     from viscofric.friction.identification.indentation.identify import identify_from_indentation
     from viscofric.notes import listed
     from viscofric.rheology.cards import write_card
 
     shape = chosen_indenter(parameters)
-    known = None if beside is None else find_rubber(beside, "beside")
+    known = chosen_beside(parameters, picture)
     kelvin = temperatures if len(temperatures) == len(files) else (temperatures or (None,)) * len(files)
     records = [one for path, at in zip(files, kelvin, strict=True) for one in _records(path, at, parameters)]
     found = identify_from_indentation(records, shape.indenter, **_settings(parameters))
@@ -136,14 +119,6 @@ def _records(path: Path, temperature: str | None, parameters: dict[str, Any]) ->
 
 def _settings(parameters: dict[str, Any]) -> dict[str, Any]:
     """Return the arguments of `identify_from_indentation`."""
-    names = ("reference", "poisson_ratio", "indenter_modulus", "radius_error", "load_error", "zero_error", "modes",
-             "samples", "seed", "name")  # fmt: skip
-    settings = {name: parameters[name] for name in names}
-    if parameters["indenter_poisson_ratio"] is not None:
-        settings["indenter_poisson_ratio"] = parameters["indenter_poisson_ratio"]
-    from viscofric.cli.friction_sources import shifts
-
-    shift, _ = shifts(parameters)
-    if shift is not None:
-        settings["shift"] = shift
-    return settings
+    errors = ("radius_error", "load_error", "zero_error")
+    names = ("reference", "poisson_ratio", "modes", "samples", "seed", "name", *errors)
+    return {name: parameters[name] for name in names} | elastic_settings(parameters) | chosen_shift(parameters)
