@@ -14,7 +14,7 @@ from refusals import refused
 from viscofric.friction.curve_checks import moderated_variances
 from viscofric.friction.identification.forward import FirstOrder
 from viscofric.friction.identification.moduli import compliance, known_part, log_modulus
-from viscofric.friction.identification.points import usable_points
+from viscofric.friction.identification.points import SharedErrors, usable_points
 from viscofric.friction.identification.posterior import descend, draws, log_evidence
 from viscofric.friction.identification.problem import Shifts, Smoothness
 from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
@@ -241,7 +241,7 @@ def test_friction_that_is_not_clear_of_zero_counts_as_it_is() -> None:
     speed, error = np.geomspace(0.02, 0.2, 8), 1e-3
     friction = np.where(speed == speed[2], -5e-4, 0.011)
     points = usable_points(curves_of(speed, np.full(8, 300.0), friction, error), BALL, None, 1e-6)
-    missed, slope = points.missed(np.log(np.full(8, 4e-3)))
+    missed, slope, _ = points.missed(np.log(np.full(8, 4e-3)), np.zeros(0))
     expected = np.where(friction < 0.0, 4e-3 - friction, 0.011 * np.log(4e-3 / 0.011))
     np.testing.assert_allclose(missed / points.error, expected / error, rtol=1e-4)
     np.testing.assert_allclose(slope / points.error, np.where(friction < 0.0, 4e-3, 0.011) / error, rtol=1e-4)
@@ -259,7 +259,7 @@ def test_points_keep_their_weights_beside_one_near_zero() -> None:
     points = usable_points(near, BALL, None, 0.01)
     np.testing.assert_allclose(points.error[:-1], alone.error, rtol=1e-9)
     assert points.error[-1] == pytest.approx(1.0, rel=1e-3)
-    np.testing.assert_allclose(points.missed(points.log_scale + 0.3)[0][:-1], 0.3)
+    np.testing.assert_allclose(points.missed(points.log_scale + 0.3, np.zeros(0))[0][:-1], 0.3)
 
 
 def test_errors_that_nobody_gave_are_those_of_the_scatter() -> None:
@@ -309,6 +309,28 @@ def test_an_assumed_error_is_not_in_errors_that_the_scatter_gives() -> None:
     points = usable_points(assuming(bare, 1e-3, [1.0]), BALL, None, 1e-6)
     np.testing.assert_allclose(points.error, usable_points(bare, BALL, None, 1e-6).error)
     np.testing.assert_allclose(points.shared[:, 0], 1e-3 / friction)
+
+
+def test_the_level_of_subtracted_friction_is_an_amount_and_other_errors_in_common_are_factors() -> None:
+    """Friction over three decades, Coulomb friction of 0.2 its level wrong by up to 75 times μ."""
+    speed, friction, coulomb, level = np.geomspace(0.02, 0.2, 8), np.geomspace(1e-4, 0.1, 8), np.full(8, 0.2), 0.025
+    away = np.array([0.03, -1.5])  # of a common error, and of the level of Coulomb friction
+    measured = friction * np.exp(0.02 * away[0]) + level * away[1] * coulomb
+    curves = replace(
+        curves_of(speed, np.full(8, 300.0), measured, 1e-3),
+        coulomb=coulomb,
+        coulomb_error=np.zeros(8),
+        coulomb_scatter=np.zeros(8),
+    )
+    points = SharedErrors(common=0.02, coulomb_level=level).given_to(usable_points(curves, BALL, None, 1e-6), curves)
+    assert 0 < np.count_nonzero(points.logarithmic) < 8
+    missed, by_friction, by_errors = points.missed(np.log(friction), away)
+    np.testing.assert_allclose(missed, 0.0, atol=1e-12)
+    for place, step in enumerate(1e-6 * np.eye(2)):  # a cube of the step is rounding
+        both = [points.missed(np.log(friction), away + sign * step)[0] for sign in (1.0, -1.0)]
+        np.testing.assert_allclose((both[0] - both[1]) / 2e-6, by_errors[:, place], rtol=1e-6, atol=1e-8)
+    both = [points.missed(np.log(friction) + step, away)[0] for step in (1e-6, -1e-6)]
+    np.testing.assert_allclose((both[0] - both[1]) / 2e-6, by_friction, rtol=1e-6, atol=1e-8)
 
 
 @pytest.mark.parametrize("senses", [([-1.0, 1.0],), ([1.0], [-1.0]), ()])

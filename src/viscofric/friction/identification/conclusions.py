@@ -234,9 +234,9 @@ def _fitted(outcome: Outcome, posterior: Posterior[Problem]) -> tuple[FrictionCu
     problem, place = posterior.best.problem, posterior.best.minimum.place
     points = problem.points
     value, _ = problem.modelled(place)
-    drawn = np.array([problem.modelled(row)[0] - problem.common_errors(row) for row in posterior.drawn])
+    drawn = np.array([problem.modelled(row)[0] for row in posterior.drawn])
     lower, upper = np.exp(limits(drawn) + points.raised)
-    friction = np.exp(value - problem.common_errors(place) + points.raised)
+    friction = np.exp(value + points.raised)
     measured = outcome.curves.select(points.rows)
     solved = problem.friction.solved
     relative = 0.0 if solved is None else float(solved.error.max())
@@ -254,4 +254,4 @@ def _fitted(outcome: Outcome, posterior: Posterior[Problem]) -> tuple[FrictionCu
         viscoelastic_lower=lower,
         viscoelastic_upper=upper,
     )
-    return curves, -points.missed(value)[0] / points.error
+    return curves, -problem.missed(place)[0] / points.error

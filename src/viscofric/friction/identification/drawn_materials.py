@@ -199,7 +199,7 @@ def level_family(
                 break
             last = factor
             points = problem.points
-            away, _ = points.missed(problem.modelled(place)[0])
+            away, _ = problem.missed(place)
             everything, _ = replace(problem, moduli=best.problem.moduli)(place)
             found[factor] = LevelFit(
                 factor=float(factor),

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from viscofric.arguments import insist_on, insist_on_function, text, whole_number
-from viscofric.arrays import Array
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.errors import InputError, wrong_argument
@@ -210,7 +209,8 @@ def identify_material(
     points = usable_points(curves, indenter, load, SOLVED_ERROR * accuracy, assumed=assumed)
     kelvin = None if reference is None else positive(reference, "K", "reference")
     points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
-    points, shifts = with_shared_errors(points, shifts, errors.columns(points, curves))
+    points = errors.given_to(points, curves)
+    shifts = as_shared_errors_allow(points, shifts)
     moduli = [ModulusObservation.of(one) for one in anchors if isinstance(one, ModulusAnchor)]
     if prior is None and prior_band is not None:
         raise wrong_argument("prior_band", prior_band, "belongs to a prior; give it too.", "no-prior")
@@ -305,14 +305,14 @@ def shifts_of(
     return chosen, Shifts.unknown(found.temperatures, nearest, found)
 
 
-def with_shared_errors(points: Points, shifts: Shifts, shared: Array) -> tuple[Points, Shifts]:
-    """Return points with more errors in common (n, k), and shifts that may differ as these allow from the overlap's."""
+def as_shared_errors_allow(points: Points, shifts: Shifts) -> Shifts:
+    """Return shifts that may differ from the overlap's as the errors allow that points have in common."""
     # An error moves the curve of a temperature along a slope by as much as it differs there from a line over all
     # points: a line in the reduced speed tilts the master curve and moves no curve along it.
-    shared = np.hstack([points.shared, shared])
-    points = replace(points, shared=shared)
+    # One larger than friction itself moves its logarithm by one at most.
+    shared = np.clip(points.shared, -1.0, 1.0)
     if not shared.shape[1] or not shifts.found or len(shifts.middle) == 1:
-        return points, shifts
+        return shifts
     lines = np.stack([np.ones(len(points)), points.log_speed + shifts.middle[points.number]], axis=1)
     away = shared - lines @ np.linalg.lstsq(lines, shared, rcond=None)[0]
     moved = np.zeros(len(shifts.middle))
@@ -322,7 +322,7 @@ def with_shared_errors(points: Points, shifts: Shifts, shared: Array) -> tuple[P
         slope = abs(float(speed @ points.log_scale[rows])) / max(float(speed @ speed), 1e-300)
         moved[one] = OVERLAPPING * np.linalg.norm(away[rows].mean(axis=0)) / max(slope, LEAST_SLOPE)
     moved[shifts.temperatures == shifts.reference] = 0.0
-    return points, shifts.widened(moved)
+    return shifts.widened(moved)
 
 
 def _not_among(reference: float, found: ShiftFactors, points: Points) -> InputError:

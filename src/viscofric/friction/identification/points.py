@@ -47,7 +47,8 @@ class Points:
     forces: Array  # (n,), measured loads, N or N/m
     raised: Array  # (n,), ln of the measured friction over that of the contact under `load`
     rows: Integers  # (n,), rows of the curves that the points come from
-    shared: Array  # (n, k), errors of ln μ that points have in common, k independent ones of one standard error
+    shared: Array  # (n, k), errors that points have in common, k independent ones of one standard error
+    absolute: Mask  # (k,), whether each is an error of μ over the scale, as of a subtracted friction, or else of ln μ
     notes: tuple[str, ...] = ()
 
     def __len__(self) -> int:
@@ -67,11 +68,23 @@ class Points:
             viscoelastic_freedom=np.full(len(self), np.inf),
         )
 
-    def missed(self, log_friction: Array) -> tuple[Array, Array]:
-        """Return modelled minus measured friction over the scale, or of ln μ, and the derivative by ln μ, (n,) each."""
-        relative = log_friction - self.log_scale
-        ratio = np.exp(np.where(self.logarithmic, 0.0, relative))
-        return np.where(self.logarithmic, relative, ratio - self.friction), ratio
+    def with_shared(self, errors: Array, absolute: Mask) -> Points:
+        """Return the points with more errors in common (n, k)."""
+        shared = np.hstack([self.shared, errors])
+        return replace(self, shared=shared, absolute=np.concatenate([self.absolute, absolute]))
+
+    def missed(self, log_friction: Array, common: Array) -> tuple[Array, Array, Array]:
+        """Return modelled minus measured friction over the scale, or of ln μ (n,), and its derivatives.
+
+        `common` (k,) are the errors that points have in common. The derivatives are by the modelled ln μ (n,), and by
+        these errors (n, k).
+        """
+        factors, amounts = (np.where(kind, self.shared, 0.0) for kind in (~self.absolute, self.absolute))
+        friction = np.exp(log_friction + factors @ common - self.log_scale)
+        measured = friction + amounts @ common
+        away = np.where(self.logarithmic, np.log(np.where(self.logarithmic, measured, 1.0)), measured - self.friction)
+        unit = np.where(self.logarithmic, measured, 1.0)
+        return away, friction / unit, (friction[:, None] * factors + amounts) / unit[:, None]
 
     def chosen(self, keep: Mask) -> Points:
         """Return some of the points, by a mask (n,)."""
@@ -156,7 +169,7 @@ def usable_points(
         )
     rule = LoadRule.of(indenter) if alike else LoadRule(0.0, 0.0)
     temperatures, number = np.unique(curves.temperature[rows], return_inverse=True)
-    return Points(
+    usable = Points(
         log_speed=np.log(curves.speed[rows]) - rule.size * relative,
         log_load=np.zeros(len(rows)) if alike else relative,
         log_scale=np.log(size) - rule.strain * relative,
@@ -169,9 +182,11 @@ def usable_points(
         forces=forces,
         raised=rule.strain * relative,
         rows=rows,
-        shared=shared[rows] / size[:, None],
+        shared=np.zeros((len(rows), 0)),
+        absolute=np.zeros(0, dtype=bool),
         notes=tuple(notes),
     )
+    return usable.with_shared(shared[rows] / size[:, None], np.full(shared.shape[1], True))
 
 
 def _errors_assumed(curves: FrictionCurves) -> Array:
@@ -209,8 +224,8 @@ class SharedErrors(NamedTuple):
     drift: float = 0.0
     coulomb_level: float = 0.0
 
-    def columns(self, points: Points, curves: FrictionCurves) -> Array:
-        """Return the errors of ln μ of points of these curves, (n, k), one column for each independent error."""
+    def given_to(self, points: Points, curves: FrictionCurves) -> Points:
+        """Return points of these curves with the errors, each independent one a column of `Points.shared`."""
         measured = curves.select(points.rows)
         found = []
         if self.common > 0.0:
@@ -218,6 +233,9 @@ class SharedErrors(NamedTuple):
         if self.drift > 0.0:
             decades = np.log10(measured.speed)
             found.append(self.drift * (decades - 0.5 * (decades.min() + decades.max())))
+        if self.level > 0.0:
+            found += [np.where(points.number == one, self.level, 0.0) for one in np.unique(points.number)]
+        absolute = [False] * len(found)
         if self.coulomb_level > 0.0:
             if measured.coulomb is None:
                 raise InputError(
@@ -227,6 +245,5 @@ class SharedErrors(NamedTuple):
                 )
             size = np.maximum(np.abs(measured.viscoelastic), measured.viscoelastic_error)
             found.append(self.coulomb_level * measured.coulomb / size)
-        if self.level > 0.0:
-            found += [np.where(points.number == one, self.level, 0.0) for one in np.unique(points.number)]
-        return np.array(found).reshape(-1, len(points)).T
+            absolute.append(True)
+        return points.with_shared(np.array(found).reshape(-1, len(points)).T, np.array(absolute, dtype=bool))

@@ -253,31 +253,34 @@ class Problem(SpectrumProblem):
         """Standard errors of ln μ (n,)."""
         return self.points.error
 
-    def common_errors(self, unknowns: Array) -> Array:
-        """Return the errors of ln μ that points have in common (n,)."""
-        return np.asarray(self.points.shared @ unknowns[len(unknowns) - self.others :])
-
     def with_errors(self, errors: Array) -> Self:
         """Return the problem with other standard errors of ln μ (n,)."""
         return replace(self, points=replace(self.points, error=errors))
 
     def modelled(self, unknowns: Array) -> tuple[Array, Array]:
-        """Return the modelled ln μ of every point (n,), with the errors in common, and its derivatives (n, p)."""
+        """Return the modelled ln μ of every point (n,), without errors, and its derivatives (n, p)."""
         compliances, log_alpha = self.split(unknowns)
         points = self.points
         value, change, slope = self.friction(compliances, points.log_speed + log_alpha[points.number], points.log_load)
-        moved = np.zeros((len(points), len(log_alpha)))
+        moved = np.zeros((len(points), len(log_alpha) + self.others))
         moved[np.arange(len(points)), points.number] = slope
-        return value + self.common_errors(unknowns), np.concatenate([change, moved, points.shared], axis=1)
+        return value, np.concatenate([change, moved], axis=1)
+
+    def missed(self, unknowns: Array) -> tuple[Array, Array]:
+        """Return modelled minus measured friction over the scale, or of ln μ (n,), and its derivatives (n, p)."""
+        value, change = self.modelled(unknowns)
+        first = len(unknowns) - self.others
+        away, by_value, by_common = self.points.missed(value, unknowns[first:])
+        change = change * by_value[:, None]
+        change[:, first:] += by_common
+        return away, change
 
     def measured(self, unknowns: Array) -> tuple[Array, Array]:
         """Return the residuals of the measurements (r,), friction first, and their derivatives (r, p)."""
         compliances, log_alpha = self.split(unknowns)
         points = self.points
-        value, change = self.modelled(unknowns)
-        missed, by_value = points.missed(value)
-        values = [missed / points.error]
-        changes = [change * (by_value / points.error)[:, None]]
+        missed, change = self.missed(unknowns)
+        values, changes = [missed / points.error], [change / points.error[:, None]]
         known: tuple[ModulusObservation | SolvedContact, ...] = (*self.moduli, *self.contacts)
         for one in known:
             row = self.shifts.row(one.temperature)
