@@ -12,8 +12,6 @@ from viscofric.cli.output import outputs, print_json
 
 # format -> how its file's name ends
 _ENDINGS = {"csv": ".csv", "excel": ".xlsx", "netcdf": ".nc"}
-# what stands beside the cases: group of the results -> in words
-_OTHERS = {"history": "cases over time", "impact": "impacts"}
 _EXAMPLE = """\b
 Example:
   viscofric export study.results --to excel
@@ -26,10 +24,10 @@ Example:
 @click.option(
     "--to",
     "forms",
-    required=True,
     multiple=True,
     type=click.Choice(list(_ENDINGS)),
-    help="Output format; Excel has all tables, the others the cases. Repeat for several formats.",
+    help="Output format; Excel has all tables, the others the cases. Repeat for several formats [default: that of "
+    "--out].",
 )
 @outputs(
     "Output file; `-` prints a csv [default: results.csv, results.xlsx, or prediction.nc in the results folder].",
@@ -42,7 +40,7 @@ def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bo
     csv: a row for each case, units in the headings. excel: a workbook with a sheet for each table. netcdf: the
     cases over their axes, as labelled data.
     """
-    forms = tuple(dict.fromkeys(forms))
+    forms = tuple(dict.fromkeys(forms)) or _by_ending(out)
     if out is not None and len(forms) > 1:
         raise click.BadParameter("names one file, but several formats are requested; leave it out.", param_hint="--out")
     if out == DASH and forms != ("csv",):
@@ -50,12 +48,13 @@ def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bo
     check_ending(out, "--out", (_ENDINGS[forms[0]],))
     from viscofric.study.results.columns import table_text
     from viscofric.study.results.export import FORMS
+    from viscofric.study.results.file import OTHER_CASES
     from viscofric.study.results.results import open_results
 
     found = open_results(results)
-    others = [words for group, words in _OTHERS.items() if group in found.tree.children]
+    others = [words for group, words in OTHER_CASES.items() if group in found.tree.children]
     if others and forms != ("excel",):
-        click.echo(f"Only the workbook (--to excel) has the {' and the '.join(others)}.", err=True)
+        click.echo(f"Only the workbook (--to excel) has {', '.join(others)}.", err=True)
     if out == DASH:
         click.echo(table_text(found.dataset), nl=False)
         return
@@ -65,3 +64,13 @@ def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bo
         return
     for form, path in written.items():
         click.echo(f"{form:<8} {path}")
+
+
+def _by_ending(out: Path | None) -> tuple[str, ...]:
+    """Return the format that the name of the output ends with."""
+    if out == DASH:
+        return ("csv",)
+    found = tuple(form for form, ending in _ENDINGS.items() if out is not None and out.suffix.lower() == ending)
+    if not found:
+        raise click.UsageError(f"give --to, one of {', '.join(_ENDINGS)}, or --out with the ending of one.")
+    return found

@@ -12,7 +12,7 @@ from viscofric.errors import InputError
 from viscofric.files import file_path
 from viscofric.study.cases.sweep import shown
 from viscofric.study.results.columns import over_all_dimensions
-from viscofric.study.results.file import cases_of, open_tree
+from viscofric.study.results.file import OTHER_CASES, cases_of, open_tree
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -37,8 +37,6 @@ _COORDINATES = ("speed", "temperature", "load")
 # Coordinates whose value needs no name.
 _SPEAKING = ("material", "load", "temperature", "speed")
 _TABLES = (".csv", ".txt", ".tsv")
-#: Groups of cases beside the prediction.
-_OTHER_GROUPS = ("heating", "history", "impact")
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +104,7 @@ def tables_of_file(path: str | Path) -> dict[str, CaseTable]:
 def tables_of_tree(tree: DataTree, folder: Path) -> dict[str, CaseTable]:
     """Return the cases of results in a folder, by their group."""
     cases = cases_of(tree, folder)
-    others = {name: child.to_dataset() for name, child in tree.children.items() if name in _OTHER_GROUPS}
+    others = {name: child.to_dataset() for name, child in tree.children.items() if name in OTHER_CASES}
     others = {name: data.assign_attrs(accuracy=cases.attrs.get("accuracy")) for name, data in others.items()}
     return {name: CaseTable.of_group(str(folder), data) for name, data in ({"prediction": cases} | others).items()}
 

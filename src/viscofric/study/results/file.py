@@ -38,6 +38,10 @@ DIGEST = "content_sha256"
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
+#: Groups of cases beside the prediction, in words.
+OTHER_CASES = {"heating": "cases with heat", "history": "cases over time", "impact": "impacts"}
+
+
 def cases_of(tree: DataTree, folder: Path) -> Dataset:
     """Return the predicted cases of results; see `StudyResults.dataset`."""
     if _PREDICTION not in tree.children:
