@@ -43,7 +43,7 @@ class WLF(ParametricLaw):
     C1 : float
         Above zero.
     C2 : float or quantity
-        Temperature difference above zero, K (or text such as ``"51.6 delta_degC"``).
+        Temperature difference above zero, K (or text such as ``"51.6 K"``).
     reference : float or quantity
         Tr, where α = 1; K, or text such as ``"30 degC"``.
     covariance : (2, 2) array, optional

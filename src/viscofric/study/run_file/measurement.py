@@ -60,7 +60,7 @@ class MeasurementTable(Table):
         0.05, gt=0.0, lt=1.0, description="Relative gap that separates nominal speeds and slips."
     )
     temperature_tolerance: TemperatureStep = Field(
-        1.0, description="Gap that separates nominal temperatures.", json_schema_extra={"default": "1 delta_degC"}
+        1.0, description="Gap that separates nominal temperatures.", json_schema_extra={"default": "1 K"}
     )
 
     def _problems(self) -> Iterator[str]:

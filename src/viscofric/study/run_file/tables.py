@@ -198,7 +198,7 @@ Direction = Annotated[float, _signed("rad"), as_text("30 deg")]
 # Plain, or pydantic would convert a load per length to a plain float.
 Load = Annotated[float, PlainValidator(_load), as_text("25 N", "2 N/mm")]
 Temperature = Annotated[float, BeforeValidator(kelvin), as_text("30 degC")]
-TemperatureStep = Annotated[float, above_zero("delta_degC"), as_text("1 delta_degC")]
+TemperatureStep = Annotated[float, above_zero("delta_degC"), as_text("1 K")]
 SignedSpeed = Annotated[float, _signed("m/s"), as_text("-50 mm/s")]
 SignedForce = Annotated[float, _signed("N"), as_text("0.12 N")]
 
