@@ -14,30 +14,18 @@ from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cone, Cylinder, Ellipsoid
 from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.indenter_case import IndenterCase
-from viscofric.study.run_file.tables import (
-    Angles,
-    Directions,
-    Length,
-    Lengths,
-    Loads,
-    Modulus,
-    Number,
-    Pressures,
-    Problem,
-    Speeds,
-    Table,
-    Temperatures,
-    worded,
-)
+from viscofric.study.run_file import tables
 
 _SHAPE = "Shape; each has its own lengths or angle."
 
 
-class AnyIndenterTable(Table):
+class AnyIndenterTable(tables.Table):
     """[indenter]: the indenter that slides or rolls over the rubber."""
 
-    modulus: Modulus | None = Field(None, description="Young's modulus of an elastic indenter; rigid without it.")
-    poisson_ratio: Number = Field(0.3, gt=-1.0, le=0.5, description="Poisson's ratio of an elastic indenter.")
+    modulus: tables.Modulus | None = Field(
+        None, description="Young's modulus of an elastic indenter; rigid without it."
+    )
+    poisson_ratio: tables.Number = Field(0.3, gt=-1.0, le=0.5, description="Poisson's ratio of an elastic indenter.")
 
     shape: str
     #: Class of its cases, and the keys of [conditions] that they take.
@@ -49,10 +37,10 @@ class AnyIndenterTable(Table):
     #: Whether its load is per length.
     LINE: ClassVar[bool] = False
 
-    def _problems(self) -> Iterator[Problem]:
+    def _problems(self) -> Iterator[tables.Problem]:
         if "poisson_ratio" in self.model_fields_set and self.modulus is None:
             said = "is for an elastic indenter, but modulus is not given; a rigid one has none"
-            yield "poisson_ratio", worded(said, "is of an elastic indenter; give its Young's modulus")
+            yield "poisson_ratio", tables.worded(said, "is of an elastic indenter; give its Young's modulus")
 
     @property
     def axes(self) -> dict[str, tuple[float, ...]]:
@@ -68,7 +56,7 @@ class BallTable(AnyIndenterTable):
     """[indenter]: a ball."""
 
     shape: Literal["ball"] = Field("ball", description=_SHAPE)
-    radius: Lengths = Field(description="Radius of the ball.")
+    radius: tables.Lengths = Field(description="Radius of the ball.")
     AXES, KIND = ("radius",), Ball
 
 
@@ -76,7 +64,7 @@ class CylinderTable(AnyIndenterTable):
     """[indenter]: a long cylinder across the motion; its load is per length."""
 
     shape: Literal["cylinder"] = Field(description=_SHAPE)
-    radius: Lengths = Field(description="Radius of the cylinder.")
+    radius: tables.Lengths = Field(description="Radius of the cylinder.")
     AXES, KIND = ("radius",), Cylinder
     LINE = True
 
@@ -85,8 +73,8 @@ class EllipsoidTable(AnyIndenterTable):
     """[indenter]: a surface with two radii of curvature."""
 
     shape: Literal["ellipsoid"] = Field(description=_SHAPE)
-    radius_x: Lengths = Field(description="Radius of curvature along the motion.")
-    radius_y: Lengths = Field(description="Radius of curvature across the motion.")
+    radius_x: tables.Lengths = Field(description="Radius of curvature along the motion.")
+    radius_y: tables.Lengths = Field(description="Radius of curvature across the motion.")
     AXES, KIND = ("radius_x", "radius_y"), Ellipsoid
 
 
@@ -94,10 +82,10 @@ class ConeTable(AnyIndenterTable):
     """[indenter]: a blunt cone."""
 
     shape: Literal["cone"] = Field(description=_SHAPE)
-    angle: Angles = Field(description="Angle between flank and undeformed surface; small for linear contact.")
+    angle: tables.Angles = Field(description="Angle between flank and undeformed surface; small for linear contact.")
     AXES, KIND = ("angle",), Cone
 
-    def _problems(self) -> Iterator[Problem]:
+    def _problems(self) -> Iterator[tables.Problem]:
         yield from super()._problems()
         if max(self.angle) >= 0.5 * math.pi:
             yield "angle", f"{math.degrees(max(self.angle)):.4g}° is not less than a right angle, such as '10 deg'"
@@ -124,27 +112,29 @@ else:
     IndenterTable = Annotated[reduce(operator.or_, tagged), Discriminator(_shape)]
 
 
-class LayerTable(Table):
+class LayerTable(tables.Table):
     """[layer]: rubber of finite thickness on a rigid base; a half-space without this table."""
 
-    thickness: Lengths = Field(description="Thickness of the rubber on its rigid base.")
+    thickness: tables.Lengths = Field(description="Thickness of the rubber on its rigid base.")
     base: Literal["bonded", "sliding"] = Field(
         "bonded", description="Layer bonded to its base, or sliding on it without friction."
     )
 
 
-class ConditionsTable(Table):
+class ConditionsTable(tables.Table):
     """[conditions]: loads or pressures, speeds and temperatures of the prediction."""
 
-    load: Loads = Field(
+    load: tables.Loads = Field(
         default_factory=tuple, description="Normal load of an indenter; per length for a cylinder: '2 N/mm'."
     )
-    pressure: Pressures = Field(default_factory=tuple, description="Instead, for a rough surface: mean pressure.")
-    direction: Directions = Field(
+    pressure: tables.Pressures = Field(
+        default_factory=tuple, description="Instead, for a rough surface: mean pressure."
+    )
+    direction: tables.Directions = Field(
         default_factory=tuple, description="Sliding direction of a rough surface, from x towards y; default: along x."
     )
-    speed: Speeds = Field(description="Speed at which the rubber is deformed, above zero.")
-    temperature: Temperatures = Field(description="Temperature of the rubber.")
-    thickness: Length | None = Field(
+    speed: tables.Speeds = Field(description="Speed at which the rubber is deformed, above zero.")
+    temperature: tables.Temperatures = Field(description="Temperature of the rubber.")
+    thickness: tables.Length | None = Field(
         None, description="Thickness of the rubber, to check the half-space assumption; for thin rubber use [layer]."
     )

@@ -10,17 +10,7 @@ from pydantic import BeforeValidator, Field, PlainValidator, WithJsonSchema
 
 from viscofric.errors import brief
 from viscofric.heat.heating import Heating
-from viscofric.study.run_file.tables import (
-    Length,
-    Number,
-    Problem,
-    Slips,
-    Table,
-    as_written,
-    listed,
-    one_or_more,
-    worded,
-)
+from viscofric.study.run_file import tables
 from viscofric.thermal import BODIES, ThermalProperties, body_of
 
 _MOST_VALUES = 100
@@ -31,7 +21,9 @@ def _body_named(name: str) -> PlainValidator:
 
     def read(value: object) -> ThermalProperties:
         if not isinstance(value, str):
-            raise ValueError(f"{as_written(value)} is no text; write a name such as 'steel', or properties with units")
+            raise ValueError(
+                f"{tables.as_written(value)} is no text; write a name such as 'steel', or properties with units"
+            )
         return body_of(value, name)
 
     return PlainValidator(read)
@@ -55,16 +47,16 @@ def _passes(value: object) -> float:
 Passes = Annotated[
     float, PlainValidator(_passes), WithJsonSchema({"anyOf": [{"type": "number", "minimum": 0}, {"const": "inf"}]})
 ]
-Coefficient = Annotated[Number, Field(ge=0.0)]
+Coefficient = Annotated[tables.Number, Field(ge=0.0)]
 Coefficients = Annotated[
     tuple[Coefficient, ...],
-    BeforeValidator(listed),
+    BeforeValidator(tables.listed),
     Field(min_length=1, max_length=_MOST_VALUES),
-    one_or_more({"type": "number", "minimum": 0}, _MOST_VALUES),
+    tables.one_or_more({"type": "number", "minimum": 0}, _MOST_VALUES),
 ]
 
 
-class HeatingTable(Table):
+class HeatingTable(tables.Table):
     """[heating]: every case also at the temperature to which its own friction heats it."""
 
     counterface: Counterface = Field(
@@ -81,14 +73,14 @@ class HeatingTable(Table):
         description="Coulomb friction coefficient, whose heat both bodies share; several are an axis. [interface], if "
         "given, makes this heat instead.",
     )
-    slip: Slips | None = Field(
+    slip: tables.Slips | None = Field(
         None,
         description="Sliding velocity between both surfaces, below zero where the counterface is the faster one; "
         "several are an axis; default: the speed of the case.",
     )
-    track_radius: Length | None = Field(None, description="Radius of the circle on which earlier passes were.")
+    track_radius: tables.Length | None = Field(None, description="Radius of the circle on which earlier passes were.")
     passes: Passes = Field(0, description="Earlier passes on that circle; inf: the final state.")
-    nominal_radius: Length | None = Field(
+    nominal_radius: tables.Length | None = Field(
         None, description="Of a rough surface: radius of the nominal contact, whose mean heat then counts too."
     )
     average: Literal["contact", "loss"] = Field(
@@ -99,11 +91,14 @@ class HeatingTable(Table):
         "cold", description="State of contacts that have two: that of a rising speed, or that of a falling one."
     )
 
-    def _problems(self) -> Iterator[Problem]:
+    def _problems(self) -> Iterator[tables.Problem]:
         if self.passes > 0 and self.track_radius is None:
-            yield "passes", worded("needs track_radius, the radius of the circle", "need the radius of the track")
+            yield (
+                "passes",
+                tables.worded("needs track_radius, the radius of the circle", "need the radius of the track"),
+            )
         if self.track_radius is not None and self.passes == 0:
-            yield "track_radius", worded("has no effect without passes", "has no effect without earlier passes")
+            yield "track_radius", tables.worded("has no effect without passes", "has no effect without earlier passes")
         for name in ("coulomb", "slip"):
             values = getattr(self, name) or ()
             if len(set(values)) < len(values):

@@ -8,58 +8,41 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field
 
 from viscofric.errors import brief
-from viscofric.study.run_file.tables import (
-    MOST_POINTS,
-    VALUE,
-    Count,
-    FileName,
-    Gravity,
-    Headings,
-    Length,
-    Mass,
-    Problem,
-    Speeds,
-    Table,
-    Words,
-    as_text,
-    listed,
-    one_or_more,
-    schema_of,
-    with_unit,
-    worded,
-)
+from viscofric.study.run_file import tables
 from viscofric.units import to_si
 
 _MOST_DWELLS = 1000
 
 
 def _duration(value: object) -> float:
-    found = to_si(with_unit(value), "s", VALUE)
+    found = to_si(tables.with_unit(value), "s", tables.VALUE)
     if found < 0.0:
         raise ValueError(f"{brief(value)} is below zero")
     return found
 
 
-Duration = Annotated[float, BeforeValidator(_duration), as_text("0.1 s")]
+Duration = Annotated[float, BeforeValidator(_duration), tables.as_text("0.1 s")]
 Durations = Annotated[
     tuple[Duration, ...],
-    BeforeValidator(listed),
+    BeforeValidator(tables.listed),
     Field(min_length=1, max_length=_MOST_DWELLS),
-    one_or_more(schema_of(Duration), _MOST_DWELLS),
+    tables.one_or_more(tables.schema_of(Duration), _MOST_DWELLS),
 ]
 #: Keys that a file replaces.
 _STAGES = ("load_time", "dwell", "slide", "strokes")
 
 
-class HistoryTable(Table):
+class HistoryTable(tables.Table):
     """[history]: every case also over time, at its load or pressure, speed and temperature, with [heating] heated."""
 
     FILES = ("file",)
 
     load_time: Duration = Field(0.0, description="Time in which the load or pressure rises from zero; 0 s: at once.")
     dwell: Durations = Field((0.0,), description="Time at rest under the load before the sliding; several are an axis.")
-    slide: Length | None = Field(None, description="Length of the path at the speed of the case; default: no sliding.")
-    strokes: Count = Field(1, ge=1, le=10_000, description="Number of strokes along the path, back and forth.")
+    slide: tables.Length | None = Field(
+        None, description="Length of the path at the speed of the case; default: no sliding."
+    )
+    strokes: tables.Count = Field(1, ge=1, le=10_000, description="Number of strokes along the path, back and forth.")
     before: Literal["untouched", "at rest", "sliding"] = Field(
         "untouched",
         description="State before the start: untouched, under the first load for ever, or sliding steadily.",
@@ -69,19 +52,22 @@ class HistoryTable(Table):
         strict=True,
         description="Whether this is one period of a motion that repeats itself, to solve its periodic state.",
     )
-    points: Count = Field(
-        200, ge=2, le=MOST_POINTS, description="Number of stored times, dense after each change of load or speed."
+    points: tables.Count = Field(
+        200,
+        ge=2,
+        le=tables.MOST_POINTS,
+        description="Number of stored times, dense after each change of load or speed.",
     )
-    file: FileName | None = Field(
+    file: tables.FileName | None = Field(
         None,
         description="Instead: table of the history; without a load or depth in it, the load or pressure of the case.",
     )
-    columns: Headings = Field(
+    columns: tables.Headings = Field(
         default_factory=dict, description="Headings of the table that are not understood: { load = 'Fz (N)' }."
     )
-    sheet: Words | None = Field(None, description="The only sheet of a workbook to read.")
+    sheet: tables.Words | None = Field(None, description="The only sheet of a workbook to read.")
 
-    def _problems(self) -> Iterator[Problem]:
+    def _problems(self) -> Iterator[tables.Problem]:
         if self.cycle:
             for name in ("before", "load_time"):
                 if name in self.model_fields_set:
@@ -90,21 +76,21 @@ class HistoryTable(Table):
             for name in _STAGES:
                 if name in self.model_fields_set:
                     said = "is given besides file, which has the whole history"
-                    yield name, worded(said, "is given besides a table, which has the whole history")
+                    yield name, tables.worded(said, "is given besides a table, which has the whole history")
             return
         for name in ("columns", "sheet"):
             if getattr(self, name):
                 yield name, "is for a file only"
         if self.slide is None and not self.load_time and min(self.dwell) == 0.0:
             said = "is zero, and nothing else happens; give dwell, load_time or slide"
-            yield "dwell", worded(said, f"{said.partition(';')[0]}; give a dwell, a time to load or a path")
+            yield "dwell", tables.worded(said, f"{said.partition(';')[0]}; give a dwell, a time to load or a path")
         if self.slide is None and self.strokes > 1:
-            yield "strokes", worded("needs slide, the length of the path", "need the path of a stroke")
+            yield "strokes", tables.worded("needs slide, the length of the path", "need the path of a stroke")
 
 
-class ImpactTable(Table):
+class ImpactTable(tables.Table):
     """[impact]: every ball or cone also falls on the rubber, at every temperature."""
 
-    mass: Mass = Field(description="Mass of the indenter.")
-    speed: Speeds = Field(description="Speed at the first touch; several are an axis.")
-    gravity: Gravity | None = Field(None, description="Acceleration towards the rubber; default: none.")
+    mass: tables.Mass = Field(description="Mass of the indenter.")
+    speed: tables.Speeds = Field(description="Speed at the first touch; several are an axis.")
+    gravity: tables.Gravity | None = Field(None, description="Acceleration towards the rubber; default: none.")

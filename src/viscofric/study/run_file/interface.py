@@ -11,46 +11,38 @@ from pydantic import Field
 from viscofric.rheology.interface.fitting import KINDS
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.laws import Arrhenius
-from viscofric.study.run_file.tables import (
-    Number,
-    Pressure,
-    Problem,
-    Speed,
-    Table,
-    Temperature,
-    above_zero,
-    as_text,
-    worded,
-)
+from viscofric.study.run_file import tables
 
-Volume = Annotated[float, above_zero("m**3"), as_text("20 nm**3")]
-Energy = Annotated[float, above_zero("J/mol"), as_text("80 kJ/mol")]
-Part = Annotated[Number, Field(ge=0.0, lt=1.0)]
+Volume = Annotated[float, tables.above_zero("m**3"), tables.as_text("20 nm**3")]
+Energy = Annotated[float, tables.above_zero("J/mol"), tables.as_text("80 kJ/mol")]
+Part = Annotated[tables.Number, Field(ge=0.0, lt=1.0)]
 #: Constants of each law.
 CONSTANTS = {kind: tuple(one.name for one in fields(law) if not one.kw_only) for kind, law in KINDS.items()}
 _ALL = tuple(dict.fromkeys(name for names in CONSTANTS.values() for name in names))
 
 
-class InterfaceTable(Table):
+class InterfaceTable(tables.Table):
     """[interface]: shear stress of the dry interface, whose friction is added to the hysteresis of every case."""
 
     law: Literal["best", "constant", "power", "eyring", "gaussian"] = Field(
         "best",
         description="Law of the shear stress, fitted to measured Coulomb friction unless its constants are given.",
     )
-    stress: Pressure | None = Field(None, description="Of 'constant', and of 'power' at speed: shear stress.")
-    exponent: Number | None = Field(None, description="Of 'power': exponent of the speed.")
-    speed: Speed | None = Field(None, description="Of 'power', 'eyring' and 'gaussian': slip speed v₀ or v_p.")
+    stress: tables.Pressure | None = Field(None, description="Of 'constant', and of 'power' at speed: shear stress.")
+    exponent: tables.Number | None = Field(None, description="Of 'power': exponent of the speed.")
+    speed: tables.Speed | None = Field(None, description="Of 'power', 'eyring' and 'gaussian': slip speed v₀ or v_p.")
     activation_volume: Volume | None = Field(None, description="Of 'eyring'.")
-    peak: Pressure | None = Field(None, description="Of 'gaussian': largest shear stress.")
-    width: Annotated[Number, Field(gt=0.0)] | None = Field(None, description="Of 'gaussian': width in decades.")
+    peak: tables.Pressure | None = Field(None, description="Of 'gaussian': largest shear stress.")
+    width: Annotated[tables.Number, Field(gt=0.0)] | None = Field(None, description="Of 'gaussian': width in decades.")
     activation_energy: Energy | None = Field(None, description="Of the shift of a given law with temperature.")
-    reference: Temperature | None = Field(None, description="Temperature at which the given constants hold.")
-    slip: Speed | None = Field(None, description="Slip speed of all cases; default: their speed, as in pure sliding.")
+    reference: tables.Temperature | None = Field(None, description="Temperature at which the given constants hold.")
+    slip: tables.Speed | None = Field(
+        None, description="Slip speed of all cases; default: their speed, as in pure sliding."
+    )
     level_error: Part = Field(0.0, description="Relative standard error shared by the points of a temperature.")
     area_error: Part = Field(0.0, description="Relative standard error shared by all contact areas.")
 
-    def _problems(self) -> Iterator[Problem]:
+    def _problems(self) -> Iterator[tables.Problem]:
         if not self.is_given:
             for name in ("activation_energy", "reference"):
                 if getattr(self, name) is not None:
@@ -60,14 +52,14 @@ class InterfaceTable(Table):
             said = f"is missing; constants belong to one of {', '.join(map(repr, CONSTANTS))}"
             yield (
                 "law",
-                worded(said, "is fitted, and takes no constants; empty them or choose the law that they are of"),
+                tables.worded(said, "is fitted, and takes no constants; empty them or choose the law that they are of"),
             )
             return
         for name in _ALL:
             if (name in CONSTANTS[self.law]) != (getattr(self, name) is not None):
                 needed = "is missing" if name in CONSTANTS[self.law] else "is no constant"
                 said = f"{needed} of the law {self.law!r}, which has {', '.join(CONSTANTS[self.law])}"
-                yield name, worded(said, f"{needed} of this law")
+                yield name, tables.worded(said, f"{needed} of this law")
         if (self.activation_energy is None) != (self.reference is None):
             yield "reference", "and activation_energy belong together; give both or neither"
         for name in ("level_error", "area_error"):

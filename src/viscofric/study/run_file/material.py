@@ -10,21 +10,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, WithJsonSchema
 
 from viscofric.errors import InputError
-from viscofric.study.run_file.tables import (
-    VALUE,
-    Count,
-    FileName,
-    FileNames,
-    Headings,
-    Number,
-    Table,
-    Temperature,
-    Words,
-    kelvin,
-    listed,
-    one_or_more,
-    schema_of,
-)
+from viscofric.study.run_file import tables
 from viscofric.units import conversion
 
 #: Keys for the source of the material; every run file has one of them, or sweeps and step tests together.
@@ -49,7 +35,7 @@ def _by_kelvin(value: object) -> object:
     """Convert the temperatures that are the keys of a table to K."""
     if not isinstance(value, dict):
         return value
-    found = {kelvin(key): entry for key, entry in value.items()}
+    found = {tables.kelvin(key): entry for key, entry in value.items()}
     if len(found) < len(value):
         raise ValueError("the same temperature is given twice")
     return found
@@ -57,11 +43,11 @@ def _by_kelvin(value: object) -> object:
 
 def _unit_of_modulus(value: str) -> str:
     try:
-        conversion(value, "Pa", VALUE)
+        conversion(value, "Pa", tables.VALUE)
     except InputError:
         if not value.strip().startswith("1/"):
             raise
-        conversion(value, "1/Pa", VALUE)
+        conversion(value, "1/Pa", tables.VALUE)
     return value
 
 
@@ -79,32 +65,39 @@ def _in_catalogue(value: str) -> str:
 
 
 _Temperatures = Annotated[
-    tuple[Temperature, ...], BeforeValidator(listed), Field(min_length=1), one_or_more(schema_of(Temperature))
+    tuple[tables.Temperature, ...],
+    BeforeValidator(tables.listed),
+    Field(min_length=1),
+    tables.one_or_more(tables.schema_of(tables.Temperature)),
 ]
 
 
-class MaterialTable(Table):
+class MaterialTable(tables.Table):
     """[material]: DMA files and how the material model is fitted to them, or a predefined material."""
 
     FILES = ("dma", "creep", "relaxation", "ramps", "amplitude_sweep", "master_curve", "file", "shift_factors")
 
-    dma: FileNames | None = Field(None, description="DMA sweeps: a file, a list, or a pattern such as 'sweeps/*.txt'.")
-    ramps: FileNames | None = Field(
+    dma: tables.FileNames | None = Field(
+        None, description="DMA sweeps: a file, a list, or a pattern such as 'sweeps/*.txt'."
+    )
+    ramps: tables.FileNames | None = Field(
         None, description="Instead: temperature ramps at one or several frequencies, as files like those of dma."
     )
-    creep: FileNames | None = Field(None, description="Instead, or with dma: creep tests, J(t) after a step of stress.")
-    relaxation: FileNames | None = Field(
+    creep: tables.FileNames | None = Field(
+        None, description="Instead, or with dma: creep tests, J(t) after a step of stress."
+    )
+    relaxation: tables.FileNames | None = Field(
         None, description="Instead, or with dma: relaxation tests, E(t) or G(t) after a step of strain."
     )
-    master_curve: FileName | None = Field(None, description="Instead: a master curve.")
-    file: FileName | None = Field(
+    master_curve: tables.FileName | None = Field(None, description="Instead: a master curve.")
+    file: tables.FileName | None = Field(
         None, description="Instead: a predefined material, rubber.json or another program's card."
     )
-    catalogue: Annotated[Words, AfterValidator(_in_catalogue)] | None = Field(
+    catalogue: Annotated[tables.Words, AfterValidator(_in_catalogue)] | None = Field(
         None, description="Instead: a name in the catalogue (viscofric material list)."
     )
 
-    name: Words = Field("", description="Name of the material; required for several materials.")
+    name: tables.Words = Field("", description="Name of the material; required for several materials.")
     deformation: Literal["tension", "compression", "bending", "shear"] | None = Field(
         None, description="Deformation in the sweeps, if the file does not state it; E = 2(1+ν)G."
     )
@@ -114,15 +107,15 @@ class MaterialTable(Table):
     leave_out_temperatures: _Temperatures | None = Field(
         None, description="Temperatures of isotherms of the sweeps to leave out."
     )
-    modulus_unit: Annotated[Words, AfterValidator(_unit_of_modulus)] | None = Field(
+    modulus_unit: Annotated[tables.Words, AfterValidator(_unit_of_modulus)] | None = Field(
         None, description="Unit of moduli (of creep compliances '1/MPa') in files that do not state it, such as 'MPa'."
     )
-    columns: Headings = Field(
+    columns: tables.Headings = Field(
         {}, description="Headings of tables that are not understood: { frequency = 'f in Hz' }; '#2 (Hz)' is column 2."
     )
-    sheet: Words | None = Field(None, description="Name of the only sheet of a workbook to read.")
-    poisson_ratio: Number = Field(0.5, ge=0.0, le=0.5, description="Poisson's ratio, independent of frequency.")
-    reference_temperature: Temperature | None = Field(
+    sheet: tables.Words | None = Field(None, description="Name of the only sheet of a workbook to read.")
+    poisson_ratio: tables.Number = Field(0.5, ge=0.0, le=0.5, description="Poisson's ratio, independent of frequency.")
+    reference_temperature: tables.Temperature | None = Field(
         None, description="Temperature at which the shift factor is one; required for sweeps and master curves."
     )
     vertical_shift: Literal["none", "free", "density"] = Field(
@@ -131,42 +124,46 @@ class MaterialTable(Table):
     shift_by: Literal["both", "storage", "loss", "loss-tangent"] = Field(
         "both", description="Moduli that shift factors are found from: E' and E'', one of the two, or tan δ."
     )
-    shift_weights: Annotated[tuple[Annotated[Number, Field(gt=0.0)], ...] | None, Field(min_length=2, max_length=2)] = (
-        Field(None, description="Weights of log E' and log E'' in the superposition, [1, 0.2]; equal if left out.")
-    )
+    shift_weights: Annotated[
+        tuple[Annotated[tables.Number, Field(gt=0.0)], ...] | None, Field(min_length=2, max_length=2)
+    ] = Field(None, description="Weights of log E' and log E'' in the superposition, [1, 0.2]; equal if left out.")
     shift: Literal["measured", "best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial"] = Field(
         "measured", description="Shift factors a_T: as found, or a law fitted to them."
     )
-    assumed_shift: Annotated[Words, AfterValidator(_assumption)] | None = Field(
+    assumed_shift: Annotated[tables.Words, AfterValidator(_assumption)] | None = Field(
         None,
         description="Law to assume for ramps, needed at one frequency: '250 kJ/mol' (activation energy), "
         "'WLF 17.44, 51.6 K, -30 degC' (C1, C2, their reference), or 'universal'.",
     )
-    shift_factors: FileName | None = Field(None, description="File of shift factors to use instead of finding them.")
-    shift_factor_columns: Headings = Field(
+    shift_factors: tables.FileName | None = Field(
+        None, description="File of shift factors to use instead of finding them."
+    )
+    shift_factor_columns: tables.Headings = Field(
         {}, description="Headings in that file that are not understood: { log10_shift_factor = 'lg' }."
     )
-    shift_factor_sheet: Words | None = Field(None, description="Name of the sheet with shift factors in a workbook.")
+    shift_factor_sheet: tables.Words | None = Field(
+        None, description="Name of the sheet with shift factors in a workbook."
+    )
     fixed_shift_factors: Annotated[
-        dict[float, Number],
+        dict[float, tables.Number],
         BeforeValidator(_by_kelvin),
         WithJsonSchema({"type": "object", "additionalProperties": {"type": "number"}}),
     ] = Field({}, max_length=1_000, description="Single shift factors to hold fixed, log10: { '-20 degC' = 4.2 }.")
     spectrum: Literal["non-negative", "regularised", "sparse"] = Field(
         "non-negative", description="Method of fitting the retardation spectrum."
     )
-    modes: Count | None = Field(
+    modes: tables.Count | None = Field(
         None, ge=1, le=200, description="Largest number of retardation modes of a sparse spectrum."
     )
-    tau_ratio: Number = Field(math.e, gt=1.0, le=100.0, description="Ratio of neighbouring retardation times.")
+    tau_ratio: tables.Number = Field(math.e, gt=1.0, le=100.0, description="Ratio of neighbouring retardation times.")
 
-    amplitude_sweep: FileNames | None = Field(
+    amplitude_sweep: tables.FileNames | None = Field(
         None, description="Amplitude sweep of the material, from which Kraus's law scales it to strain."
     )
-    strain: Annotated[Number, Field(gt=0.0, le=10.0)] | None = Field(
+    strain: Annotated[tables.Number, Field(gt=0.0, le=10.0)] | None = Field(
         None, description="Tensile strain to scale the moduli to, a fraction (0.05 is 5 %): an approximation."
     )
-    measured_at: Annotated[Number, Field(gt=0.0, le=10.0)] | None = Field(
+    measured_at: Annotated[tables.Number, Field(gt=0.0, le=10.0)] | None = Field(
         None, description="Tensile strain of the sweeps, a fraction; small if left out."
     )
 

@@ -9,21 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from viscofric.errors import brief
-from viscofric.study.run_file.tables import (
-    MOST_POINTS,
-    Count,
-    FileName,
-    FileNames,
-    Force,
-    Headings,
-    Number,
-    SignedForce,
-    Table,
-    TemperatureStep,
-    Words,
-    listed,
-    one_or_more,
-)
+from viscofric.study.run_file import tables
 
 
 def _number_or_word(value: object) -> object:
@@ -35,31 +21,36 @@ def _number_or_word(value: object) -> object:
     raise ValueError(f"{brief(value)} is neither a friction coefficient, such as 0.05, nor the word 'constant'")
 
 
-class MeasurementTable(Table):
+class MeasurementTable(tables.Table):
     """[measurement]: tribometer files and how their friction is separated, or separated friction curves."""
 
     FILES = ("mtm", "curves")
 
-    mtm: FileNames = Field((), description="Traction runs: a file, a list, or a pattern such as 'run*.txt'.")
-    curves: FileName | None = Field(None, description="Instead: separated friction curves.")
-    columns: Headings = Field({}, description="Headings that are not understood: { disc_speed = 'V1 (mm/s)' }.")
-    sheet: Words | None = Field(None, description="Name of the sheet of a workbook.")
-    zero: SignedForce | None = Field(None, description="Reading of the force cell without traction, if known.")
-    zero_error: Force | None = Field(None, description="Standard error of zero.")
+    mtm: tables.FileNames = Field((), description="Traction runs: a file, a list, or a pattern such as 'run*.txt'.")
+    curves: tables.FileName | None = Field(None, description="Instead: separated friction curves.")
+    columns: tables.Headings = Field({}, description="Headings that are not understood: { disc_speed = 'V1 (mm/s)' }.")
+    sheet: tables.Words | None = Field(None, description="Name of the sheet of a workbook.")
+    zero: tables.SignedForce | None = Field(None, description="Reading of the force cell without traction, if known.")
+    zero_error: tables.Force | None = Field(None, description="Standard error of zero.")
     coulomb: Annotated[
         Any, BeforeValidator(_number_or_word), WithJsonSchema({"anyOf": [{"type": "number"}, {"const": "constant"}]})
     ] = Field(None, description="Coulomb friction for slip in one direction only: a coefficient, or 'constant'.")
-    coulomb_error: Annotated[Number, Field(gt=0.0)] | None = Field(None, description="Standard error of coulomb.")
+    coulomb_error: Annotated[tables.Number, Field(gt=0.0)] | None = Field(
+        None, description="Standard error of coulomb."
+    )
     except_steps: Annotated[
-        tuple[Count, ...], BeforeValidator(listed), one_or_more({"type": "integer"}), Field(max_length=MOST_POINTS)
+        tuple[tables.Count, ...],
+        BeforeValidator(tables.listed),
+        tables.one_or_more({"type": "integer"}),
+        Field(max_length=tables.MOST_POINTS),
     ] = Field((), description="Steps of the test to leave out: a number or a list.")
     outliers: Literal["keep", "leave out"] = Field(
         "keep", description="Readings far from others at the same conditions."
     )
-    speed_tolerance: Number = Field(
+    speed_tolerance: tables.Number = Field(
         0.05, gt=0.0, lt=1.0, description="Relative gap that separates nominal speeds and slips."
     )
-    temperature_tolerance: TemperatureStep = Field(
+    temperature_tolerance: tables.TemperatureStep = Field(
         1.0, description="Gap that separates nominal temperatures.", json_schema_extra={"default": "1 K"}
     )
 

@@ -12,21 +12,7 @@ from viscofric.errors import InputError
 from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import MadeSurface, ScannedSurface, SurfaceSource, file_digest, step_of
-from viscofric.study.run_file.tables import (
-    VALUE,
-    Count,
-    Direction,
-    FileName,
-    Length,
-    Modulus,
-    Number,
-    Problem,
-    Seeds,
-    Table,
-    Words,
-    listed,
-    one_or_more,
-)
+from viscofric.study.run_file import tables
 from viscofric.units import conversion
 
 _MOST_POINTS, _MOST_STEPS = 16_384, 50
@@ -39,9 +25,9 @@ _OF_BOTH = ("file", "spacing", "modulus", "poisson_ratio")
 _Points = Annotated[int, Field(strict=True, ge=1, le=_MOST_POINTS)]
 Points = Annotated[
     tuple[_Points, ...],
-    BeforeValidator(listed),
+    BeforeValidator(tables.listed),
     Field(min_length=1, max_length=2),
-    one_or_more({"type": "integer", "minimum": 1, "maximum": _MOST_POINTS}, 2),
+    tables.one_or_more({"type": "integer", "minimum": 1, "maximum": _MOST_POINTS}, 2),
 ]
 
 
@@ -53,15 +39,15 @@ def _known(words: str) -> str:
     return " ".join(words.split())
 
 
-Step = Annotated[Words, AfterValidator(_known)]
+Step = Annotated[tables.Words, AfterValidator(_known)]
 
 
 def _unit_of_length(value: str) -> str:
-    conversion(value, "m", VALUE)
+    conversion(value, "m", tables.VALUE)
     return value
 
 
-class SurfaceTable(Table):
+class SurfaceTable(tables.Table):
     """[surface]: a periodic rough surface, generated as self-affine or read from a file."""
 
     shape: ClassVar[str] = "rough surface"
@@ -72,44 +58,48 @@ class SurfaceTable(Table):
     LINE: ClassVar[bool] = False
     FILES = ("file",)
 
-    hurst: Number | None = Field(None, gt=0.0, le=1.0, description="Hurst exponent of a generated surface.")
-    rms_height: Length | None = Field(None, description="Rms height; or give rms_slope.")
-    rms_slope: Number | None = Field(None, gt=0.0, description="Rms slope; or give rms_height.")
-    longest: Length | None = Field(None, description="Longest wavelength; default: the period.")
-    rolloff: Length | None = Field(
+    hurst: tables.Number | None = Field(None, gt=0.0, le=1.0, description="Hurst exponent of a generated surface.")
+    rms_height: tables.Length | None = Field(None, description="Rms height; or give rms_slope.")
+    rms_slope: tables.Number | None = Field(None, gt=0.0, description="Rms slope; or give rms_height.")
+    longest: tables.Length | None = Field(None, description="Longest wavelength; default: the period.")
+    rolloff: tables.Length | None = Field(
         None, description="Wavelength above which the spectrum is flat; default: the longest."
     )
-    shortest: Length | None = Field(None, description="Shortest wavelength; at least eight points of the grid.")
+    shortest: tables.Length | None = Field(None, description="Shortest wavelength; at least eight points of the grid.")
     points: Points = Field(
         default_factory=tuple,
         description="Number of points along both axes, or [along, across]; [512, 1] is a profile.",
     )
-    spacing: Length | None = Field(None, description="Spacing of points; for a file, only if it does not state it.")
-    period: Length | None = Field(None, description="Period along x, instead of spacing.")
-    seed: Seeds = Field(
+    spacing: tables.Length | None = Field(
+        None, description="Spacing of points; for a file, only if it does not state it."
+    )
+    period: tables.Length | None = Field(None, description="Period along x, instead of spacing.")
+    seed: tables.Seeds = Field(
         default_factory=tuple, description="Seed of the random numbers; each seed gives a different surface."
     )
-    aspect: Number = Field(1.0, gt=0.0, description="Ratio of correlation lengths along and across the lay.")
-    angle: Direction = Field(0.0, description="Direction of the lay, from x towards y.")
+    aspect: tables.Number = Field(1.0, gt=0.0, description="Ratio of correlation lengths along and across the lay.")
+    angle: tables.Direction = Field(0.0, description="Direction of the lay, from x towards y.")
     exact: bool = Field(True, description="Whether each surface has exactly the rms value, or only their mean.")
 
-    file: FileName | None = Field(None, description="Instead: file of a measured surface.")
-    unit: Annotated[Words, AfterValidator(_unit_of_length)] | None = Field(
+    file: tables.FileName | None = Field(None, description="Instead: file of a measured surface.")
+    unit: Annotated[tables.Words, AfterValidator(_unit_of_length)] | None = Field(
         None, description="Unit of heights in files that do not state it."
     )
-    channel: Words | Count | None = Field(None, description="Name or number of one of several maps in the file.")
-    missing: Number | None = Field(None, description="Number that marks a missing height, such as -9999.0.")
+    channel: tables.Words | tables.Count | None = Field(
+        None, description="Name or number of one of several maps in the file."
+    )
+    missing: tables.Number | None = Field(None, description="Number that marks a missing height, such as -9999.0.")
     lines: Literal["x", "y"] = Field("x", description="Axis along which the lines of a text matrix follow each other.")
-    prepare: Annotated[tuple[Step, ...], BeforeValidator(listed)] = Field(
+    prepare: Annotated[tuple[Step, ...], BeforeValidator(tables.listed)] = Field(
         (),
         max_length=_MOST_STEPS,
         description="Preparation steps in their order: 'fill', 'remove tilt', 'window', 'shortest 40 um' …",
     )
 
-    modulus: Modulus | None = Field(None, description="Young's modulus of an elastic surface; rigid without it.")
-    poisson_ratio: Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic surface.")
+    modulus: tables.Modulus | None = Field(None, description="Young's modulus of an elastic surface; rigid without it.")
+    poisson_ratio: tables.Number = Field(0.3, ge=0.0, le=0.5, description="Poisson's ratio of an elastic surface.")
 
-    def _problems(self) -> Iterator[Problem]:
+    def _problems(self) -> Iterator[tables.Problem]:
         if "poisson_ratio" in self.model_fields_set and self.modulus is None:
             yield "poisson_ratio", "is for an elastic surface, but modulus is not given; a rigid one has none"
         given = self.model_fields_set
@@ -129,7 +119,7 @@ class SurfaceTable(Table):
             if not missing:
                 yield from self._cannot_be_made()
 
-    def _missing(self) -> Iterator[Problem]:
+    def _missing(self) -> Iterator[tables.Problem]:
         """Yield the keys that are missing to generate a surface."""
         for name, example in (("shortest", '"40 um"'), ("points", "256"), ("seed", "1")):
             if name not in self.model_fields_set:
@@ -139,7 +129,7 @@ class SurfaceTable(Table):
             if both.count(None) != 1:
                 yield one, f"give {one} or {other}, {'one of them' if None in both else 'not both'}"
 
-    def _cannot_be_made(self) -> Iterator[Problem]:
+    def _cannot_be_made(self) -> Iterator[tables.Problem]:
         """Yield why no surface can be generated from the numbers."""
         nx, ny = self.shape_of_grid
         period = max(nx, ny) * self.step
