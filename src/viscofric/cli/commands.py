@@ -99,6 +99,11 @@ def as_command(
     return click.command(name=name, cls=Command, epilog=epilog, reader=reader)
 
 
+def quantity(typed: str, metavar: str, words: str, **how: Any) -> Decorator:
+    """Return a decorator that adds an option of a quantity: text with a unit."""
+    return click.option(typed, metavar=metavar, help=words, **how)
+
+
 def together(*options: Decorator, heading: str = "") -> Decorator:
     """Return a decorator that adds several options, in the order of the help, under a heading if one is given."""
 

@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import Decorator, together
+from viscofric.cli.commands import Decorator, quantity, together
 from viscofric.cli.contact_options import chosen_body, elastic_settings, inputs_of, option
+from viscofric.cli.files import refuse_to_overwrite
 from viscofric.cli.keys import key, keys_given, table_of
 from viscofric.cli.output import is_synthetic
 from viscofric.cli.rubber_options import chosen_layer, chosen_rubber
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from viscofric.heat.heating import Heating
 
 _BODIES = (
@@ -47,10 +50,10 @@ _STEADY = (
         help="Sliding velocity between both faces, below zero where the counterface is the faster one [default: the "
         "speed of the contact].",
     ),
-    click.option(
+    quantity(
         "--heating-track",
-        metavar="RADIUS,PASSES",
-        help="Earlier passes on a circle: '23 mm,500', or '23 mm,inf' for the final state.",
+        "RADIUS,PASSES",
+        "Earlier passes on a circle: '23 mm,500', or '23 mm,inf' for the final state.",
     ),
     key("heating.average", "--heating-average"),
     key("heating.branch", "--heating-branch"),
@@ -93,9 +96,14 @@ def _track(text: str) -> dict[str, Any]:
 
 
 class Contact:
-    """What the options of a command put in contact; `settings` are arguments of the solvers."""
+    """What the options of a command put in contact; `settings` are arguments of the solvers.
 
-    def __init__(self, parameters: dict[str, Any]) -> None:
+    Raises before anything is read where a file to be written, one of `targets`, is one of the inputs.
+    """
+
+    def __init__(self, parameters: dict[str, Any], *targets: Path | None) -> None:
+        self._inputs = inputs_of(parameters)
+        refuse_to_overwrite(self._inputs, *targets)
         self.rubber, self.body = chosen_rubber(parameters), chosen_body(parameters)
         self.layer, self.heating = chosen_layer(parameters), chosen_heating(parameters)
         self.elastic = elastic_settings(parameters)
@@ -103,7 +111,6 @@ class Contact:
             name: parameters[name] for name in ("coulomb", "accuracy", "backend") if name in parameters
         }
         self.settings = {"layer": self.layer, **self.elastic, **self._others}
-        self._inputs = inputs_of(parameters)
 
     @property
     def name(self) -> str:

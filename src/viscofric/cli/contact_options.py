@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
-from viscofric.cli.commands import CONTACT, Decorator, together
+from viscofric.cli.commands import CONTACT, Decorator, quantity, together
 from viscofric.cli.errors import placed_at, print_notes, typed_as
 from viscofric.cli.files import FILE
 from viscofric.cli.keys import key
@@ -20,22 +20,12 @@ if TYPE_CHECKING:
     from viscofric.roughness.topography import Topography
 
 _SMOOTH = (
-    click.option("--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'."),
-    click.option(
-        "--cylinder",
-        metavar="RADIUS",
-        help="Cylinder radius (axis across the motion; line contact, load per unit length).",
-    ),
-    click.option(
-        "--ellipsoid",
-        metavar="RX,RY",
-        help="Ellipsoid: radii of curvature along x (the default direction of motion) and y.",
-    ),
-    click.option("--cone", metavar="ANGLE", help="Cone: angle between flank and surface, e.g. '5 deg'."),
+    quantity("--ball", "RADIUS", "Ball radius, e.g. '9.525 mm'."),
+    quantity("--cylinder", "RADIUS", "Cylinder radius (axis across the motion; line contact, load per unit length)."),
+    quantity("--ellipsoid", "RX,RY", "Ellipsoid: radii of curvature along x (the default direction of motion) and y."),
+    quantity("--cone", "ANGLE", "Cone: angle between flank and surface, e.g. '5 deg'."),
 )
-_PUNCH = click.option(
-    "--punch", metavar="RADIUS", help="Radius of a flat circular punch with a sharp edge; not for sliding."
-)
+_PUNCH = quantity("--punch", "RADIUS", "Radius of a flat circular punch with a sharp edge; not for sliding.")
 _HEIGHTS = (
     click.option(
         "--height-map",
@@ -46,10 +36,10 @@ _HEIGHTS = (
     click.option(
         "--profile", type=FILE, help="As --height-map, one column of heights along the motion (line contact)."
     ),
-    click.option(
+    quantity(
         "--spacing",
-        metavar="LENGTH",
-        help="Spacing of the heights if the file does not state it: '5 um', or '5 um,10 um' along and across.",
+        "LENGTH",
+        "Spacing of the heights if the file does not state it: '5 um', or '5 um,10 um' along and across.",
     ),
     click.option(
         "--height-unit", metavar="UNIT", help="Unit of the heights if the file does not state it [default: m]."
@@ -199,16 +189,14 @@ def load_option(also: str = "", **how: Any) -> Decorator:
     return click.option("--load", metavar="F", help=words, **how)
 
 
-direction_option = click.option(
+direction_option = quantity(
     "--direction",
-    metavar="ANGLE|DX,DY",
+    "ANGLE|DX,DY",
+    "Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
     default="1,0",
-    help="Direction of motion in the indenter's axes: angle from x towards y, e.g. '30 deg', or a vector '0,1'.",
 )
 elastic_options = together(
-    click.option(
-        "--indenter-modulus", metavar="E", help="Modulus of an elastic indenter, e.g. '200 GPa' [default: rigid]."
-    ),
+    quantity("--indenter-modulus", "E", "Modulus of an elastic indenter, e.g. '200 GPa' [default: rigid]."),
     click.option(
         "--indenter-poisson-ratio",
         type=float,
@@ -221,11 +209,11 @@ accuracy_option = key("solver.accuracy", type=float, default=1e-3, help="Target 
 contact_options = together(
     direction_option,
     elastic_options,
-    click.option(
+    quantity(
         "--coulomb",
+        "μ",
+        "Coulomb friction coefficient, whose shear changes the pressure; negative for slip against the motion.",
         default=0.0,
-        metavar="μ",
-        help="Coulomb friction coefficient, whose shear changes the pressure; negative for slip against the motion.",
     ),
     accuracy_option,
     click.option("--backend", default="scipy", help="Array and FFT library, e.g. ducc0 or torch:cuda."),
@@ -234,10 +222,11 @@ contact_options = together(
 
 
 def inputs_of(parameters: dict[str, Any]) -> list[Path]:
-    """Return the files that rubber and indenter are read from."""
+    """Return the files that rubber, indenter and history are read from."""
     rubber = [] if parameters["material"] is None else [Path(parameters["material"])]
-    shapes = [parameters[name] for name in ("height_map", "profile", "surface") if parameters.get(name) is not None]
-    return [path for path in (*rubber, *parameters["dma"], *shapes) if path.is_file()]
+    names = ("height_map", "profile", "surface", "history")
+    others = [Path(parameters[name]) for name in names if parameters.get(name) is not None]
+    return [path for path in (*rubber, *parameters["dma"], *others) if path.is_file()]
 
 
 def elastic_settings(parameters: dict[str, Any]) -> dict[str, Any]:

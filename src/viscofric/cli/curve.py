@@ -10,15 +10,9 @@ import click
 
 from viscofric.cli.commands import CONDITIONS, SOME_CASES_FAILED, as_command, exit_if_beyond, together
 from viscofric.cli.contact import Contact, heating_options
-from viscofric.cli.contact_options import (
-    chosen_direction,
-    contact_options,
-    inputs_of,
-    load_option,
-    sliding_indenter_options,
-)
+from viscofric.cli.contact_options import chosen_direction, contact_options, load_option, sliding_indenter_options
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import CSV, refuse_to_overwrite
+from viscofric.cli.files import CSV
 from viscofric.cli.output import answer, drawing, json_record, outputs, write_files
 from viscofric.cli.rubber_options import NamedRubber, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
@@ -41,11 +35,7 @@ Example:
 @as_command("curve", epilog=_EXAMPLE)
 @rubber_options
 @sliding_indenter_options
-@together(
-    speed_options("Speed"),
-    load_option(required=True),
-    heading=CONDITIONS,
-)
+@together(speed_options("Speed"), load_option(required=True), heading=CONDITIONS)
 @contact_options
 @heating_options(steady=True)
 @click.option(
@@ -65,7 +55,6 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
 
     Quantities carry their unit. Each contact is solved to the requested accuracy.
     """
-    refuse_to_overwrite(inputs_of(parameters), out, picture)
     from viscofric.cli.progress import contact_bar
     from viscofric.errors import ViscofricError
     from viscofric.files import marked
@@ -74,7 +63,7 @@ def command(out: Path | None, picture: Path | None, as_json: bool, **parameters:
     from viscofric.notes import codes
 
     velocities = chosen_speeds(parameters)
-    contact = Contact(parameters)
+    contact = Contact(parameters, out, picture)
     direction = chosen_direction(parameters["direction"])
     samples = _samples(contact.rubber, parameters["samples"])
     failed = False

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import together
+from viscofric.cli.commands import quantity, together
 from viscofric.cli.contact_options import chosen_direction, load_option, option
 from viscofric.cli.files import Source
 from viscofric.cli.keys import key
@@ -32,20 +32,16 @@ history_options = together(
     ),
     column_options("'load=Fz (N)'", "history-", "With --history: ", table="history."),
     load_option(),
-    click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load."),
-    click.option("--pressure", metavar="P", help="Mean pressure on a rough surface, instead of --load."),
-    click.option(
-        "--load-time",
-        metavar="TIME",
-        help="Time in which load, indentation or pressure rise from zero [default: at once].",
-    ),
-    click.option("--dwell", metavar="TIME", help="Time at rest before the sliding, e.g. '0.1 s' [default: none]."),
-    click.option("--slide", metavar="LENGTH", help="Length of the path, e.g. '20 mm' [default: no sliding]."),
+    quantity("--indentation", "DEPTH", "Indentation (depth of the lowest point), instead of --load."),
+    quantity("--pressure", "P", "Mean pressure on a rough surface, instead of --load."),
+    quantity("--load-time", "TIME", "Time in which load, indentation or pressure rise from zero [default: at once]."),
+    quantity("--dwell", "TIME", "Time at rest before the sliding, e.g. '0.1 s' [default: none]."),
+    quantity("--slide", "LENGTH", "Length of the path, e.g. '20 mm' [default: no sliding]."),
     key("history.strokes", type=click.IntRange(1, 10_000)),
-    click.option("--speed", metavar="V", help="Sliding speed, e.g. '100 mm/s'."),
-    click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference]."),
+    quantity("--speed", "V", "Sliding speed, e.g. '100 mm/s'."),
+    quantity("--temperature", "T", "Temperature, e.g. '60 degC' [default: the material's reference]."),
     key("history.before"),
-    click.option("--times", metavar="T,T,…", help="Times to report, e.g. '1 ms, 10 ms' [default: all steps]."),
+    quantity("--times", "T,T,…", "Times to report, e.g. '1 ms, 10 ms' [default: all steps]."),
     click.option(
         "--points",
         type=click.IntRange(2, _MOST_POINTS),

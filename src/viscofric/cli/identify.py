@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import Decorator, as_command, together
+from viscofric.cli.commands import Decorator, as_command, quantity, together
 from viscofric.cli.contact_options import chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import JSON, WRITTEN, Source, plainly, refuse_to_overwrite
@@ -35,20 +35,14 @@ _SIZES = ("indentation", "area", "half_width")
 _OF_MODULUS, _OF_SIZE = ("frequency", "temperature"), ("speed", "temperature", "load")
 
 anchor_options = together(
-    click.option(
-        "--anchor-modulus", metavar="E", help="Known |E| at one frequency, e.g. '8 MPa'; fixes the magnitude."
-    ),
-    click.option("--anchor-frequency", metavar="F", help="Frequency of --anchor-modulus, e.g. '1 Hz' or '6.28 rad/s'."),
-    click.option(
-        "--anchor-indentation", metavar="DEPTH", help="Alternative: measured indentation of a moving contact."
-    ),
-    click.option(
-        "--anchor-area", metavar="AREA", help="Alternative: contact area of a moving contact, e.g. '12 mm^2'."
-    ),
-    click.option("--anchor-half-width", metavar="LENGTH", help="Alternative: contact half-width across the motion."),
-    click.option("--anchor-speed", metavar="V", help="Speed of the anchor contact, e.g. '100 mm/s'."),
-    click.option("--anchor-load", metavar="F", help="Load of the anchor contact, e.g. '25 N'."),
-    click.option("--anchor-temperature", metavar="T", help="Temperature of the anchor, e.g. '30 degC'."),
+    quantity("--anchor-modulus", "E", "Known |E| at one frequency, e.g. '8 MPa'; fixes the magnitude."),
+    quantity("--anchor-frequency", "F", "Frequency of --anchor-modulus, e.g. '1 Hz' or '6.28 rad/s'."),
+    quantity("--anchor-indentation", "DEPTH", "Alternative: measured indentation of a moving contact."),
+    quantity("--anchor-area", "AREA", "Alternative: contact area of a moving contact, e.g. '12 mm^2'."),
+    quantity("--anchor-half-width", "LENGTH", "Alternative: contact half-width across the motion."),
+    quantity("--anchor-speed", "V", "Speed of the anchor contact, e.g. '100 mm/s'."),
+    quantity("--anchor-load", "F", "Load of the anchor contact, e.g. '25 N'."),
+    quantity("--anchor-temperature", "T", "Temperature of the anchor, e.g. '30 degC'."),
     click.option(
         "--anchor-error", type=float, metavar="SHARE", help="Relative standard error of the anchor [default: 0.01]."
     ),
@@ -133,7 +127,7 @@ def identified_options(name: str, picture: str) -> Decorator:
     return together(
         click.option("--shift", metavar="FILE|NAME", help=words),
         shift_factor_options,
-        click.option("--reference", metavar="T", help="Reference temperature of the material, e.g. '30 degC'."),
+        quantity("--reference", "T", "Reference temperature of the material, e.g. '30 degC'."),
         click.option("--poisson-ratio", default=0.5, help="Poisson's ratio, 0 to 0.5."),
         click.option("--modes", default=30, help="Least number of retardation times."),
         click.option("--samples", default=200, help="Number of uncertainty samples for the limits."),
@@ -168,12 +162,10 @@ def chosen_shift(parameters: dict[str, Any]) -> dict[str, Any]:
 @as_command("identify", epilog=_EXAMPLE)
 @click.argument("sources", nargs=-1, required=True, type=Source())
 @sliding_indenter_options
-@click.option("--load", metavar="F", help="Normal load of all points, e.g. '25 N' [default: each point's own].")
+@quantity("--load", "F", "Normal load of all points, e.g. '25 N' [default: each point's own].")
 @anchor_options
 @click.option("--prior", metavar="FILE|NAME", help="Material known over a part of the frequencies.")
-@click.option(
-    "--prior-band", metavar="LOW,HIGH", help="Frequencies over which the prior is known, e.g. '0.1 Hz,10 Hz'."
-)
+@quantity("--prior-band", "LOW,HIGH", "Frequencies over which the prior is known, e.g. '0.1 Hz,10 Hz'.")
 @click.option("--prior-error", default=0.02, help="Relative standard error of the prior.")
 @_shared_options
 @click.option("--accuracy", default=1e-3, help="Target relative error of each solved contact.")

@@ -9,9 +9,9 @@ import click
 
 from viscofric.cli.commands import CONDITIONS, as_command, together
 from viscofric.cli.contact import Contact
-from viscofric.cli.contact_options import elastic_options, indenter_options, inputs_of
+from viscofric.cli.contact_options import elastic_options, indenter_options
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import DATA, refuse_to_overwrite, write_dataset
+from viscofric.cli.files import DATA, write_dataset
 from viscofric.cli.keys import key
 from viscofric.cli.output import answer, drawing, json_record, outputs, print_pairs, write_files
 from viscofric.cli.rubber_options import rubber_options
@@ -64,10 +64,9 @@ def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
 
     Quantities carry their unit. Several speeds or temperatures give the restitution curve.
     """
-    refuse_to_overwrite(inputs_of(parameters), out, picture)
     if parameters["layer"] is not None or parameters["sliding_base"]:
         raise click.UsageError("impacts are solved on a half-space only; leave out --layer and --sliding-base.")
-    contact = Contact(parameters)
+    contact = Contact(parameters, out, picture)
     speeds = chosen_speeds(parameters)
     reference = contact.rubber.material.reference
     kelvins = chosen_temperatures(parameters) or (None if reference is None else [reference])

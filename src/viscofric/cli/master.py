@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import as_command, quantity
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV, Source, plainly, refusal, refuse_to_overwrite
 from viscofric.cli.friction_sources import friction_curves, separation_options, separation_record, shifts
@@ -49,15 +49,9 @@ Example:
     help="Shift factors of the modulus for comparison: a table (CSV), a material file or a catalogue name.",
 )
 @shift_factor_options
-@click.option(
-    "--reference",
-    metavar="T",
-    help="Reference temperature (α = 1), e.g. '30 degC' [default: that of --shift, or found].",
-)
+@quantity("--reference", "T", "Reference temperature (α = 1), e.g. '30 degC' [default: that of --shift, or found].")
 @click.option("--law", type=click.Choice(_LAWS), default="best", help="Law to fit to the shift factors.")
-@click.option(
-    "--ball", metavar="RADIUS", help="Ball radius, e.g. '9.525 mm'; reduces friction at all loads to one load."
-)
+@quantity("--ball", "RADIUS", "Ball radius, e.g. '9.525 mm'; reduces friction at all loads to one load.")
 @click.option(
     "--level-error",
     default=0.0,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from viscofric.cli.commands import Decorator, together
+from viscofric.cli.commands import Decorator, quantity, together
 from viscofric.cli.contact_options import option
 from viscofric.cli.errors import print_doubtful_checks, print_notes, typed_as
 from viscofric.cli.files import DASH, Source, plainly
@@ -94,9 +94,9 @@ rubber_options = together(
         "--E0", "rubber_modulus", metavar="E", help="Alternative: standard linear solid; relaxed modulus, e.g. '1 MPa'."
     ),
     click.option("--E-inf", "glass_modulus", metavar="E", help="Glassy modulus, e.g. '10 MPa'."),
-    click.option("--tau", metavar="TIME", help="Retardation time, e.g. '1 ms'."),
+    quantity("--tau", "TIME", "Retardation time, e.g. '1 ms'."),
     key("material.poisson_ratio", metavar="ν", type=float, help="Poisson's ratio with --E0 or --dma [default: 0.5]."),
-    click.option("--layer", metavar="H", help="Thickness of a layer on a rigid base [default: half-space]."),
+    quantity("--layer", "H", "Thickness of a layer on a rigid base [default: half-space]."),
     click.option("--sliding-base", is_flag=True, help="The layer slides on its base instead of being bonded."),
     heading="Material",
 )

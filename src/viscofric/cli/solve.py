@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import CONDITIONS, CONTACT, as_command, exit_if_beyond, together
+from viscofric.cli.commands import CONDITIONS, CONTACT, as_command, exit_if_beyond, quantity, together
 from viscofric.cli.contact import Contact, heating_options
-from viscofric.cli.contact_options import chosen_direction, contact_options, indenter_options, inputs_of, load_option
+from viscofric.cli.contact_options import chosen_direction, contact_options, indenter_options, load_option
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import DATA, refuse_to_overwrite, write_fields
+from viscofric.cli.files import DATA, write_fields
 from viscofric.cli.output import answer, drawing, json_record, outputs, print_pairs, write_files
 from viscofric.cli.rubber_options import rubber_options
 from viscofric.cli.speed_options import list_of
@@ -38,15 +38,10 @@ Example:
 @rubber_options
 @indenter_options
 @together(
-    click.option(
-        "--speed",
-        required=True,
-        metavar="V",
-        help="Speed, e.g. '100 mm/s'; '0 m/s' and 'infinite' are the elastic limits.",
-    ),
+    quantity("--speed", "V", "Speed, e.g. '100 mm/s'; '0 m/s' and 'infinite' are the elastic limits.", required=True),
     load_option("; or --indentation"),
-    click.option("--indentation", metavar="DEPTH", help="Indentation (depth of the lowest point), instead of --load."),
-    click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference]."),
+    quantity("--indentation", "DEPTH", "Indentation (depth of the lowest point), instead of --load."),
+    quantity("--temperature", "T", "Temperature, e.g. '60 degC' [default: the material's reference]."),
     heading=CONDITIONS,
 )
 @contact_options
@@ -63,10 +58,8 @@ Example:
         metavar="CELLS",
         help="Number of cells along the window's longer edge, instead of --accuracy.",
     ),
-    click.option(
-        "--window",
-        metavar="REAR,FRONT,SIDE",
-        help="Window of the cells, from the axis: '3 mm,3 mm,3 mm' [default: automatic].",
+    quantity(
+        "--window", "REAR,FRONT,SIDE", "Window of the cells, from the axis: '3 mm,3 mm,3 mm' [default: automatic]."
     ),
     click.option(
         "--derivatives", is_flag=True, help="Also compute the derivatives of friction by speed, load and each mode."
@@ -84,12 +77,11 @@ def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
 
     Quantities carry their unit. Every result has its estimated discretisation error.
     """
-    refuse_to_overwrite(inputs_of(parameters), picture, out)
     if (parameters["load"] is None) == (parameters["indentation"] is None):
         raise click.UsageError("give either --load or --indentation, one of them.")
     from viscofric.contact.steady import solve_steady
 
-    contact = Contact(parameters)
+    contact = Contact(parameters, picture, out)
     material, indenter = contact.rubber.material, contact.body.indenter
     settings = {name: parameters[name] for name in _SETTINGS} | contact.settings | {"heating": contact.heating}
     settings["direction"] = chosen_direction(parameters["direction"])

@@ -9,28 +9,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli import INTERRUPTED, TERMINATED, Terminated
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import as_command, quantity
 from viscofric.cli.contact import Contact, heating_options
-from viscofric.cli.contact_options import (
-    direction_option,
-    elastic_options,
-    indenter_options,
-    inputs_of,
-    surface_options,
-)
+from viscofric.cli.contact_options import direction_option, elastic_options, indenter_options, surface_options
 from viscofric.cli.errors import print_notes
-from viscofric.cli.files import DATA, PICTURES, WRITTEN, Source, check_ending, refuse_to_overwrite, write_dataset
+from viscofric.cli.files import DATA, PICTURES, WRITTEN, Source, check_ending, write_dataset
 from viscofric.cli.history_options import chosen_history, chosen_times, history_options
-from viscofric.cli.output import (
-    answer,
-    drawing,
-    is_piped,
-    json_record,
-    outputs,
-    print_pairs,
-    print_written,
-    write_files,
-)
+from viscofric.cli.output import answer, drawing, json_record, outputs, print_pairs, write_files
 from viscofric.cli.rubber_options import rubber_options
 
 if TYPE_CHECKING:
@@ -61,11 +46,11 @@ Examples:
     "--accuracy", default=1e-3, help="Target relative error of load, indentation, friction and energy in time."
 )
 @click.option("--cycle", is_flag=True, help="Solve the periodic state of the history as one repeated period.")
-@click.option(
+@quantity(
     "--coulomb",
+    "μ",
+    "Coulomb friction coefficient, for the total friction; its shear is left out, a note has the effect.",
     default=0.0,
-    metavar="μ",
-    help="Coulomb friction coefficient, for the total friction; its shear is left out, a note has the effect.",
 )
 @click.option("--resume", type=Source(), metavar="FILE", help="Continue a run from its --save-state (.npz).")
 @click.option("--save-state", "state", type=WRITTEN, help="Write the last state (.npz) for --resume.")
@@ -76,18 +61,20 @@ Examples:
 )
 @click.option("--pressures", type=WRITTEN, help="Draw the pressure at --times, or at five times (PNG, SVG or PDF).")
 @click.option("--animation", type=WRITTEN, help="Draw the pressure over time beside the friction (GIF).")
-def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
+def command(as_json: bool, out: Path | None, state: Path | None, **parameters: Any) -> None:
     """Solve one contact over time: loading, dwell, start, sliding, return.
 
     Quantities carry their unit. Without --history, the load is applied at the start; after --dwell, the indenter
     slides. Interrupting (Ctrl-C) keeps the results up to the time reached.
     """
     drawings = {name: parameters.pop(name) for name in ("picture", "pressures", "animation")}
-    _check_targets(parameters, out, drawings)
-    _check_pairs(parameters)
+    for name, target in drawings.items():
+        check_ending(target, f"--{name}", (".gif",) if name == "animation" else PICTURES)
+    check_ending(state, "--save-state", (".npz",))
+    _check_pairs(parameters | {"state": state})
     from viscofric.motion.cycle_solution import CycleSolution
 
-    contact = Contact(parameters)
+    contact = Contact(parameters, out, state, *drawings.values())
     geometry = getattr(contact.body.indenter, "geometry", None)  # a rough surface has none
     line = geometry is not None and geometry.dimension == 1
     history = chosen_history(parameters, line, contact.rubber.material.reference)
@@ -103,9 +90,7 @@ def command(as_json: bool, out: Path | None, **parameters: Any) -> None:
         lambda: _print(contact.title, history, result, seconds),
         indent=None,
     )
-    _write(contact, result, parameters["times"] is not None, out, drawings)
-    if parameters["state"] is not None:
-        print_written(("state", parameters["state"]), err=is_piped())
+    _write(contact, result, parameters["times"] is not None, {"out": out, "state": state, **drawings})
     print_notes(run.warnings, word="Warning")
     if run.interrupted:
         word, status = ("Terminated", TERMINATED) if Terminated.received else ("Interrupted", INTERRUPTED)
@@ -129,13 +114,7 @@ def _check_pairs(parameters: dict[str, Any]) -> None:
 
 
 def _solved(
-    parameters: dict[str, Any],
-    contact: Contact,
-    history: History,
-    *,
-    film: bool,
-    drawn: bool,
-    quiet: bool,
+    parameters: dict[str, Any], contact: Contact, history: History, *, film: bool, drawn: bool, quiet: bool
 ) -> TransientSolution | CycleSolution:
     """Solve the history, or its periodic state."""
     from viscofric.cli.progress import time_bar
@@ -150,22 +129,10 @@ def _solved(
         with time_bar("Periodic state", quiet=quiet, shown=shown) as bar:
             return solve_cycle(material, body, history, times=times, progress=bar, **contact.settings)
     with time_bar("Contact over time", quiet=quiet) as bar:
-        run = solve_transient(
+        return solve_transient(
             material, body, history, times=times, progress=bar, resume=parameters["resume"],
             heating=contact.heating, **contact.settings,
         )  # fmt: skip
-    if parameters["state"] is not None:
-        run.save_state(parameters["state"])
-    return run
-
-
-def _check_targets(parameters: dict[str, Any], out: Path | None, drawings: dict[str, Path | None]) -> None:
-    for name, target in drawings.items():
-        check_ending(target, f"--{name}", (".gif",) if name == "animation" else PICTURES)
-    check_ending(parameters["state"], "--save-state", (".npz",))
-    history = parameters["history"]
-    inputs = [*inputs_of(parameters), *([] if history is None else [Path(history)])]
-    refuse_to_overwrite(inputs, out, parameters["state"], *drawings.values())
 
 
 def _record(
@@ -211,8 +178,7 @@ def _write(
     contact: Contact,
     result: TransientSolution | CycleSolution,
     at_times: bool,
-    out: Path | None,
-    drawings: dict[str, Path | None],
+    targets: dict[str, Path | None],
 ) -> None:
     """Write the requested files; pressures `at_times` are those at all times of the solution."""
     run: Any = getattr(result, "run", result)
@@ -226,8 +192,9 @@ def _write(
         save_animation(path, run, name, synthetic=synthetic)
 
     write_files(
-        ("data", out, lambda path: write_dataset(path, result.to_dataset())),
-        ("picture", drawings["picture"], whole),
-        ("picture", drawings["pressures"], strip),
-        ("animation", drawings["animation"], animate),
+        ("state", targets["state"], lambda path: run.save_state(path)),  # noqa: PLW0108 - not of all of them
+        ("data", targets["out"], lambda path: write_dataset(path, result.to_dataset())),
+        ("picture", targets["picture"], whole),
+        ("picture", targets["pressures"], strip),
+        ("animation", targets["animation"], animate),
     )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import as_command, quantity
 from viscofric.cli.contact_options import accuracy_option, chosen_indenter, sliding_indenter_options
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import WRITTEN, Source, refuse_to_overwrite
@@ -38,11 +38,9 @@ _PERCENT = click.FloatRange(0.0, 1000.0)
     help="Tensile strain amplitude of the frequency sweeps [default: small].",
 )
 @sliding_indenter_options
-@click.option(
-    "--load", metavar="F", help="Load of a contact, e.g. '25 N': scale --material to the strain of the contact."
-)
-@click.option("--speed", metavar="V", help="Its speed, e.g. '20 mm/s'.")
-@click.option("--contact-temperature", metavar="T", help="Its temperature, e.g. '60 degC'.")
+@quantity("--load", "F", "Load of a contact, e.g. '25 N': scale --material to the strain of the contact.")
+@quantity("--speed", "V", "Its speed, e.g. '20 mm/s'.")
+@quantity("--contact-temperature", "T", "Its temperature, e.g. '60 degC'.")
 @accuracy_option
 @outputs(
     "Write the scaled material (JSON), for run files and the other commands.",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import Decorator, as_command
+from viscofric.cli.commands import Decorator, as_command, quantity
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import WRITTEN, refuse_to_overwrite
 from viscofric.cli.output import outputs, print_json
@@ -55,7 +55,7 @@ def reading(unit: str, words: str) -> Decorator:
 @reading("modulus-unit", "Unit of moduli in MATERIAL, a card that does not state it, such as 'MPa'.")
 @reading("time-unit", "The same of times, such as 'ms'.")
 @reading("temperature-unit", "The same of temperatures, such as 'degC'.")
-@click.option("--density", metavar="RHO", help="Density, e.g. '1100 kg/m^3'; required for LS-DYNA.")
+@quantity("--density", "RHO", "Density, e.g. '1100 kg/m^3'; required for LS-DYNA.")
 @click.option(
     "--card-law",
     type=click.Choice(CARD_LAWS),

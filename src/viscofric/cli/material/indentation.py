@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import as_command, quantity
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, elastic_settings, indenter_options
 from viscofric.cli.errors import typed_as
 from viscofric.cli.files import CSV, WRITTEN, Source, check_ending, refuse_to_overwrite
@@ -32,11 +32,9 @@ Example:
     type=click.Choice(["load", "indentation"]),
     help="Prescribed quantity of load and indentation over time.",
 )
-@click.option(
-    "--depth", metavar="DEPTH", help="Mean depth; FILES are tables of frequency and stiffness, e.g. '100 um'."
-)
-@click.option("--amplitude", metavar="DEPTH", help="Amplitude of the depth about --depth, e.g. '2 um'.")
-@click.option("--mass", metavar="MASS", help="Mass of the indenter; FILES are tables of rebounds, e.g. '33 g'.")
+@quantity("--depth", "DEPTH", "Mean depth; FILES are tables of frequency and stiffness, e.g. '100 um'.")
+@quantity("--amplitude", "DEPTH", "Amplitude of the depth about --depth, e.g. '2 um'.")
+@quantity("--mass", "MASS", "Mass of the indenter; FILES are tables of rebounds, e.g. '33 g'.")
 @indenter_options
 @elastic_options
 @click.option(
@@ -47,15 +45,15 @@ Example:
     help="Temperature of a file without this column, e.g. '23 degC'; one for all files, or repeated for each.",
 )
 @column_options("'load=Fz (N)'")
-@click.option(
+@quantity(
     "--error",
-    metavar="SIZE",
-    help="Standard error of the response, e.g. '0.1 um' [default: found]; relative, e.g. 0.01, with --mass or --depth.",
+    "SIZE",
+    "Standard error of the response, e.g. '0.1 um' [default: found]; relative, e.g. 0.01, with --mass or --depth.",
 )
-@click.option("--start", metavar="TIME", help="Time of the first contact [default: that of the first row].")
+@quantity("--start", "TIME", "Time of the first contact [default: that of the first row].")
 @click.option("--radius-error", default=0.0, help="Standard error of the indenter's radius, relative.")
 @click.option("--load-error", default=0.0, help="Relative standard error of the load cell's gain.")
-@click.option("--zero-error", metavar="DEPTH", default="0 m", help="Standard error of the zero of the depth.")
+@quantity("--zero-error", "DEPTH", "Standard error of the zero of the depth.", default="0 m")
 @click.option("--csv", "table", type=WRITTEN, help="Write the moduli with their 95 % limits (CSV).")
 @identified_options("identified from indentation", "Draw the moduli with their limits, and every fit")
 def command(

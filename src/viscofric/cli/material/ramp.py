@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import as_command, quantity
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import FOLDER, Source
 from viscofric.cli.keys import key, table_of
@@ -24,7 +24,7 @@ from viscofric.notes import listed
 @click.option(
     "--direction", type=click.Choice(["heating", "cooling"]), help="Part of a file with both [default: heating]."
 )
-@click.option("--heating-rate", metavar="RATE", help="Heating rate, e.g. '3 K/min', for the note on thermal lag.")
+@quantity("--heating-rate", "RATE", "Heating rate, e.g. '3 K/min', for the note on thermal lag.")
 @key(
     "material.reference_temperature",
     "--reference",

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from viscofric.cli.commands import as_command
+from viscofric.cli.commands import as_command, quantity
 from viscofric.cli.files import DASH, DATA, to_be_written, write_dataset
 from viscofric.cli.output import outputs, print_json
 from viscofric.datasets import Dataset
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @as_command("show")
 @click.argument("rubber", metavar="MATERIAL")
-@click.option("--temperature", metavar="T", help="Temperature, e.g. '60 degC' [default: the material's reference].")
+@quantity("--temperature", "T", "Temperature, e.g. '60 degC' [default: the material's reference].")
 @click.option(
     "--frequency",
     metavar="F",
