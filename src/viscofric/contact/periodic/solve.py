@@ -402,7 +402,7 @@ def beyond_measured(
     measured = known.covers(_frequency(surface, solid))
     if measured.all():
         return ()
-    waves[measured] = 0.0
+    waves[np.broadcast_to(measured, waves.shape)] = 0.0
     share = abs(dissipation(transfer, surface.shape, surface.spacing, solid.toward, waves) / friction)
     said: tuple[Note, ...] = known.beyond_part(share)
     return said
@@ -438,8 +438,7 @@ def too_fast(
     part = np.exp(np.interp(np.log(np.maximum(frequency, lowest)), np.log(known), np.log(slowness(known))))
     magnitude = np.hypot(*wave_number(surface.shape, surface.spacing))
     magnitude[0, 0] = 1.0
-    part *= np.square(clock * frequency / magnitude)
-    weighted = waves * np.sqrt(part)
+    weighted = waves * (np.sqrt(part) * (clock * frequency) / magnitude)
     change = abs(dissipation(transfer, surface.shape, surface.spacing, solid.toward, weighted) / friction)
     if change <= LITTLE_INERTIA:
         return ()
@@ -447,9 +446,10 @@ def too_fast(
 
 
 def _frequency(surface: PeriodicSurface, solid: SlidingSolid) -> Array:
-    """Return |q·v| of each wave, rad/s."""
+    """Return |q·v| of each wave, rad/s; of a motion along an axis, one for all waves across it."""
     qx, qy = wave_number(surface.shape, surface.spacing)
-    return np.asarray(np.abs(solid.velocity[0] * qx + solid.velocity[1] * qy))
+    along = [part * q for part, q in zip(solid.velocity, (qx, qy), strict=True) if part]
+    return np.asarray(np.abs(sum(along))) if along else 0.0 * qx
 
 
 def _on_slopes(surface: PeriodicSurface, pressure: Array, toward: tuple[float, float]) -> tuple[float, float]:
