@@ -160,13 +160,12 @@ def insist_on_round_edges(indenter: Indenter) -> None:
         )
 
 
-def too_steep(slope: float) -> Note | None:
-    """Return a note where an indenter's steepest slope within the contact makes small strain doubtful."""
+def too_steep(slope: float, what: str = "indenter's steepest slope within the contact") -> Note | None:
+    """Return a note where a slope makes small strain doubtful."""
     if slope <= SMALL_STRAIN:
         return None
     return Note(
         "large-strain",
-        f"The indenter's surface rises by {slope:.2f} within the contact; above {SMALL_STRAIN} the assumption of small "
-        "strain is doubtful.",
+        f"The {what} is {slope:.2f}; above {SMALL_STRAIN} the assumption of small strain is doubtful.",
         values={"slope": float(slope), "limit": SMALL_STRAIN, "severity": float(slope)},
     )

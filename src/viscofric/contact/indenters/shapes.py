@@ -318,4 +318,4 @@ class FlatPunch(Indenter):
 
     def strain_warning(self, contact: Extent, indentation: float) -> Note | None:
         """Return a note where the assumption of small strain is doubtful."""
-        return too_steep(indentation / float(self.radius))
+        return too_steep(indentation / float(self.radius), "punch's indentation over its radius")

@@ -246,7 +246,7 @@ def _isothermal(material: Material, call: dict[str, Any], speed: float, kelvin: 
 
 def _large_strains(solution: PeriodicSolution, steepness: float, layer: Layer | None) -> tuple[Note, ...]:
     """Return notes on small strain; for many spots the rms slope counts rather than the steepest place."""
-    notes = [too_steep(steepness)]
+    notes = [too_steep(steepness, "rms slope of the surface within the contact")]
     if layer is not None:
         notes.append(layer.strain_warning(solution.indentation))
     return tuple(filter(None, notes))
