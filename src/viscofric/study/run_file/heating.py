@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import fields
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PlainValidator, WithJsonSchema
@@ -106,14 +107,5 @@ class HeatingTable(tables.Table):
 
     def heating(self, coulomb: float, slip: float | None) -> Heating:
         """Return the heating of one value of Coulomb friction and of slip."""
-        return Heating(
-            rubber=self.rubber,
-            counterface=self.counterface,
-            coulomb=coulomb,
-            slip=slip,
-            track_radius=self.track_radius,
-            passes=self.passes,
-            average=self.average,
-            branch=self.branch,
-            nominal_radius=self.nominal_radius,
-        )
+        given = {one.name: getattr(self, one.name) for one in fields(Heating)}
+        return Heating(**given | {"coulomb": coulomb, "slip": slip})

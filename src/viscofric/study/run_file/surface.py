@@ -21,6 +21,8 @@ _ROUNDING = 1e-9
 #: Keys of a surface read from a file, and of that and a generated one.
 _READ = ("unit", "channel", "missing", "lines", "prepare")
 _OF_BOTH = ("file", "spacing", "modulus", "poisson_ratio")
+#: Keys that are arguments of a `MadeSurface` as they stand.
+_AS_GIVEN = ("longest", "rms_height", "rms_slope", "aspect", "angle", "exact")
 
 _Points = Annotated[int, Field(strict=True, ge=1, le=_MOST_POINTS)]
 Points = Annotated[
@@ -190,11 +192,6 @@ class SurfaceTable(tables.Table):
             spacing=(self.step, self.step),
             seed=seed[0],
             shortest=self.shortest or math.nan,
-            longest=self.longest,
             rolloff=self._rolloff,
-            rms_height=self.rms_height,
-            rms_slope=self.rms_slope,
-            aspect=self.aspect,
-            angle=self.angle,
-            exact=self.exact,
+            **{name: getattr(self, name) for name in _AS_GIVEN},
         )

@@ -34,17 +34,10 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     form: CardFormat = options.format
     name = "rubber" if form == "json" else f"rubber_{form.replace('-', '_')}"
     path = context.downloads / f"{name}{CARDS[form]}"
+    chosen = options.model_dump(exclude={"format"}) | {"density": options.density or None}
+    if form == "json" or not isinstance(rubber.material.shift, ShiftFactors):
+        chosen["law"] = None
     with warned() as notes:
-        write_card(
-            rubber.material,
-            path,
-            form,
-            poisson_ratio=options.poisson_ratio,
-            density=options.density or None,
-            temperature_unit=options.temperature_unit,
-            modulus_unit=options.modulus_unit,
-            domain=options.domain,
-            law=options.law if form != "json" and isinstance(rubber.material.shift, ShiftFactors) else None,
-        )
+        write_card(rubber.material, path, form, **chosen)
     said = [note.words("page") for note in notes]
     return {"text": path.read_text(encoding="utf-8"), "download": offered(path, f"card for {form}"), "notes": said}
