@@ -170,19 +170,20 @@ def steps(problem: dict[str, Any], seeds: range, samples: int = 100) -> dict[str
     )
 
 
-#: Where bands are counted: distances from the lowest and from the highest measured frequency, decades.
-ZONES = ("below", "bottom", "inside", "top", "above")
+#: Where bands are counted: decades from the lowest and from the highest measured frequency, inward and outward.
+OUTWARD = (0.5, 1.0, 2.0, 3.0, 5.0)
+ZONES = (*(f"−{decades:g}" for decades in OUTWARD[::-1]), "bottom", "inside", "top", *(f"+{one:g}" for one in OUTWARD))
 
 
 def zones(lowest: float, highest: float) -> dict[str, Any]:
-    """Return angular frequencies up to a decade beyond both ends, in the half decade within, and between."""
+    """Return angular frequencies at distances beyond both ends, in the half decade within, and between."""
     low, high = np.log10([lowest, highest])
     places = (
-        np.linspace(low - 1.0, low, 5)[:-1],
+        *(np.array([low - decades]) for decades in OUTWARD[::-1]),
         np.linspace(low, low + 0.5, 4),
         np.linspace(low + 0.5, high - 0.5, 8)[1:-1],
         np.linspace(high - 0.5, high, 4),
-        np.linspace(high, high + 1.0, 5)[1:],
+        *(np.array([high + decades]) for decades in OUTWARD),
     )
     return {zone: 10.0**place for zone, place in zip(ZONES, places, strict=True)}
 
@@ -190,8 +191,8 @@ def zones(lowest: float, highest: float) -> dict[str, Any]:
 def edges(problem: dict[str, Any], seeds: range, friction: bool, samples: int = 100) -> list[dict[str, Any]]:
     """Count how often E', E'', tan δ and friction lie within their bands, by the distance from the measured ends.
 
-    One row of each quantity: shares, and median half-widths of the bands of its logarithm.  Friction is that of a ball
-    whose contact has the middle frequency of the zone.
+    One row of each quantity: shares, median half-widths of the bands of its logarithm, and how often a zone has the
+    estimate outside of its own band.  Friction is that of a ball whose contact has the middle frequency of the zone.
     """
     from cases import edge_case
 
@@ -199,58 +200,64 @@ def edges(problem: dict[str, Any], seeds: range, friction: bool, samples: int = 
 
     start = time.process_time()
     names = {"E'": [], "E''": [], "tan δ": []} | ({"μ": []} if friction else {})
-    found: dict[str, list[Any]] = names
+    counted: dict[str, list[Any]] = names
     for seed in seeds:
         planted, reference = edge_case(problem, seed)
         fit = vf.superpose(planted.sweeps, reference)
         spectrum = vf.fit_retardation_spectrum(fit.master_curve)
         drawn = sample_materials(fit, spectrum, samples=samples, seed=seed)
-        shares: dict[str, list[Any]] = {name: [] for name in found}
+        shares: dict[str, list[Any]] = {name: [] for name in counted}
         places = zones(*drawn.frequency_range)
         for omega in places.values():
             band, true = drawn.modulus_band(omega), planted.complex_modulus(omega, reference)
+            found = spectrum.complex_modulus(omega)
             tangent = drawn.band(lambda one, at=omega: _tangent(one.complex_modulus(at)))
-            shares["E'"].append(_held(true.real, band.lower.real, band.upper.real))
-            shares["E''"].append(_held(true.imag, band.lower.imag, band.upper.imag))
-            shares["tan δ"].append(_held(_tangent(true), tangent.lower, tangent.upper))
+            shares["E'"].append(_held(true.real, found.real, band.lower.real, band.upper.real))
+            shares["E''"].append(_held(true.imag, found.imag, band.lower.imag, band.upper.imag))
+            shares["tan δ"].append(_held(_tangent(true), _tangent(found), tangent.lower, tangent.upper))
         if friction:
             shares["μ"] = _friction_held(vf.Material(spectrum, fit.shift_factors), drawn, planted, reference, places)
         for name, rows in shares.items():
-            found[name].append(rows)
+            counted[name].append(rows)
     seconds = (time.process_time() - start) / max(len(seeds), 1)
     rows = []
-    for name, counted in found.items():
-        held = np.array(counted)  # (seeds, zones, 2)
+    for name, one in counted.items():
+        held = np.array(one)  # (seeds, zones, 3)
         row = {"tool": f"{problem['title']}: {name}", "seeds": len(seeds), "seconds": seconds}
         for place, zone in enumerate(ZONES):
             row[zone] = float(np.mean(held[:, place, 0]))
             row[f"{zone}_width"] = float(np.median(held[:, place, 1]))
+        row["strayed"] = float(np.mean(held[:, :, 2]))
         rows.append(row)
     return rows
 
 
-def _held(true: Any, lower: Any, upper: Any) -> tuple[float, float]:
-    """Return the share of values in their bands, and the mean half-width of the bands of their logarithms."""
-    return _inside(true, lower, upper), float(np.mean(0.5 * np.log(upper / np.maximum(lower, 1e-300))))
+def _held(true: Any, found: Any, lower: Any, upper: Any) -> tuple[float, float, float]:
+    """Return the share of values in bands, their mean half-width in decades, and the share of estimates outside."""
+    width = float(np.mean(0.5 * np.log10(upper / np.maximum(lower, 1e-300))))
+    return _inside(true, lower, upper), width, 1.0 - _inside(found, lower, upper)
 
 
 def _friction_held(
     material: vf.Material, drawn: Any, planted: Any, reference: float, places: dict[str, Any]
-) -> list[tuple[float, float]]:
+) -> list[tuple[float, float, float]]:
     """Return the same for friction of a ball at one speed for each zone, with a contact of the zone's frequency."""
     radius, load = 0.01, 1.0
     omega = np.array([np.sqrt(zone[0] * zone[-1]) for zone in places.values()])
     half = np.cbrt(0.75 * load * radius * 0.75 / material.complex_modulus(omega).real)  # of Hertz's contact, ν = 1/2
+    speeds = omega * half
+    order = np.argsort(speeds)
     problem: dict[str, Any] = {
-        "speeds": list(omega * half),
+        "speeds": list(speeds[order]),
         "temperatures": [reference],
         "load": load,
         "accuracy": 1e-2,
     }
     curves = vf.predict_friction(material, vf.Ball(radius), samples=drawn, **problem)
     true = vf.predict_friction(planted.material, vf.Ball(radius), **problem).viscoelastic
-    limits = zip(true, curves.viscoelastic_lower, curves.viscoelastic_upper, strict=True)
-    return [_held(*one) for one in limits]
+    limits = zip(true, curves.viscoelastic, curves.viscoelastic_lower, curves.viscoelastic_upper, strict=True)
+    held = [_held(*one) for one in limits]
+    return [held[place] for place in np.argsort(order)]
 
 
 def _response(spectrum: Any, kind: str, at: Any) -> Any:

@@ -75,8 +75,9 @@ STEPS = (
 EDGES = (
     ("CPU s", "seconds", ".2f"),
     ("seeds", "seeds", "d"),
-    *((zone, zone, ".1%") for zone in own.ZONES),
-    *((f"± {zone}", f"{zone}_width", ".1%") for zone in own.ZONES),
+    ("strayed", "strayed", ".2%"),
+    *((zone, zone, ".0%") for zone in own.ZONES),
+    *((f"± {zone}", f"{zone}_width", ".3f") for zone in own.ZONES),
 )
 ROUND_TRIP = (("CPU s", "seconds", ".4f"), ("modes", "modes", "d"), ("error", "error", ".1e"))
 

@@ -21,7 +21,7 @@ from viscofric.rheology.shifts.laws import VFT, ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.spectra import mode_fits
-from viscofric.rheology.spectra.fit_verdict import Curve
+from viscofric.rheology.spectra.fit_verdict import STIFFEST_GLASS, Curve
 from viscofric.rheology.spectra.misfit import (
     JointMisfit,
     Misfit,
@@ -32,7 +32,7 @@ from viscofric.rheology.spectra.misfit import (
     misfit_of,
     moduli_of,
 )
-from viscofric.rheology.spectra.mode_fits import lattice_between, nonnegative_modes
+from viscofric.rheology.spectra.mode_fits import lattice, lattice_between, nonnegative_modes
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.spectra.spectrum_fit import as_spectrum, fit_retardation_spectrum
 from viscofric.rheology.superposition.joint import JointSuperposition
@@ -136,12 +136,15 @@ def isotherm_of_points(curve: Curve, shifts: ShiftFactors) -> Integers:
 CONVERGED = 1e-3
 #: Times closer than this are the same time of the lattice.
 SAME_TIME = 1e-6  # of ln τ
-#: Modes are drawn to so many decades beyond the times that the measurement reaches …
-BEYOND = 2.0
-#: … up to an end of the spectrum, which lies so far out on average; …
-END = 1.5  # decades
-#: … ln C is a random walk that starts from the density at the end of the measurement, with these standard deviations:
-#: of its start, and of its change over a factor of e in time.
+#: One of so many samples is fitted as the measurement was, and ends where that fit does.
+ENDING = 3
+#: The modes of the others go on for so many decades beyond the times that the measurement reaches.
+BEYOND = 8.0
+#: ln C starts from the density at the end of the measurement and falls with a slope over |ln τ|, towards short and long
+#: times drawn from these limits: at 0 the loss compliance stays, at 1 it falls as beyond an end; …
+SLOPES = ((-0.5, 1.0), (0.0, 1.0))
+#: … with a random walk besides, of these standard deviations: of its start, and of its change over a factor of e in
+#: time.
 START, WALK = 0.5, 1.0
 #: Faster modes than those of the fit are fitted too, up to a limit that differs from sample to sample.  Slower
 #: ones are not: their compliance could grow without bound.
@@ -150,9 +153,10 @@ FURTHER = 1.5  # of ln τ
 TRIES = 10
 
 
-def beside(misfit: Misfit, given: NDArray[Any]) -> Misfit:
+def beside(misfit: Misfit, given: NDArray[Any], least_glass: float) -> Misfit:
     """Return the misfit of modes beside others, whose compliance (P,) is given; a start leaves these out."""
     found = copy.copy(misfit)
+    found.least_glass = least_glass
     found.residual = lambda compliance: misfit.residual(compliance + given)  # type: ignore[method-assign]
     found.jacobian = lambda compliance, change: misfit.jacobian(compliance + given, change)  # type: ignore[method-assign]
     return found
@@ -161,10 +165,10 @@ def beside(misfit: Misfit, given: NDArray[Any]) -> Misfit:
 class Refit:
     """Fits samples of a master curve as a fitted spectrum was; InputError if it was not fitted.
 
-    What the measurement leaves open differs from sample to sample: where the times of the lattice lie, and the modes
-    beyond the times that it reaches.  These are drawn from a wide distribution, on either side, and the others are
-    fitted beside them.  A draw is taken with the probability exp(−Δχ²/2), Δχ² the rise of the squared errors of the fit
-    in units of their variance; else the modes are drawn again.
+    A sample that `ends` does so where the fit to the measurement does.  In the others the times of the lattice lie
+    anywhere, and modes go on beyond those that the measurement reaches.  These are drawn from a wide distribution, on
+    either side, and the rest are fitted beside them.  A draw is taken with the probability exp(−Δχ²/2), Δχ² the rise of
+    the squared errors of the fit in units of their variance; else the modes are drawn again.
 
     `like` is the misfit of the curve; `lowest` and `highest` are the ends of the rates of all samples, 1/s.
     """
@@ -191,24 +195,27 @@ class Refit:
             # The slowest may lie between two times of the lattice.
             self.apart = np.array(spectrum.tau)[away > SAME_TIME]
 
-    def __call__(self, misfit: Misfit, noise: Array) -> Modes:
+    def __call__(self, misfit: Misfit, noise: Array, ends: bool = False) -> Modes:
         """Return the fitted modes, zeros included; `noise` (mN,) are the standard deviations of the logarithms."""
-        tau = self._times(misfit)
+        tau = self._times(misfit, ends)
         found = self._fitted(misfit, tau, None)
         low, high = misfit.ends if self.tau is None else (math.log(tau.min()), math.log(tau.max()))
         steps = self.spacing * np.arange(1.0, math.ceil(BEYOND * math.log(10.0) / self.spacing) + 1.0)
         further = np.exp(np.concatenate([low - steps, high + steps]))
         relaxed, least = misfit.relaxed(further), np.sum((misfit.misses(found) / noise) ** 2)
         losses = -(1.0 / self.spectrum.complex_modulus(misfit.rates[[-1, 0]])).imag
+        least_glass = min(misfit.least_glass, 1.0 / STIFFEST_GLASS)
         drawn = np.zeros((2, len(steps)))
         for side, loss in enumerate(losses):
-            for _ in range(TRIES):
-                trial = drawn.copy()
-                trial[side] = self._beyond(float(loss), steps)
-                if not np.any(trial[side]):
-                    break
-                rest = beside(misfit, relaxed @ trial.ravel())
-                other = self._fitted(rest, tau, found)
+            for _ in range(0 if ends else TRIES):
+                trial, start = drawn.copy(), found
+                trial[side] = self._beyond(SLOPES[side], float(loss), steps)
+                if side == 0:  # of the fitted glass, down to one drawn anew
+                    spent = found.glass - math.exp(self.random.uniform(math.log(least_glass), math.log(found.glass)))
+                    trial[side] = np.diff(np.minimum(np.cumsum(trial[side]), spent), prepend=0.0)
+                    start = replace(found, glass=found.glass - float(trial[side].sum()))
+                rest = beside(misfit, relaxed @ trial.ravel(), least_glass)
+                other = self._fitted(rest, tau, start)
                 rise = np.sum((rest.misses(other) / noise) ** 2) - least
                 if 2.0 * self.random.standard_exponential() > rise:
                     drawn, found = trial, other
@@ -223,10 +230,12 @@ class Refit:
         share = np.maximum(1.0 - np.abs(place[:, None] - np.arange(len(self.tau))), 0.0)
         return Modes(modes.glass, modes.C @ share, self.tau)
 
-    def _times(self, misfit: Misfit) -> Array:
-        """Return the retardation times to begin with: a lattice that lies anywhere, or those of sparse modes."""
+    def _times(self, misfit: Misfit, ends: bool) -> Array:
+        """Return the retardation times to begin with: a fit's lattice or one that lies anywhere, or sparse modes'."""
         if self.tau is None:
             return np.array(self.spectrum.tau)
+        if ends:
+            return np.append(lattice(misfit, math.exp(self.spacing)), self.apart)
         low, high = misfit.ends
         low -= FURTHER * self.random.uniform()
         through = high - self.spacing * self.random.uniform()
@@ -243,14 +252,13 @@ class Refit:
         begin = Modes(1.0 / self.spectrum.E_inf, np.exp(np.interp(np.log(tau), *known)), tau)
         return mode_fits.smooth_modes(misfit, tau, self.strength, start or begin)
 
-    def _beyond(self, loss: float, steps: Array) -> Array:
+    def _beyond(self, slopes: tuple[float, float], loss: float, steps: Array) -> Array:
         """Draw the compliances of modes at distances (n,) in ln τ beyond the measurement, where S'' is `loss`."""
         walk = START * self.random.standard_normal() + WALK * math.sqrt(self.spacing) * np.cumsum(
             self.random.standard_normal(len(steps))
         )
-        end = END * math.log(10.0) * self.random.standard_exponential()
         # S'' is π/2 of the density of C over ln τ, where that changes slowly.
-        return np.asarray(2.0 / math.pi * loss * self.spacing * np.exp(walk) * (steps < end))
+        return np.asarray(2.0 / math.pi * loss * self.spacing * np.exp(walk - self.random.uniform(*slopes) * steps))
 
 
 Fit: TypeAlias = Superposition | StepSuperposition
@@ -311,10 +319,14 @@ def sample_materials(
     shifts, which follow them; the size of offsets differs from sample to sample, by its own likelihood, for isotherms
     are few.
 
-    What the measurement leaves open is drawn too (`Refit`): where the lattice of retardation times lies, and the modes
-    beyond the times that it reaches, to two decades on either side.  These have a wide distribution about the density
-    of the spectrum at the end, and are drawn again where they contradict the sample.  Without them the bands would be
-    too narrow at the ends of the measured frequencies and beyond (`benchmarks/rheology`).
+    What the measurement leaves open is drawn too (`Refit`): where the lattice of retardation times lies, and how
+    the spectrum goes on beyond the times that the measurement reaches.  A third of the samples end there, as
+    `spectrum` does.  The others have modes over eight more decades on either side.  Their density begins with that of
+    the spectrum at the end and changes as a power of time, from one with which the loss falls as beyond an end to
+    one with which it stays, towards the glass also to one with which it rises; a random walk is added.  Towards the
+    glass they end when their compliance is used up, down to that of a glass drawn up to 20 GPa or 30 times the
+    largest measured modulus.  Modes that contradict the sample are drawn again.  So bands hold `spectrum` itself and
+    widen with the distance from what was measured (`benchmarks/rheology`).
 
     What the spectrum misses beyond noise, alike over neighbouring points, is not drawn either, for it has no
     distribution; `MaterialSamples.misfit` holds its size, by which the bands of E(ω) are widened.
@@ -373,7 +385,7 @@ def sample_materials(
     for number in range(samples):
         misfits, noise = zip(*(one(number) for one in drawn), strict=True)
         sample = JointMisfit(misfits, together.free) if isinstance(together, JointMisfit) else misfits[0]
-        fitted.append(refit(sample, np.concatenate(noise)))
+        fitted.append(refit(sample, np.concatenate(noise), number % ENDING == 0))
     materials = tuple(
         Material(as_spectrum(modes), shift, poisson_ratio, name, b)
         for modes, shift, b in zip(fitted, laws, verticals, strict=True)
