@@ -176,6 +176,33 @@ def test_a_rough_contact_notes_the_part_of_its_friction_at_frequencies_that_were
         assert 0.1 < fast < 0.9
 
 
+def test_predicted_friction_lies_within_its_band_at_any_speed(measured) -> None:
+    material, samples = measured
+    curves = predicted(material, samples, 303.15, [1e-20, 1e-9, 1e-3, 1.0, 1e3, 1e9, 1e20], accuracy=0.1)
+    assert curves.within_measured_frequencies.tolist() == [0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0]
+    assert np.all(curves.viscoelastic_lower > 0.0)
+    assert np.all(curves.viscoelastic_lower <= curves.viscoelastic)
+    assert np.all(curves.viscoelastic <= curves.viscoelastic_upper)
+
+
+def test_at_equal_stiffness_friction_of_a_sample_is_first_order_where_it_differs_by_factors() -> None:
+    """A glass 20 times as stiff, which the sample reaches by a mode of 1e-6 of the time of the contact."""
+    soft = vf.Material.standard_linear_solid("1 MPa", "5 MPa", "1 ms").modes_at()
+    law = vf.Arrhenius(activation_energy=1e5, reference="30 degC")
+    C = 0.95 / soft.E_inf
+    stiff = vf.RetardationSpectrum(soft.E0, 20.0 * soft.E_inf, [*soft.C, C], [*soft.tau, 1e-8])
+    one, other = (vf.Material(spectrum, shift=law) for spectrum in (soft, stiff))
+    # At 1e2 m/s both relax alike; then friction is 33 and 2000 times that of the solved material, and the second order
+    # of the loss tangent, 0.1 and 1, is left.
+    for speed, least, error in ((1e2, 1.0, 1e-4), (1e4, 30.0, 0.05), (1e5, 2000.0, 0.25)):
+        contact = {"speed": speed, "load": LOAD, "temperature": 303.15, "accuracy": 1e-2}
+        _, sensitivity = solve_with_sensitivity(one, BALL, **contact)
+        found = DrawnMaterials(drawn_from(other, other), one).friction(sensitivity, 303.15)[0]
+        exact = vf.solve_steady(other, BALL, **contact).friction_coefficient
+        assert exact > least * sensitivity.friction
+        assert found == pytest.approx(exact, rel=error)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("temperature", "speed"), CONDITIONS)
 def test_each_drawn_material_has_the_friction_of_its_own_contact(measured, temperature: float, speed: float) -> None:

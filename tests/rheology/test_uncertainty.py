@@ -464,6 +464,29 @@ def test_bands_beyond_what_was_measured_are_wide():
     assert held[3]
 
 
+@pytest.mark.parametrize("family", ["few modes", "fractional"])
+def test_the_estimate_lies_within_its_bands_and_they_widen_outward(family):
+    """At all frequencies: beyond 1e±40 rad/s nothing changes but the powers of ω that all spectra follow there."""
+    fit = vf.superpose(random_sweeps(7, family).sweeps, "20 degC")
+    spectrum = fit_retardation_spectrum(fit)
+    samples = sample_materials(fit, spectrum, samples=40)
+    low, high = samples.frequency_range
+    outward = 10.0 ** np.array([0.0, 0.25, 0.5, 0.75, *range(1, 13), 20.0, 40.0])
+    inside = np.geomspace(low, high, 20)
+    for omega in (inside, high * outward, low / outward):
+        band, modulus = samples.modulus_band(omega), spectrum.complex_modulus(omega)
+        tangent = samples.band(lambda one, at=omega: one.at().loss_tangent(at))
+        for part, limits in (
+            (modulus.real, (band.lower.real, band.upper.real)),
+            (modulus.imag, (band.lower.imag, band.upper.imag)),
+            (modulus.imag / modulus.real, (tangent.lower, tangent.upper)),
+        ):
+            assert np.all((limits[0] <= part) & (part <= limits[1]))
+        if omega is not inside:  # 40 samples know a width to a fifth
+            for width in half_width(band):
+                assert np.all(width > 0.8 * np.maximum.accumulate(width))
+
+
 @pytest.mark.parametrize("freedom", [6.0, 30.0])
 def test_scatter_of_an_isotherm_counts_by_its_points_beside_what_all_have_in_common(freedom):
     """Variances σ² ~ ν0 s0²/χ²(ν0), n points each: the best guess of one has the slope n/(ν0 + n) on its own mean.
