@@ -132,7 +132,7 @@ def solve_steady(
         indentation, which doubles the time; not with `coulomb`.
     heating : Heating, optional
         Thermal properties and Coulomb heat: the contact is solved at the temperature to which its own friction heats
-        it, in about ten solves.  Not with `coulomb`, `derivatives` or a layer.
+        it, at ten to twenty times the cost.  Not with `coulomb`, `derivatives` or a layer.
 
     Returns
     -------

@@ -90,7 +90,7 @@ def predict_friction(
         Called as ``progress(done, total)`` with the speeds known, before the first and after every contact.
     heating : Heating, optional
         Thermal properties and Coulomb heat: each contact is at the temperature to which its own friction heats it, in
-        its cold and its hot state where it has two.  Two to three times the cost; not with samples.  With an interface,
+        its cold and its hot state where it has two.  Three to four times the cost; no samples.  With an interface,
         its shear stress at that temperature makes the Coulomb heat, and the slip is that of the heating.
     exact : bool
         Whether to solve every contact by itself.  This is also done for a table of moduli, and with settings other
