@@ -21,7 +21,9 @@ from viscofric.units import to_si
 
 #: Weight of the second differences of the surface's density, which matter only where the lines leave it open.
 _SMOOTHNESS = 0.03
-#: Least density, as a share of the median.
+#: Fits, each relative to the one before: relative to lines that scatter, densities would be too low.
+_FITS = 5
+#: Least density, as a share of the median of those above zero.
 _FLOOR = 1e-2
 # Parts of a decade in which the end of a surface's waves is sought.
 _FINE = 100
@@ -80,7 +82,7 @@ class LineSpectrum(Density):
         Returns
         -------
         PowerSpectrum
-            C of C₁(q) = ∫ dp C(√(q² + p²)), by non-negative least squares.
+            C of C₁(q) = ∫ dp C(√(q² + p²)), by non-negative least squares, with √2 times the rms slope of the lines.
 
         Notes
         -----
@@ -106,12 +108,15 @@ def _isotropic_density(q: Array, line: Callable[[Array], Array]) -> Array:
         part = (np.log(k) - logs[segment]) / (logs[segment + 1] - logs[segment])
         np.add.at(rows[row], segment + np.zeros(k.shape, int), (1.0 - part) * values)
         np.add.at(rows[row], segment + 1 + np.zeros(k.shape, int), part * values)
-    rows /= line(q[:-1])[:, None]
     bends = _SMOOTHNESS * np.diff(np.eye(count), 2, axis=0)
-    right = np.concatenate([np.ones(count - 1), np.zeros(len(bends))])
-    factor = non_negative_fit(np.concatenate([rows, bends]), right)
-    factor = np.maximum(factor, _FLOOR * float(np.median(factor)))
-    return np.asarray(factor * line(q) / q)
+    wanted = expected = line(q[:-1])
+    for _ in range(_FITS):
+        right = np.concatenate([wanted / expected, np.zeros(len(bends))])
+        factor = non_negative_fit(np.concatenate([rows / expected[:, None], bends]), right)
+        expected = np.maximum(rows @ factor, _FLOOR * wanted)
+    density = np.maximum(factor, _FLOOR * float(np.median(factor[factor > 0.0]))) * line(q) / q
+    # The mean square slope of the lines is half that of the surface; that of the fit is lower still where they scatter.
+    return np.asarray(density * (2.0 / math.pi * integral(q, line(q), 2.0) / integral(q, density, 3.0)))
 
 
 def power_spectrum(topography: Topography, *, per_decade: int = 12) -> PowerSpectrum:
