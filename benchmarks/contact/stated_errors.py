@@ -171,7 +171,13 @@ def compare(case: Case) -> list[dict[str, Any]]:
     """Return, for each number, its error as stated, as found, and as the finer solution states its own."""
     if isinstance(case.body, tuple):
         solved = solve_both_periodic(case)
-        coarse, fine = ({"friction": (one.friction_coefficient, one.diagnostics.friction_error)} for one in solved)
+        coarse, fine = (
+            {
+                "friction": (one.friction_coefficient, one.friction_error),
+                "lateral friction": (one.lateral_friction_coefficient, one.diagnostics.lateral_friction_error),
+            }
+            for one in solved
+        )
     else:
         coarse, fine = (stated(one) for one in solve_both(case))
     rows = []

@@ -344,6 +344,32 @@ def test_friction_that_agrees_by_luck_is_not_trusted(
     assert missed <= coarse.diagnostics.friction_error <= 30.0 * missed
 
 
+@pytest.mark.parametrize(("seed", "pressure"), [(26, 0.003), (17, 0.01), (30, 0.01)])
+def test_friction_of_a_few_points_is_not_trusted(seed: int, pressure: float) -> None:
+    """Forces along and across the motion of 6 to 27 points that make unresolved spots, some 30 to 50 % off."""
+    z = self_affine(32, points_per_shortest_wave=3.0, seed=seed)
+    motion: dict[str, Any] = {"speed": 1.0, "pressure": pressure, "direction": (1.0, 2.0)}
+    coarse, fine = (
+        solve_periodic(broad(4, 1000.0), PeriodicSurface(refined(z, points), 1.0 / points), **motion)
+        for points in (32, 128)
+    )
+    missed = abs(coarse.friction_coefficient - fine.friction_coefficient)
+    assert 0.25 * coarse.friction_coefficient < missed <= coarse.friction_error
+    across = abs(coarse.lateral_friction_coefficient - fine.lateral_friction_coefficient)
+    assert across <= coarse.diagnostics.lateral_friction_error
+
+
+@pytest.mark.parametrize("rows", [48, 12])
+def test_errors_of_a_surface_laid_out_twice_are_the_same(rows: int) -> None:
+    """Half as many points hold all waves: both errors are found on them, to the tolerance of that grid."""
+    z = refined(self_affine(12, points_per_shortest_wave=6.0), 48)
+    z, motion = z[:, :: 48 // rows], {"speed": 1.0, "pressure": 0.05, "direction": (1.0, 2.0)}
+    spacing = 1.0 / 48, 1.0 / rows
+    once, twice = (solve_periodic(broad(), PeriodicSurface(np.tile(z, n), spacing), **motion) for n in (1, 2))
+    assert twice.friction_error == pytest.approx(once.friction_error, rel=0.02)
+    assert twice.diagnostics.lateral_friction_error == pytest.approx(once.diagnostics.lateral_friction_error, rel=0.02)
+
+
 def test_friction_in_full_contact_has_no_error_of_the_grid() -> None:
     solution = solve_periodic(broad(), rough(64), speed=0.3, pressure=300.0)
     assert solution.diagnostics.full_contact

@@ -71,6 +71,7 @@ LINE_NUMBERS: dict[str, Meaning] = NUMBERS | {
 #: The error estimate of each number that has one.
 ERRORS = {
     "friction_coefficient": "friction_error",
+    "lateral_friction_coefficient": "lateral_friction_error",
     "friction_force": "friction_force_error",
     "power": "power_error",
     "load": "load_error",

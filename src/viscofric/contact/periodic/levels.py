@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 logger = logging.getLogger(__name__)
 
 COARSEST = 32  # points along the longer edge of the coarsest grid, about
+_FEWEST = 4  # along an edge that has more
 COARSE_TOLERANCE = 2e-4  # a coarser surface differs anyway: more accuracy would be wasted
 
 _MOST_COARSE_PRODUCTS = 2000  # on a grid that only provides the start of the next one
@@ -50,10 +51,10 @@ class Work:
 
 
 def coarser_shapes(shape: tuple[int, int]) -> list[tuple[int, int]]:
-    """Return the shapes of the grids below one, finest first: half as many points along each longer edge."""
-    found = []
-    while max(shape) >= 2 * COARSEST:
-        shape = tuple(max(points // 2, min(points, COARSEST)) for points in shape)  # type: ignore[assignment]
+    """Return the shapes of the grids below one, finest first: half as many points; at least one, for errors."""
+    found: list[tuple[int, int]] = []
+    while max(shape) >= 2 * (_FEWEST if not found else COARSEST):
+        shape = tuple(max(points // 2, min(points, _FEWEST)) for points in shape)  # type: ignore[assignment]
         found.append(shape)
     return found
 

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 #: Numbers of a contact on a rough surface.
 NUMBERS: dict[str, Meaning] = SHARED_NUMBERS | {
+    "lateral_friction_error": ("1", "numerical error estimate of the lateral coefficient"),
     "mean_pressure": ("Pa", "mean pressure"),
     "mean_gap": ("m", "mean gap between the surfaces"),
     "indentation": ("m", "distance that the surface has moved since the first touch"),
@@ -53,7 +54,9 @@ class PeriodicDiagnostics(Shown):
         the energy and from the pressure on the slopes differ, which in full contact they do not; how far the one from
         the next coarser grid differs; and how far the two differ there, over 2^(3/2).  Where that grid does not have
         all the waves of the surface, a quarter of the load's share on points at the edges of the contact, times the
-        coefficient, is taken in its place.
+        coefficient of the whole force and, of n points in contact, 1 + (24/n)², is taken in its place.
+    lateral_friction_error : float
+        The same of the lateral coefficient, no less than that of the friction coefficient.
     full_contact : bool
         Whether everything is in contact; then the problem is linear and solved directly.
     products, ffts, single_ffts : int
@@ -70,6 +73,7 @@ class PeriodicDiagnostics(Shown):
     linear: float
     energy: float
     friction_error: float
+    lateral_friction_error: float
     full_contact: bool
     products: int
     ffts: int

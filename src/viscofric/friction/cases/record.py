@@ -69,7 +69,8 @@ _OF_INDENTER = (
 )
 # … and of one on a rough surface.
 _OF_SURFACE = (
-    *("pressure", "lateral_friction_coefficient", "contact_area_fraction", "corrected_area_fraction", "mean_gap"),
+    *("pressure", "lateral_friction_coefficient", "lateral_friction_error", "contact_area_fraction"),
+    *("corrected_area_fraction", "mean_gap"),
 )
 
 
@@ -231,6 +232,7 @@ def surface_record(solution: PeriodicSolution, temperature: float, with_fields: 
         pressure=solution.mean_pressure,
         friction_error=solution.diagnostics.friction_error,
         lateral_friction_coefficient=solution.lateral_friction_coefficient,
+        lateral_friction_error=solution.diagnostics.lateral_friction_error,
         contact_area_fraction=solution.contact_area_fraction,
         corrected_area_fraction=contact_statistics(solution).corrected_area_fraction,
         mean_gap=solution.mean_gap,

@@ -36,7 +36,7 @@ _COLUMNS = (
 )
 _NAMES = tuple(name for name, _ in _COLUMNS)
 _LOGARITHMIC = np.array([logarithmic for _, logarithmic in _COLUMNS])
-_PRESSURE = _NAMES.index("max_pressure")
+_PRESSURE, _LATERAL = _NAMES.index("max_pressure"), _NAMES.index("lateral_friction_coefficient")
 # Part of the discretisation error that differs between neighbouring contacts.
 _RIPPLE = 0.05
 
@@ -159,7 +159,8 @@ class SurfaceCase(Case):
         for row, number in enumerate(between.cases):
             case, values = cases[number], found.values[row].copy()
             values[_PRESSURE] *= places[number].b
-            added = float(np.hypot(found.from_nodes[row, FRICTION], found.between[row, FRICTION]))
+            every = np.hypot(found.from_nodes[row], found.between[row])
+            added, across = float(every[FRICTION]), float(every[_LATERAL])
             yield (
                 number,
                 Record.of(
@@ -169,6 +170,7 @@ class SurfaceCase(Case):
                     **dict(zip(_NAMES, values.tolist(), strict=True)),
                     # The discretisation error of the neighbours remains between them.
                     friction_error=max(end.friction_error for end in ends) + added,
+                    lateral_friction_error=max(end.lateral_friction_error for end in ends) + across,
                     interpolation_error=added,
                     warnings=doubtful[0].warnings if doubtful else (),
                     **shared,
