@@ -17,7 +17,7 @@ from viscofric.contact.reference.hertz import hertz_ball
 from viscofric.motion.march import march
 from viscofric.motion.normal import NormalMotion
 from viscofric.motion.solve import checked_problem
-from viscofric.notes import codes
+from viscofric.notes import codes, note_of
 
 BALL = vf.Ball("10 mm")
 E0, E_INF, TAU = 1e6, 1e7, 0.01
@@ -462,3 +462,22 @@ def test_relaxation_after_a_quick_indentation_is_solved_however_long_it_is(end: 
     run = vf.motion.solve_transient(rubber, vf.Ball("10 mm"), history, times=[end], accuracy=1e-3)
     relaxed = 4.0 / 3.0 * np.sqrt(0.01) * 1e-6 / 0.75 * rubber.spectrum.relaxation_modulus(end)
     assert run.load[0] == pytest.approx(relaxed, rel=1e-3)
+
+
+def test_waves_of_an_oscillation_are_those_of_a_disc_at_low_frequencies() -> None:
+    a, omega, nu = 5e-3, 2.0 * np.pi * 1000.0, 1.0 / 3.0
+    hard = vf.Material.standard_linear_solid(E0=1e6, E_inf=1.0001e6, tau=1.0, poisson_ratio=nu)
+    time = np.linspace(0.0, 2.0 * np.pi / omega, 65)
+
+    def notes(load):
+        history = vf.motion.History(time, load=load, before="at rest")
+        run = vf.motion.solve_transient(hard, vf.FlatPunch(a), history)
+        return [one for one in map(note_of, run.warnings) if one.code == "quasi-static"]
+
+    (note,) = notes(1.0 + 0.5 * np.sin(omega * time))
+    waves = np.sqrt(1e6 / (2.0 * (1.0 + nu) * note.values["density"]))
+    assert note.values["wave_speed"] == pytest.approx(waves, rel=1e-3)
+    # J. Lysmer's analogue (University of Michigan, 1965), fitted to higher frequencies too: damping 0.85 a/c of the
+    # stiffness; dF/dt is a third of ω of the largest load
+    assert note.values["change"] == pytest.approx(0.85 * omega / 3.0 * a / waves, rel=0.1)
+    assert not notes(1.0 + 0.01 * np.sin(omega * time))

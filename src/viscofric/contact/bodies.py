@@ -60,7 +60,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-    from viscofric.arrays import Array
+    from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.free.grids import Extent
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -293,6 +293,31 @@ def inertia_notes(
     waves, place = shear_wave_speed(float(moduli[worst]), poisson_ratio), int(moving[worst])
     note = inertia_note(float(speed[place]), waves, where=where[place])
     return (note,) if float(note.values["change"]) > LITTLE_INERTIA else ()
+
+
+def lag_of_waves(modulus: ComplexArray, poisson_ratio: float, density: float = _DENSITY) -> ComplexArray:
+    """Return b in u = (c − iωb) F, the displacement of a half-space at low frequencies, for its moduli E(ω), SI.
+
+    The waves that it radiates take b ∫(dF/dt)² dt (G. F. Miller, H. Pursey, Proc. R. Soc. A 233 (1955) 55: Lamb's
+    integral, here fitted to 1 %; of an elastic ball S. C. Hunter, J. Mech. Phys. Solids 5 (1957) 162).
+    """
+    d = 0.5 - poisson_ratio
+    shear = modulus / (2.0 * (1.0 + poisson_ratio))
+    return np.asarray((0.66 + d * (0.74 + 1.3 * d)) / (2.0 * math.pi) * math.sqrt(density) * shear**-1.5)
+
+
+def waves_notes(change: float, modulus: float, poisson_ratio: float, time: float, said: str) -> tuple[Note, ...]:
+    """Return a note if the waves that a contact sends into a half-space in a time change what is said by much, SI."""
+    if change <= LITTLE_INERTIA:
+        return ()
+    waves = shear_wave_speed(modulus, poisson_ratio)
+    said = (
+        f"Inertia of the rubber is left out. With {_DENSITY:.4g} kg/m³ shear waves run at {plain(waves, 2)} m/s, and "
+        f"where it is thicker than {plain(500.0 * waves * time, 2)} mm, {said} (good if ≤ {100.0 * LITTLE_INERTIA:.0f} "
+        "%); in slower motion it does not matter."
+    )
+    values = {"wave_speed": waves, "change": change, "density": _DENSITY, "severity": change}
+    return (Note("quasi-static", said, values=values),)
 
 
 def contact_notes(

@@ -13,7 +13,14 @@ import numpy as np
 import scipy.fft
 
 from viscofric.arguments import insist_on, insist_on_function
-from viscofric.contact.bodies import Layer, checked_coulomb, indenter_compliance, inertia_notes
+from viscofric.contact.bodies import (
+    Layer,
+    checked_coulomb,
+    indenter_compliance,
+    inertia_notes,
+    lag_of_waves,
+    waves_notes,
+)
 from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic.solve import beyond_measured, too_fast
@@ -29,7 +36,7 @@ from viscofric.motion.solution import TransientErrors, TransientSolution
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, number, to_si_array
+from viscofric.units import Quantity, number, plain, to_si_array
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -420,15 +427,16 @@ def _notes_on_speed(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note,
     spans = list(pairwise([schedule.start, *times]))
     velocities = [schedule.fastest(*ends) for ends in spans]
     if not np.any(velocities):
-        if known is None:
-            return ()
-        since = np.array([schedule.since_jump(one.instant) for one in moments])
         changes = [schedule.quickest_change(*ends) for ends in spans]
+        waves = _waves_of_loading(problem, moments, changes)
+        if known is None:
+            return waves
+        since = np.array([schedule.since_jump(one.instant) for one in moments])
         load = np.abs([one.seen.load for one in moments])
         with np.errstate(divide="ignore"):
             rates = np.maximum(changes, 1.0 / since)
         # The first touch is always too quick, and of no consequence.
-        return known.beyond(rates[load >= _LITTLE * load.max()], "rate of loading or 1/t after a jump")
+        return (*known.beyond(rates[load >= _LITTLE * load.max()], "rate of loading or 1/t after a jump"), *waves)
     real = [schedule.fastest(*ends, by_clock=False) for ends in spans]
     if isinstance(problem.indenter, PeriodicSurface):
         return _speed_on_waves(problem, problem.indenter, moments, velocities, real)
@@ -442,6 +450,19 @@ def _notes_on_speed(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note,
     where = [f"at {time:.3g} s" for time in times]
     real_speed = np.hypot(*np.transpose(real))
     return (*beyond, *inertia_notes(real_speed, rate, schedule.spectrum, problem.material.poisson_ratio, where))
+
+
+def _waves_of_loading(problem: Problem, moments: list[Moment[Any]], changes: list[float]) -> tuple[Note, ...]:
+    """Return a note if the waves of a half-space change load or depth by much where these change fastest."""
+    load, depth = (max(getattr(one.seen, name) for one in moments) for name in ("load", "depth"))
+    place = int(np.argmax(changes))
+    if problem.kind != "point" or problem.layer is not None or not (changes[place] > 0.0 and depth > 0.0):
+        return ()
+    rate, clock = changes[place], problem.schedule.rates(moments[place].instant.time, moments[place].instant.time)[0]
+    modulus, nu = float(np.abs(problem.schedule.spectrum.complex_modulus(rate))), problem.material.poisson_ratio
+    change = float(lag_of_waves(np.array(modulus), nu)) * load / depth * rate * clock
+    said = f"waves change load or depth by about {plain(100.0 * change, 2)} % at {moments[place].instant.time:.3g} s"
+    return waves_notes(change, modulus, nu, math.pi / (rate * clock), said)
 
 
 def _speed_on_waves(

@@ -220,6 +220,10 @@ def test_restitution_alone_needs_an_anchor() -> None:
     )
     assert abs(found.material.complex_modulus(100.0)) == pytest.approx(E, rel=0.03)
     assert [one.quantity for one in found.records] == ["restitution", "magnitude_modulus"]
+    (waves,) = (note for note in found.notes if note.code == "quasi-static")
+    hit = vf.motion.solve_impact(RUBBER, BALL, mass=0.033, speed=1.6, temperature=KELVIN)
+    same = next(note for note in hit.warnings if note.code == "quasi-static").values["change"]
+    assert waves.values["change"] == pytest.approx(same, rel=0.1)  # moduli to 3 %, at one frequency
 
 
 def test_almost_a_single_retardation_time_has_a_note() -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.friction.identification.conclusions import FOLLOWING
 from viscofric.friction.identification.drawn_materials import Findings, Posterior, limits
+from viscofric.friction.identification.indentation.impacts import Impacts
 from viscofric.friction.identification.indentation.problem import IndentationProblem
 from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
 from viscofric.friction.identification.indentation.setting_up import LEAST_POINTS, Usable
@@ -18,7 +19,9 @@ from viscofric.friction.identification.iteration import Weighed, freedom_of, mos
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import ROUGHNESS
 from viscofric.friction.identification.result import IdentifiedBand, with_origin
-from viscofric.notes import Note
+from viscofric.motion.impact import LOOSEST, solve_impact
+from viscofric.notes import Note, counted, note_of
+from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 #: Bands of moduli begin at this factor below the inverse of the longest time; they end at that of the shortest one.
@@ -62,7 +65,8 @@ def conclude(
         notes=(*usable.notes, *_doubts(fitted, error_scale), *_shared(best, residuals, error_scale), *narrow),
     )
     sources = dict.fromkeys(source for one in fitted if (source := getattr(one.record, "source", "")))
-    return replace(found, material=with_origin(found, ", ".join(sources)))
+    notes = (*found.notes, *_fastest(found.material, problem))
+    return replace(found, material=with_origin(found, ", ".join(sources)), notes=notes)
 
 
 def _ends(problem: IndentationProblem, place: Array) -> tuple[float, float, float]:
@@ -129,6 +133,19 @@ def _doubts(records: tuple[FittedRecord, ...], error_scale: float) -> Iterator[N
                 "the test, and whether the material is linear.",
                 values={"record": number, "rms": size},
             )
+
+
+def _fastest(material: Material, problem: IndentationProblem) -> tuple[Note, ...]:
+    """Return notes on the fastest impact of each record with the material found: on large strain and waves."""
+    found = []
+    for one in (one for one in problem.contacts if isinstance(one, Impacts)):
+        measured = one.record
+        hit = solve_impact(
+            material, one.indenter, mass=measured.mass, speed=float(measured.speed.max()), gravity=measured.gravity,
+            temperature=measured.temperature, accuracy=LOOSEST,
+        )  # fmt: skip
+        found.append([note for note in map(note_of, hit.warnings) if note.code in ("large-strain", "quasi-static")])
+    return tuple(note.at("Fastest impacts, with the material found") for note in counted(found, of="records"))
 
 
 def _shared(best: Weighed[IndentationProblem], residuals: Array, error_scale: float) -> tuple[Note, ...]:
