@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from viscofric.data import IsothermalSweeps, MasterCurve
+from viscofric.data import MasterCurve
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
 from viscofric.files import says_synthetic
 from viscofric.notes import Note, note_of
@@ -56,10 +56,8 @@ def called_synthetic(rubber: Rubber) -> Rubber:
 
 
 def _at_small_strain(table: MaterialTable, liquids: bool) -> Rubber:
-    if table.dma is not None:
-        return _from_both(table, liquids) if table.steps else _from_sweeps(table, liquids)
-    if table.steps:
-        return _from_step_tests(table)
+    if table.dma is not None or table.steps:
+        return _from_tests(table, liquids)
     if table.ramps is not None:
         return _from_ramps(table, liquids)
     return _predefined(table) if table.master_curve is None else _from_master_curve(table, table.master_curve, liquids)
@@ -101,24 +99,33 @@ def _material(
     return Material(spectrum, shift=shift, poisson_ratio=table.poisson_ratio, name=table.name, vertical_shift=vertical)
 
 
-def _from_step_tests(table: MaterialTable) -> Rubber:
-    """Superpose creep or relaxation tests, and fit their spectrum."""
-    tests = read_steps_of(table)
-    if len(tests.tests) == 1:
+def _from_tests(table: MaterialTable, liquids: bool) -> Rubber:
+    """Superpose sweeps, creep or relaxation tests, or both together, and fit one spectrum."""
+    sweeps = None if table.dma is None else read_dma(*table.dma, **how_read(table))
+    tests = read_steps_of(table) if table.steps else None
+    if sweeps is None and tests is not None and len(tests.tests) == 1:
         return _from_one_test(table, tests)
-    with _errors_of(table.steps):
-        fit = superpose(tests, _reference(table), **_alone(table))
-        shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
-        spectrum, _ = _spectrum(table, fit, _off(shift, fit.shift_factors), liquids=False)
+    given: list[Any] = [one for one in (sweeps, tests) if one is not None]
+    with _errors_of((*(table.dma or ()), *table.steps)):
+        whole: Any = superpose(given if len(given) > 1 else given[0], _reference(table), **_how(table))
+        shift, laws, used = _law_or_table(table.shift, whole.shift_factors)
+        liquids = liquids and sweeps is not None
+        spectrum, flowing = _spectrum(table, whole, _off(shift, whole.shift_factors), liquids)
+    joint = whole if isinstance(whole, JointSuperposition) else None
+    parts: Any = (whole,) if joint is None else joint.parts
+    step_fit = next((one for one in parts if isinstance(one, StepSuperposition)), None)
     return Rubber(
-        _material(table, spectrum, shift, fit.vertical_shift),
+        _material(table, spectrum, shift, whole.vertical_shift),
+        sweeps=sweeps,
+        fit=next((one for one in parts if isinstance(one, Superposition)), None),
         step_tests=tests,
-        step_fit=fit,
-        step_curve=fit.master_curve,
+        step_fit=step_fit,
+        step_curve=None if step_fit is None else step_fit.master_curve,
+        joint=joint,
         laws=laws,
         shift_used=used,
-        shift_origin=_origin(table),
-        notes=(*fit.notes, *_undecided(laws, table.shift)),
+        shift_origin="given" if table.shift_factors else "held" if table.fixed_shift_factors else "found",
+        notes=(*whole.notes, *flowing, *_undecided(laws, table.shift)),
     )
 
 
@@ -162,57 +169,6 @@ def read_steps_of(table: MaterialTable) -> StepTests:
         temperature=table.temperature,
         response_unit=table.modulus_unit,
         **_columns(table),
-    )
-
-
-def _from_both(table: MaterialTable, liquids: bool) -> Rubber:
-    """Superpose sweeps and step tests together, and fit one spectrum to both."""
-    sweeps, tests = _read_sweeps(table), read_steps_of(table)
-    with _errors_of((*(table.dma or ()), *table.steps)):
-        joint = superpose(
-            [sweeps, tests], _reference(table), by=table.shift_by, weights=table.shift_weights, **_how(table)
-        )
-        shift, laws, used = _law_or_table(table.shift, joint.shift_factors)
-    fit, step_fit = joint.parts
-    assert isinstance(fit, Superposition)
-    assert isinstance(step_fit, StepSuperposition)
-    spectrum, flowing = _spectrum(table, joint, _off(shift, joint.shift_factors), liquids)
-    return Rubber(
-        _material(table, spectrum, shift, joint.vertical_shift),
-        sweeps=sweeps,
-        fit=fit,
-        step_tests=tests,
-        step_fit=step_fit,
-        step_curve=step_fit.master_curve,
-        joint=joint,
-        laws=laws,
-        shift_used=used,
-        notes=(*joint.notes, *flowing, *_undecided(laws, table.shift)),
-    )
-
-
-def _origin(table: MaterialTable) -> str:
-    return "given" if table.shift_factors else "held" if table.fixed_shift_factors else "found"
-
-
-def _read_sweeps(table: MaterialTable) -> IsothermalSweeps:
-    return read_dma(*(table.dma or ()), **how_read(table))
-
-
-def _from_sweeps(table: MaterialTable, liquids: bool) -> Rubber:
-    sweeps = _read_sweeps(table)
-    with _errors_of(table.dma or ()):
-        fit = superpose(sweeps, _reference(table), by=table.shift_by, weights=table.shift_weights, **_alone(table))
-        shift, laws, used = _law_or_table(table.shift, fit.shift_factors)
-    spectrum, flowing = _spectrum(table, fit, _off(shift, fit.shift_factors), liquids)
-    return Rubber(
-        _material(table, spectrum, shift, fit.vertical_shift),
-        sweeps=sweeps,
-        fit=fit,
-        laws=laws,
-        shift_used=used,
-        shift_origin=_origin(table),
-        notes=(*fit.notes, *flowing, *_undecided(laws, table.shift)),
     )
 
 
@@ -304,12 +260,6 @@ def _off(law: ShiftLaw | None, factors: ShiftFactors) -> tuple[Note, ...]:
     return (Note("law-misfit", f"{said}(good if ≤ {misfit['misfit_limit']:g}).", values={"rms": misfit["rms"]}),)
 
 
-def _alone(table: MaterialTable) -> dict[str, Any]:
-    """Return how tests of one kind are superposed."""
-    given = None if table.shift_factors is None else _given_factors(table, table.shift_factors)
-    return _how(table) | {"shift": given, "fixed": table.fixed_shift_factors or None}
-
-
 def _reference(table: MaterialTable) -> float:
     if table.reference_temperature is None:
         raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
@@ -317,8 +267,15 @@ def _reference(table: MaterialTable) -> float:
 
 
 def _how(table: MaterialTable) -> dict[str, Any]:
-    vertical = None if table.vertical_shift == "none" else table.vertical_shift
-    return {"poisson_ratio": table.poisson_ratio, "vertical": vertical}
+    """Return how tests are superposed."""
+    return {
+        "poisson_ratio": table.poisson_ratio,
+        "vertical": None if table.vertical_shift == "none" else table.vertical_shift,
+        "by": table.shift_by,
+        "weights": table.shift_weights,
+        "shift": None if table.shift_factors is None else _given_factors(table, table.shift_factors),
+        "fixed": table.fixed_shift_factors or None,
+    }
 
 
 def _given_factors(table: MaterialTable, path: Path, reference: float | None = None) -> ShiftFactors:
