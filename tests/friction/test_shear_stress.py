@@ -125,13 +125,30 @@ def test_a_level_of_one_temperature_is_noted_with_its_size():
     assert note.values["level"] == pytest.approx(np.log10(1.08), rel=0.5)
 
 
-def test_points_near_zero_and_missing_slip_are_noted():
-    weak = measured()
-    error = weak.coulomb_error.copy()
-    error[:3] = weak.coulomb[:3]
-    found = vf.friction.shear_stress(replace(weak, coulomb_error=error, slip=None), CONTACTS, shift=TRUE.shift)
+def test_points_without_slip_are_left_out_and_missing_slip_is_noted():
+    rolling = measured()
+    slip = np.where(np.arange(N) < 3, 0.0, rolling.slip)
+    found = vf.friction.shear_stress(replace(rolling, slip=slip), CONTACTS, shift=TRUE.shift)
     assert len(found) == N - 3
-    assert {note.code for note in found.notes} == {"left-out", "slip-assumed"}
+    assert {note.code for note in found.notes} == {"left-out"}
+    found = vf.friction.shear_stress(replace(rolling, slip=None), CONTACTS, shift=TRUE.shift)
+    assert {note.code for note in found.notes} == {"slip-assumed"}
+
+
+def test_stress_near_zero_is_fitted_as_it_is():
+    """A constant stress known absolutely, with errors of 40 % at every point: the weighted mean, and its error."""
+    error = 0.4 * 3e5 / CONTACTS.mean_pressure
+    true = 3e5 / CONTACTS.mean_pressure
+    known = replace(measured(), coulomb=true + error * np.random.default_rng(2).standard_normal(N), coulomb_error=error)
+    stress = vf.friction.shear_stress(replace(known, coulomb_freedom=None), CONTACTS, shift=TRUE.shift)
+    assert len(stress) == N
+    assert np.count_nonzero(stress.shear_stress < 4.0 * stress.error) > N // 2
+    law = stress.law("constant")
+    weight = 1.0 / stress.error**2
+    expected, spread = np.average(stress.shear_stress, weights=weight), 1.0 / np.sqrt(np.sum(weight))
+    # Points are fitted by their logarithm from ten standard errors on: none is. Errors are those of their temperature.
+    assert law.stress == pytest.approx(expected, abs=0.1 * spread)
+    assert law.standard_errors[0] == pytest.approx(spread, rel=0.1)
 
 
 def test_stress_of_one_level_has_no_shift_factors_and_is_constant():

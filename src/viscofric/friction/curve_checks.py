@@ -58,6 +58,8 @@ ROUNDS, SETTLED = 10, 0.1
 FEWEST_ERRORS = 6
 #: Within this many standard errors of zero the logarithm of friction is useless: the coefficient itself is then fitted.
 CLEAR_OF_ZERO = 4.0
+#: … and where some is, a model of it is fitted to ln μ from so many standard errors on, else to μ.
+FAR_ABOVE_ZERO = 10.0
 #: Code of the note on errors of measured friction that the speeds of a temperature share.
 SHARED_BY_SPEEDS = "errors-shared-by-speeds"
 
@@ -101,20 +103,26 @@ class Decades:
         power = 10.0**decades
         return np.asarray(power - self.zero**2 / power)
 
+    def near(self, values: Array, error: Array) -> Mask:
+        """Return which values (n,) are so near zero that logarithms weighed by the values would be too high."""
+        # By 1.5 times the square of the relative error, which many points would show.
+        return np.asarray((values <= FAR_ABOVE_ZERO * error) & (self.zero > 0.0))
+
     def unit(self, values: Array) -> Array:
         """Return what errors of values (n,) are relative to: their change with the natural logarithm on the scale."""
         return np.hypot(values, 2.0 * self.zero)
 
 
 def friction_unit(curves: FrictionCurves) -> Array:
-    """Return what errors of friction are relative to, (n,): friction itself, or the largest.
+    """Return what errors of friction are relative to where they are alike, (n,): friction itself, or the largest.
 
     It is the largest if some is near zero and the errors are then more alike, as those of a force cell are.
     """
     friction, error = np.maximum(np.abs(curves.viscoelastic), np.finfo(float).tiny), curves.viscoelastic_error
     known = np.isfinite(error) & (error > 0.0)
-    if clear_of_zero(curves.viscoelastic, error) or not np.any(known):
-        return friction
+    scale = Decades.of(curves.viscoelastic, error)
+    if scale.zero == 0.0 or not np.any(known):
+        return scale.unit(curves.viscoelastic)
     sizes = np.maximum(friction, np.where(known, error, 0.0))
     of_friction, of_largest = np.log(error[known] / sizes[known]), np.log(error[known])
     return sizes if np.std(of_friction) < np.std(of_largest) else np.full(len(friction), friction.max())

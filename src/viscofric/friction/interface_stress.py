@@ -159,14 +159,24 @@ class ShearStress(Plotted):
         """The points with the covariance of their logarithms."""
         isotherms = friction_isotherms(_as_curves(self))
         number = np.repeat(np.arange(len(isotherms)), [len(one) for one in isotherms])
-        variance = np.concatenate([one.variance for one in isotherms])
-        shared = (self.level_error / LN10) ** 2 * (number[:, None] == number) + (self.area_error / LN10) ** 2
-        return StressTable.of(
-            np.concatenate([one.speed for one in isotherms]),
-            np.array([one.temperature for one in isotherms])[number],
-            np.concatenate([one.friction for one in isotherms]),
-            np.diag(variance) + shared,
+        speed, place, variance = (
+            np.concatenate([getattr(one, name) for one in isotherms]) for name in ("speed", "friction", "variance")
         )
+        kelvin, scale = np.array([one.temperature for one in isotherms])[number], isotherms[0].scale
+        stress = scale.value(place)
+        error = LN10 * scale.unit(stress) * np.sqrt(variance)
+        near = scale.near(stress, error)
+        shared = (self.level_error / LN10) ** 2 * (number[:, None] == number) + (self.area_error / LN10) ** 2
+
+        def about(some: Array) -> StressTable:
+            # That of log10 of the law is the error of the stress over the law, which is above zero.
+            middle = np.where(near, some, stress)
+            unit = LN10 * middle
+            values, own = np.log10(middle) + (stress - middle) / unit, np.diag((error / unit) ** 2)
+            return StressTable.of(speed, kelvin, values, own + shared, 2.0 * float(np.sum(np.log(unit[near]))))
+
+        first = about(np.maximum(stress, error))
+        return replace(first, about=about) if np.any(near) else first
 
     def to_dataset(self, law: InterfaceLaw | None = None) -> Dataset:
         """Return the points as a labelled data set along ``point``, with units and long names.
@@ -290,8 +300,7 @@ def shear_stress(
     curves, coulomb, coulomb_error = curves.select(keep), coulomb[keep], coulomb_error[keep]
     rows = np.array([partner(curves, row, solved) for row in range(len(curves))])
     pressure = solved.mean_pressure[rows]
-    relative = np.hypot(coulomb_error / coulomb, OF_LIMIT * solved.mean_pressure_error[rows] / pressure)
-    stress = coulomb * pressure
+    error = np.hypot(coulomb_error * pressure, OF_LIMIT * solved.mean_pressure_error[rows] * coulomb)
     if shift is not None:
         shift = shift if kelvin is None else shift.at_reference(kelvin)
         kelvin = shift.reference
@@ -300,8 +309,8 @@ def shear_stress(
         speed=curves.speed if curves.slip is None else curves.slip,
         temperature=curves.temperature,
         load=curves.load,
-        shear_stress=stress,
-        error=relative * stress,
+        shear_stress=coulomb * pressure,
+        error=error,
         mean_pressure=pressure,
         reference=float(middle[len(middle) // 2]) if kelvin is None else kelvin,
         shift=shift,
@@ -315,11 +324,9 @@ def shear_stress(
 
 
 def _usable(curves: FrictionCurves, coulomb: Array, coulomb_error: Array) -> tuple[Mask, tuple[Note, ...]]:
-    """Return which points have Coulomb friction and slip clear of zero, and notes on the others and on doubts."""
-    keep = coulomb > CLEAR_OF_ZERO * np.where(np.isfinite(coulomb_error), coulomb_error, 0.0)
-    slides = np.full(len(curves), True) if curves.slip is None else curves.slip > 0.0
-    keep &= slides
-    if not np.any(keep):
+    """Return which points have slip, and notes on the others and on doubts."""
+    keep = np.full(len(curves), True) if curves.slip is None else curves.slip > 0.0
+    if not np.any(keep & (coulomb > CLEAR_OF_ZERO * np.where(np.isfinite(coulomb_error), coulomb_error, 0.0))):
         raise InputError("Coulomb friction is not clear of zero at any point with slip.", code="no-points")
     notes = []
     if curves.slip is None:
@@ -329,10 +336,7 @@ def _usable(curves: FrictionCurves, coulomb: Array, coulomb_error: Array) -> tup
         said = f"Coulomb friction rests on an assumption, and so does the shear stress: {curves.assumption}"
         notes.append(Note("assumed-coulomb", said))
     if not np.all(keep):
-        said = (
-            f"{np.count_nonzero(~keep)} of {len(keep)} points are left out: without slip, or with Coulomb friction "
-            f"within {CLEAR_OF_ZERO:g} standard errors of zero."
-        )
+        said = f"{np.count_nonzero(~keep)} of {len(keep)} points are left out: without slip."
         notes.append(Note("left-out", said, values={"left_out": int(np.count_nonzero(~keep))}))
     return keep, tuple(notes)
 

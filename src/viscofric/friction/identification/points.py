@@ -12,7 +12,7 @@ from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import (
-    clear_of_zero,
+    Decades,
     error_freedom,
     scatter_about_parabolas,
     standard_errors,
@@ -26,9 +26,6 @@ from viscofric.units import Quantity, positive, shown_celsius, shown_number, sho
 
 #: Fewer points do not determine a spectrum's shape.
 FEWEST_POINTS = 6
-#: Where some friction is near zero, ln μ is fitted from so many standard errors on: ln μ weighed by the measured μ is
-#: too high by 1.5 times the square of the relative error, which many points near zero would show.
-FAR_ABOVE_ZERO = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +171,7 @@ def usable_points(
         log_load=np.zeros(len(rows)) if alike else relative,
         log_scale=np.log(size) - rule.strain * relative,
         friction=friction / size,
-        logarithmic=(friction > FAR_ABOVE_ZERO * own) | clear_of_zero(friction, own),
+        logarithmic=~Decades.of(friction, own).near(friction, own),
         error=np.hypot(standard_errors(curves.select(rows)) / size, least_error),
         temperatures=temperatures,
         number=number.astype(np.int64),

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from viscofric.arrays import Array, Indices
+from viscofric.friction.curve_checks import Decades
 from viscofric.nominal import nominal_rows
 from viscofric.notes import Note
 
@@ -47,6 +48,7 @@ class Collapse:
 
 def collapse(temperature: Array, decades: Array, friction: Array, error: Array) -> Collapse:
     """Compare friction over log10 of the reduced speed of neighbouring temperatures where they overlap, (n,) each."""
+    scale = Decades.of(friction, error)
     parts = [_isotherm(rows, decades, friction, error) for rows in nominal_rows(temperature)]
     differences: list[Array] = []
     expected: list[Array] = []
@@ -57,7 +59,7 @@ def collapse(temperature: Array, decades: Array, friction: Array, error: Array) 
                 continue
             place = np.clip(one[0][inside], other[0][0], other[0][-1])
             read = _spline(other[0], other[1], place)
-            mean = np.maximum(0.5 * (np.abs(one[1][inside]) + np.abs(read)), np.finfo(float).tiny)
+            mean = np.maximum(scale.unit(0.5 * (np.abs(one[1][inside]) + np.abs(read))), np.finfo(float).tiny)
             differences.append((one[1][inside] - read) / mean)
             expected.append(np.hypot(one[2][inside], np.interp(place, other[0], other[2])) / mean)
     if not differences:

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from viscofric.arrays import Array, Indices, Integers, Mask
-from viscofric.friction.curve_checks import LEFT_OUT, Decades, error_freedom, scatter_of, with_tails
+from viscofric.friction.curve_checks import LEFT_OUT, Decades, error_freedom, friction_unit, scatter_of, with_tails
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import nominal_rows
 from viscofric.rheology.shifts.shift_law import LN10
@@ -101,9 +101,10 @@ def friction_isotherms(curves: FrictionCurves) -> list[FrictionIsotherm]:
     """Sort the points of friction curves at one load into isotherms of ascending temperature."""
     friction, error = curves.viscoelastic, curves.viscoelastic_error
     scale = Decades.of(friction, error)
-    ordinate, decades = scale(friction), error / (LN10 * scale.unit(friction))
+    ordinate, unit = scale(friction), friction_unit(curves)
     rows = nominal_rows(curves.temperature)
-    variance = _variances(decades, curves.replicates, error_freedom(curves)[0], rows)
+    variance = _variances(error / (LN10 * unit), curves.replicates, error_freedom(curves)[0], rows)
+    variance *= (unit / scale.unit(friction)) ** 2
     speed, kelvin = np.log10(curves.speed), curves.temperature
     return _with_tails(
         [

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -55,6 +55,8 @@ _SEEN = 1.35
 #: Levels are sought to this part of them, by laws made linear about the constants found, so many times at most.
 _ALIKE_LEVELS = 0.1
 _ROUNDS = 5
+#: Most fits with stresses near zero about those of the fit before, and the relative change of these that is none.
+_SETTLING, _SETTLED = 50, 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,12 +66,14 @@ class StressTable(Table):
     speed: Array  # (n,), log10 of m/s
     kelvin: Array  # (n,)
     level: float = 0.0  # error that all values of a temperature share, beyond the covariance, decades
+    # returns the table with stresses near zero made linear about others (n,); None where all are clear of zero
+    about: Callable[[Array], StressTable] | None = None
 
     @classmethod
-    def of(cls, speed: Array, kelvin: Array, values: Array, covariance: Array) -> StressTable:
+    def of(cls, speed: Array, kelvin: Array, values: Array, covariance: Array, log_volume: float = 0.0) -> StressTable:
         """Prepare values (n,) with their covariance (n, n)."""
         variance, axes = np.linalg.eigh(covariance)
-        return cls(values, axes.T, np.maximum(variance, 0.0) + SMALLEST_ERROR**2, 0.0, speed, kelvin)
+        return cls(values, axes.T, np.maximum(variance, 0.0) + SMALLEST_ERROR**2, log_volume, speed, kelvin)
 
     @cached_property
     def together(self) -> Array:
@@ -226,6 +230,18 @@ class FittedStress(NamedTuple):
 
 def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> FittedStress:
     """Fit one law; see `ShearStress.law`."""
+    found, stress = _fitted(kind, table, shift, reference, energy), np.empty(0)
+    if table.about is None:
+        return found
+    for _ in range(_SETTLING):
+        last, stress = stress, found.law(10.0**table.speed, table.kelvin)
+        if last.size and np.max(np.abs(np.log(stress / last))) < _SETTLED:
+            return found
+        found = _fitted(kind, table.about(stress), shift, reference, energy)
+    raise _not_described(kind)
+
+
+def _fitted(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> FittedStress:
     check_choice(kind, "law", *KINDS)
     linear = kind in ("constant", "power")
     family = (_LinearFamily if linear else _Family)(kind, table, shift, reference, energy)
