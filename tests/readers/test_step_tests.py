@@ -170,6 +170,32 @@ def test_each_of_the_tests_beside_each_other_may_have_its_own_times(tmp_path):
         np.testing.assert_allclose(one.response, level * TIME**0.2, rtol=1e-5)
 
 
+def test_digitised_curves_beside_each_other_share_the_headings_that_the_user_names(tmp_path):
+    """Programs that digitise plots write columns X and Y for each curve, under its name."""
+    path = tmp_path / "plot.csv"
+    path.write_text(
+        "97 °C,,105.5 °C,\nX,Y,X,Y\n1,2e-10,1.5,3e-9\n10,4e-10,15,6e-9\n"
+        "100,7e-10,150,8e-9\n1000,9e-10,1500,9e-9\n10000,1e-9,,\n",
+        encoding="utf-8",
+    )
+    tests = vf.read_step_tests(path, columns={"time": "X (s)", "creep_compliance": "Y (1/Pa)"}, deformation="shear")
+    np.testing.assert_allclose(tests.temperatures, [370.15, 378.65])
+    np.testing.assert_allclose(tests.tests[0].time, [1.0, 10.0, 100.0, 1e3, 1e4])
+    np.testing.assert_allclose(tests.tests[1].response, [3e-9, 6e-9, 8e-9, 9e-9])
+    with refused("no-temperature"):  # of the first curve alone
+        vf.read_step_tests(path, columns={"time": "#1 (s)", "creep_compliance": "#2 (1/Pa)"})
+
+
+def test_the_first_of_equal_headings_counts_where_nothing_tells_the_curves_apart(tmp_path):
+    path = tmp_path / "plot.csv"
+    path.write_text(
+        "X,Y,X,Y\n1,2e-10,1.5,3e-9\n10,4e-10,15,6e-9\n100,7e-10,150,8e-9\n1000,9e-10,1500,9e-9\n", encoding="utf-8"
+    )
+    named = {"time": "X (s)", "creep_compliance": "Y (1/Pa)"}
+    tests = vf.read_step_tests(path, columns=named, deformation="shear", temperature="25 degC")
+    np.testing.assert_allclose(tests.tests[0].response, [2e-10, 4e-10, 7e-10, 9e-10])
+
+
 def test_units_may_be_given(tmp_path):
     path = written(tmp_path / "a.csv", ("Time", "Creep Compliance"), [TIME, 1e-7 * TIME**0.2])
     given = {"temperature": "25 degC", "deformation": "shear"}

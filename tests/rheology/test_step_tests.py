@@ -312,6 +312,11 @@ def test_flow_is_noted():
     from viscofric.rheology.superposition.result import flowing
 
     assert [note.code for note in flowing(steep)] == ["flow"]
+    # In the glass transition J may grow as steeply, but other tests are softer without growing so.
+    last, below = steep[-1], 1e-3 * steep[0].response[0]
+    transition = vf.readers.StepTest(250.0, last.time, below * (last.time / last.time[-1]) ** 0.95)
+    assert flowing((transition, *tests.tests)) == []
+    assert [note.code for note in flowing((transition,))] == ["flow"]
 
 
 def test_arguments_for_two_moduli_are_refused():

@@ -310,15 +310,24 @@ class Vocabulary:
                 found[n] = replace(column, quantity=what, is_mean=True)
         if self.conditions:
             found = self._with_conditions(found, held)
-        for what, said in self.user_columns.items():
-            place, unit = place_of(said, cells)
-            if place is not None:
+        places = {what: place_of(said, cells) for what, said in self.user_columns.items()}
+        alike = {what: self._as_headed(self.user_columns[what], at, cells) for what, (at, _) in places.items()}
+        often = len({len(some) for some in alike.values()}) == 1  # as in tables beside each other
+        for what, (_, unit) in places.items():
+            for place in alike[what] if often else alike[what][:1]:
                 column = found[place]
                 if _SAID_LOGARITHM.match(column.heading) and not _OF_LOGARITHMS.fullmatch(what):
                     column = _logarithm(column.heading) or column
                 named = replace(column, quantity=what, unit=unit or column.unit, given=True)
                 found[place] = replace(named, stated=(), alone=False)
         return tuple(found)
+
+    @staticmethod
+    def _as_headed(said: str, place: int | None, cells: Sequence[str]) -> list[int]:
+        """Return the places of all columns with the heading that the user names, only that of its number."""
+        if place is None or is_place(said):
+            return [] if place is None else [place]
+        return [n for n, cell in enumerate(cells) if " ".join(cell.split()) == " ".join(cells[place].split())]
 
     def _with_conditions(self, columns: list[Column], held: set[str]) -> list[Column]:
         """Return columns with what their headings state of quantities that no column holds: ``COF 20 °C, 5 N``."""
@@ -425,7 +434,8 @@ def quantity_of(key: object) -> str:
 def place_of(said: str, cells: Sequence[str]) -> tuple[int | None, str]:
     """Return the place of the column that the user means, None if there is none, and the unit added to it, or ""."""
     # `said` is a heading as printed, without regard to case, or the number of a column (``"#3"``); a unit may follow in
-    # brackets, which then counts instead of that of the file. Of several equal headings the first counts.
+    # brackets, which then counts instead of that of the file. Of several equal headings the first counts,
+    # but for tables beside each other (`Vocabulary.columns`).
     bracketed = _BRACKETED.match(said)
     for words, unit in ((said, ""), (bracketed["name"], bracketed["unit"]) if bracketed else ("", "")):
         numbered = _PLACE.fullmatch(words)

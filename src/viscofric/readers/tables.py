@@ -196,7 +196,7 @@ def _table_under(path: str, found: Found, words: Vocabulary, remarks: Sequence[N
         problem = f"holds {len(first_lines)} tables below each other, the second with its header above line "
         raise DataFileError(path, f"{problem}{first_lines[1]}; give each a file of its own.", code="several-tables")
     if words.conditions and (block is None or any(column.stated for column in columns)):
-        table = _below_each_other(table)
+        table = _with_first_given(_below_each_other(table))
         table = _with_stated_above(table, above, below) if block is None else table
         _insist_on_no_other_column(table)
         read = {*table.lines.tolist()}
@@ -414,8 +414,7 @@ def _insist_on_one_value(table: Table) -> None:
 def _below_each_other(table: Table) -> Table:
     """Return columns beside each other, such as E' and E'' of several temperatures, below each other."""
     # Columns before them belong to all. They have the same columns, and each has values of its own, in its headings or
-    # above them, which become columns; else the table is returned as it is, and so it is where the user names columns,
-    # of which equal headings say too little.
+    # above them, which become columns; else the table is returned as it is.
     found = _by_headings(table) if any(column.stated for column in table.columns) else _by_line_above(table)
     if found is None:
         return table
@@ -454,6 +453,19 @@ def _below_each_other(table: Table) -> Table:
         column = Column(OF_HEADINGS.get(what, what), what, unit, what)
         below = below.with_column(column, [cells[number - 1] for number in numbers])
     return below
+
+
+def _with_first_given(table: Table) -> Table:
+    """Return the table with the first of the columns of one heading that the user names."""
+    first: dict[str, int] = {}
+    for place, column in enumerate(table.columns):
+        if column.given:
+            first.setdefault(column.quantity, place)
+    columns = [
+        replace(one, quantity="") if one.given and first[one.quantity] != place else one
+        for place, one in enumerate(table.columns)
+    ]
+    return replace(table, columns=tuple(columns))
 
 
 def _in_one_unit(values: Sequence[Value]) -> tuple[str, list[str]]:
@@ -523,7 +535,8 @@ def _by_line_above(table: Table) -> Sets | None:
             places.setdefault(column.quantity, []).append(place)
     shared = [some[0] for some in places.values() if len(some) == 1]
     repeated = [some for some in places.values() if len(some) > 1]
-    if len({len(some) for some in repeated}) != 1 or not table.above or any(one.given for one in table.columns):
+    once = any(table.columns[place].given for place in shared)  # a column that the user names
+    if len({len(some) for some in repeated}) != 1 or not table.above or once:
         return None
     sets = list(zip(*repeated, strict=True))
     starts = [min(one) for one in sets]

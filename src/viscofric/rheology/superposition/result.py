@@ -262,16 +262,19 @@ def _noise_near(sweep: LogSweep, variances: Array | None = None) -> tuple[Array,
 
 
 def flowing(tests: Sequence[StepTest]) -> list[str]:
-    """Name the temperatures where creep tests end in flow, in one sentence."""
+    """Name the temperatures where creep tests end in flow, in one sentence; the glass transition can look like it."""
     powers = {one.temperature: _last_power(one) for one in tests}
-    found = {kelvin: power for kelvin, power in powers.items() if power > FLOW}
+    # In flow J is above that of all tests which end otherwise: below, it rises towards the rubber.
+    rubbery = max((one.response[-1] for one in tests if powers[one.temperature] <= FLOW), default=0.0)
+    ending = {one.temperature: powers[one.temperature] for one in tests if one.response[-1] > rubbery}
+    found = {kelvin: power for kelvin, power in ending.items() if power > FLOW}
     if not found:
         return []
     warmest = max(found)
     where = ", ".join(shown(kelvin) for kelvin in found)
     said = (
-        f"The sample flows at {where}: at the longest times J grows as t^{shown_number(found[warmest], '.2f')} "
-        f"({shown(warmest)})"
+        f"The sample flows, or is in its glass transition, at {where}: at the longest times J grows as "
+        f"t^{shown_number(found[warmest], '.2f')} ({shown(warmest)})"
     )
     return [Note("flow", f"{said}. A liquid has no E0; contacts need a material with one.")]
 
