@@ -6,7 +6,7 @@ import copy
 from typing import Any
 
 _SHIFT = "Factor by which temperature multiplies all relaxation times, relative to the reference temperature."
-_FREQUENCY = "Frequency at which the contact deforms the rubber: speed over half the length of the contact."
+_FREQUENCY = "Frequency at which the contact deforms the rubber, by its speed v and half its length a."
 _IMBALANCE = "Work of the forces minus stored and dissipated energy, relative; zero for an exact solution."
 _MISFIT = "Root mean square of log₁₀ of fitted over measured values; 0.01 decades are 2.3 %."
 
