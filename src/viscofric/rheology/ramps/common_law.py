@@ -52,9 +52,11 @@ class CorrelatedSmoother(Smoother):
     alike: Array  # (m,), correlation of the errors of neighbouring points
 
     @classmethod
-    def along(cls, frequency: Array, moduli: Array, same: Mask, prior: Array = EQUALLY_LIKELY) -> CorrelatedSmoother:
+    def along(
+        cls, frequency: Array, moduli: Array, same: Mask, prior: Array = EQUALLY_LIKELY, points: int = POINTS_PER_KNOT
+    ) -> CorrelatedSmoother:
         """Place knots for points, ramp by ramp, and choose smoothing and correlation of each quantity."""
-        basis = Basis.of(frequency, POINTS_PER_KNOT)
+        basis = Basis.of(frequency, points)
         criteria = np.array([_likelihood(basis, moduli, same, alike)[2] for alike in CORRELATIONS])
         alike = np.array([expected_correlation(one, prior) for one in criteria.T])
         chosen = [_likelihood(basis, moduli[:, [number]], same, float(one)) for number, one in enumerate(alike)]

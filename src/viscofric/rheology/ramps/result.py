@@ -9,29 +9,27 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.arrays import Array, Mask
 from viscofric.data import MasterCurve
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import check_choice
 from viscofric.ramps import TemperatureRamp, TemperatureRamps
+from viscofric.rheology.ramps.common_law import CorrelatedSmoother
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.superposition.consistency import REPRODUCIBILITY
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig
-from viscofric.rheology.superposition.shift_problem import inflation
 from viscofric.showing import Plotted, Rows, Shown
+from viscofric.threads import one_blas_thread
 from viscofric.units import shown_celsius
 
 PeakOf: TypeAlias = Literal["tan delta", "loss modulus"]
-#: The peak is drawn through points that are higher than this part of the highest one …
-PART = 0.8
-#: … as a polynomial of this degree in the logarithm.
-DEGREE = 4
-#: … and through so many on either side at least; without them there is no peak.
-EITHER_SIDE = 3
-#: Places between the ends that are tried.
-PLACES = 2001
+#: A peak has so many points on either side at least; and most of the curves that the errors allow have it inside.
+EITHER_SIDE, MOST = 3, 0.95
+#: Temperatures are counted in this unit for the curve, K: shift factors change by a decade within a few of them.
+DECADE = 5.0
+#: Places between the ends that are tried, and curves that the errors allow.
+PLACES, DRAWN = 2001, 200
 
 
 @dataclass(frozen=True)
@@ -90,6 +88,7 @@ class GlassTransition(Shown):
         )
 
 
+@one_blas_thread
 def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTransition | None:
     """Return the peak of tan δ, or of the loss modulus, of a ramp; None if it has no peak inside its temperatures.
 
@@ -112,9 +111,10 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
     Notes
     -----
     The temperature of a peak depends on the frequency (by some 3 to 7 K a decade) and on the heating rate; a value
-    without its frequency says little.  A polynomial of fourth degree is fitted to the logarithm of the points above
-    80 % of the highest one, about it, and of the next three on either side; the standard error follows from their
-    scatter, alike neighbours counting for fewer.
+    without its frequency says little.  A smoothing spline is drawn through the logarithm of all points, of which
+    neighbours may share errors, as in `superpose_ramps`; the standard error is the root mean square of distances to the
+    peaks of curves that these errors allow.  95 % intervals held 94 to 98 % of planted peaks of random rubbers, with
+    points 0.3 to 5 K apart and 0.3 to 3 % of noise.
 
     Examples
     --------
@@ -125,49 +125,30 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
     >>> modulus = rubber.spectrum.complex_modulus(2 * np.pi * 1.0 * rubber.shift(kelvin))  # at 1 Hz
     >>> ramp = vf.readers.TemperatureRamp("1 Hz", kelvin, modulus.real, modulus.imag)
     >>> print(vf.rheology.glass_transition(ramp, "loss modulus"))
-    loss modulus at 1 Hz: −12.9 ± 0.14 °C
+    loss modulus at 1 Hz: −13.1 ± 0.039 °C
     """
     insist_on(ramp, "ramp", TemperatureRamp)
     check_choice(by, "by", "tan delta", "loss modulus")
     values = ramp.loss_tangent if by == "tan delta" else ramp.loss_modulus
-    inside = _about_the_peak(values)
-    kelvin, logarithm = ramp.temperature[inside], np.log(values[inside])
-    top = int(np.argmax(logarithm))
-    if min(top, len(kelvin) - 1 - top) < EITHER_SIDE or np.ptp(kelvin) == 0.0:
-        return None
-    half = 0.5 * float(np.ptp(kelvin))
-    x = (kelvin - kelvin[0]) / half - 1.0
-    basis = np.polynomial.legendre.legvander(x, DEGREE)
-    inverse = np.linalg.inv(basis.T @ basis)
-    coefficients = inverse @ (basis.T @ logarithm)
-    residual = logarithm - basis @ coefficients
-    curve = np.polynomial.Legendre(coefficients)
-    places = np.linspace(-1.0, 1.0, PLACES)
-    highest = int(np.argmax(curve(places)))
-    if highest in (0, PLACES - 1):
-        return None
-    slope, bend = curve.deriv(1), curve.deriv(2)
-    place = float(places[highest])
-    for _ in range(5):
-        place -= float(slope(place) / bend(place))
-    slopes = np.array([np.polynomial.Legendre.basis(n).deriv(1)(place) for n in range(DEGREE + 1)])
-    variance = float(residual @ residual) / max(len(x) - DEGREE - 1, 1)
-    variance *= inflation(residual, np.ones(len(x) - 1, dtype=bool))
-    error = float(np.sqrt(variance * slopes @ inverse @ slopes)) / abs(float(bend(place)))
-    temperature = float(kelvin[0] + half * (place + 1.0))
-    return GlassTransition(ramp.angular_frequency, by, temperature, half * error, float(np.exp(curve(place))))
-
-
-def _about_the_peak(values: Array) -> Mask:
-    """Return which points belong to the highest peak: the run about it above a part of it, or the nearest ones."""
-    high = values >= PART * values.max()
+    logarithm, x = np.log(values)[:, None], (ramp.temperature - ramp.temperature[0]) / DECADE
     top = int(np.argmax(values))
-    below = np.flatnonzero(~high)
-    first = int(below[below < top].max(initial=-1)) + 1
-    last = int(below[below > top].min(initial=len(values)))
-    found = np.zeros(len(values), dtype=bool)
-    found[max(min(first, top - EITHER_SIDE), 0) : max(last, top + EITHER_SIDE + 1)] = True
-    return found
+    if min(top, len(x) - 1 - top) < EITHER_SIDE or x[-1] == 0.0:
+        return None
+    smoother = CorrelatedSmoother.along(x, logarithm, np.ones(len(x) - 1, dtype=bool), points=1)
+    curve, _, _ = smoother.curve(0, x, logarithm[:, 0])
+    variances, ways = np.linalg.eigh(curve.inverse[0])
+    ways = smoother.scatter[0] * np.sqrt(np.maximum(variances, 0.0)) * ways
+    random = np.random.default_rng(0)
+    drawn = curve.coefficients + ways @ random.standard_normal((len(ways), DRAWN))
+    at = np.linspace(0.0, x[-1], PLACES)
+    splines = smoother.basis.at(at, 1)[0]
+    found = splines @ curve.coefficients[:, 0]
+    highest, others = int(np.argmax(found)), np.argmax(splines @ drawn, axis=0)
+    if highest in (0, PLACES - 1) or np.mean((others > 0) & (others < PLACES - 1)) < MOST:
+        return None
+    error = DECADE * np.hypot(np.sqrt(np.mean((at[others] - at[highest]) ** 2)), at[1])
+    temperature = float(ramp.temperature[0] + DECADE * at[highest])
+    return GlassTransition(ramp.angular_frequency, by, temperature, float(error), float(np.exp(found[highest])))
 
 
 @dataclass(frozen=True)
