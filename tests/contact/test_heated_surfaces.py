@@ -181,6 +181,36 @@ def test_the_contact_is_that_at_its_own_temperature() -> None:
     assert "mean-heat-left-out" in codes(solution.warnings)
 
 
+def test_a_surface_that_is_repeated_across_the_motion_is_as_warm() -> None:
+    """Deep down only waves that it does not have are left; rises to the step of the depths, which begin elsewhere."""
+    x = 2.0 * np.pi * np.arange(16) / 16
+    z = 1e-5 * (np.cos(x)[:, None] + np.cos(x))
+    once, thrice = (
+        vf.solve_periodic(
+            WARM,
+            vf.contact.PeriodicSurface(np.tile(z, (1, count)), 1e-5),
+            speed=0.1,
+            pressure="20 kPa",
+            temperature=300.0,
+            heating=HEATING,
+        ).heating
+        for count in (1, 3)
+    )
+    assert once is not None
+    assert thrice is not None
+    for name in ("temperature_rise", "face_rise", "loss_rise"):
+        assert getattr(thrice, name) == pytest.approx(getattr(once, name), rel=0.01)
+
+
+def test_ridges_along_the_motion_warm_the_face_alone() -> None:
+    z = 1e-5 * np.cos(2.0 * np.pi * np.arange(32) / 32) * np.ones((8, 1))
+    surface, given = vf.contact.PeriodicSurface(z, 1e-5), {"pressure": "20 kPa", "temperature": 300.0}
+    found = vf.solve_periodic(WARM, surface, speed=0.1, heating=HEATING, **given).heating
+    assert found is not None
+    assert found.loss_heat < 1e-9 * found.coulomb_heat
+    assert found.loss_weighted_rise == 0.0 < found.face_rise
+
+
 @pytest.mark.slow
 def test_the_nominal_contact_adds_the_rise_of_its_disc() -> None:
     """Of all Coulomb heat in the rubber, that of the face; its loss, released below, warms the face less."""

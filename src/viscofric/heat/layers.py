@@ -105,8 +105,8 @@ class LayeredHeat(NamedTuple):
 
     @property
     def unit(self) -> LayeredHeat:
-        """The same distribution of a heat of 1 W/m² in all."""
-        total = float(self.mean.sum())
+        """The same distribution of a heat of 1 W/m² in all; none remains none."""
+        total = float(self.mean.sum()) or 1.0
         return LayeredHeat(self.thickness, self.mean / total, [one / total for one in self.waves])
 
 

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from viscofric.heat.layers import Waves
 
 
+#: Waves of pressure that are so much smaller than the largest one are none.
+_ROUNDING = 1e-12
 #: Step of ln z from depth to depth: that of temperatures below is 2 %, of the heat of each wave below 1e-4.
 _STEP = 0.6
 #: First and last depth, times the wave number of the shortest and of the longest wave.
@@ -37,6 +39,8 @@ _FADED = 4.0
 _TOGETHER, _MARGIN = 6.0, 4.0
 #: Largest share of the loss in the first layer.
 _TOP = 0.01
+#: Heat of a layer over that of the waves that place it: the largest by which all is placed like theirs.
+_PLACED = 2.0
 #: Width in ln q of groups of waves that count as one for how much is lost, and frequencies of the loss compliance.
 _GROUP, _POINTS = 0.01, 500
 
@@ -56,6 +60,7 @@ def periodic_dissipation(
     hundredth of the loss at most.
     """
     loads, ahead = waves.of(pressure), waves.q.T @ np.asarray(velocity)
+    loads[np.abs(loads) < _ROUNDING * np.abs(loads).max()] = 0.0
     longest, shortest, rate = float(waves.magnitude[0]), float(waves.magnitude[-1]), np.abs(ahead)
     fastest, slowest = float(rate.max()), float(rate[rate > 1e-12 * rate.max()].min())
     lost = _Lost.of(waves.magnitude, np.square(np.abs(loads)) * _loss_rate(rate, slowest, modes), poisson_ratio)
@@ -65,8 +70,8 @@ def periodic_dissipation(
     first = max(0, int(np.searchsorted(-below, -(1.0 - _TOP) * below[0])) - 2)
     depths, below = depths[first:], np.delete(below, np.s_[1 : first + 1])
     few = modes.merged(1.0 / (_MARGIN * fastest), _MARGIN / slowest, _TOGETHER)
-    powers = []
-    for depth, mean in zip(depths.tolist(), (-np.diff(below)).tolist(), strict=True):
+    powers, thickness = [], np.diff(depths * math.exp(0.5 * step), prepend=0.0)
+    for depth, thick, mean in zip(depths.tolist(), thickness.tolist(), (-np.diff(below)).tolist(), strict=True):
         points = _grid_of(waves, _FADED / depth)
         grid = waves.on(points)
         some = slice(grid.held)
@@ -76,9 +81,11 @@ def periodic_dissipation(
             C / tau * _squares(spread, turned * np.float32(tau), points) for C, tau in zip(*few, strict=True)
         )
         released = scipy.fft.rfft2(power.astype(float), norm="forward")
-        powers.append(mean / released[0, 0].real * grid.gathered(released))
-    edges = np.concatenate([[0.0], depths * math.exp(0.5 * step)])
-    return LayeredHeat(np.diff(edges), -np.diff(below), powers)
+        # Where it is mostly that of waves that have faded, such as the shorter ones of a surface that repeats itself
+        # within its period, it is nearly even.
+        placed = max(thick * float(released[0, 0].real), mean / _PLACED, 1e-300)
+        powers.append(thick * mean / placed * grid.gathered(released))
+    return LayeredHeat(thickness, -np.diff(below), powers)
 
 
 class _Lost(NamedTuple):
