@@ -68,7 +68,8 @@ class KnownFrequencies:
         said = (
             f"{subject} {'outside' if self.gaps else 'beyond'} those at which the material was {self._known_by}, "
             f"{shown_range(self.frequency_range, self.gaps)}: the result there rests on the extrapolated "
-            f"{'or interpolated ' if self.gaps else ''}modulus, and so do its limits, which may be far from the truth."
+            f"{'or interpolated ' if self.gaps else ''}modulus, and its limits on spectra that end or go on there; "
+            "both may be far from the truth."
         )
         return Note(BEYOND, said, values={**values, "low": low, "high": high})
 

@@ -12,7 +12,6 @@ from viscofric.datasets import record
 from viscofric.errors import InputError
 from viscofric.notes import listed
 from viscofric.rheology.material import Material
-from viscofric.rheology.shifts.parametric_law import LEVEL_95
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.study.rubber import Rubber
@@ -112,7 +111,7 @@ def _residual(curve: MasterCurve, material: Material) -> dict[str, Any] | None:
 def band_numbers(
     samples: MaterialSamples, angular_frequency: Array, temperature: float | None = None
 ) -> dict[str, Any]:
-    """Return the 95 % band of the moduli at frequencies (rad/s) and a temperature (K), of the modes, E0 and E_inf."""
+    """Return the 95 % band of the moduli at frequencies (rad/s) and a temperature (K), and of the modes."""
 
     def tangent(material: Material) -> Array:
         moduli_there = material.complex_modulus(angular_frequency, temperature)
@@ -121,13 +120,10 @@ def band_numbers(
     lossy = samples.band(tangent)
     modes = samples.spectrum_band()
     alike = not np.any(np.ptp(samples.tau, axis=0) > 0.0)
-    error = samples.standard_errors
     return record(samples.to_dataset(angular_frequency, temperature), _DIGITS) | {
         "draws": len(samples),
         "loss_tangent_lower": lossy.lower,
         "loss_tangent_upper": lossy.upper,
         "modes": {"retardation_time": samples.tau[0], "lower": modes.lower, "upper": modes.upper} if alike else None,
-        "E0_error95": LEVEL_95 * error.E0,
-        "E_inf_error95": LEVEL_95 * error.E_inf,
         **listed("notes", samples.notes, "page"),
     }
