@@ -59,9 +59,9 @@ def common_shifts(
     # superposition itself fails, and one flexible curve would hide that by moving them apart. There each side gets its
     # own curve, and the two are joined where the two neighbours overlap best, with that join's uncertainty. The same is
     # done, with an uncertainty of at least half a decade, where a common curve moves neighbours apart
-    # although their storage moduli overlap (`overlap.parted`): sweeps that disagree in E'' alone, as at a resonance of
-    # the instrument, or that show noise alone, as on a plateau, do not increase the misfit of a flexible curve once
-    # they are apart. `sweeps` contain the moduli
+    # (`overlap.parted`): sweeps that overlap little, that disagree in E'' alone, as at a resonance of the instrument,
+    # or that show noise alone, as on a plateau, do not increase the misfit of a flexible curve once they are apart,
+    # where nothing tests their shift. `sweeps` contain the moduli
     # measured. The `quantities` shifted may be one of them or tan δ, or have other weights; `joins` are those of the
     # quantities.
     search, apart = _torn_apart(sweeps, joins, gauge, quantities)

@@ -29,9 +29,7 @@ FLAT = 0.5  # decades
 FAILURE = 5.0
 #: … and at least this, more than interpolation between sparse points or the grid of steps can cause.
 SMALLEST_FAILURE = 0.03  # decades
-#: Sweeps whose E' have this part of the smaller range in common must overlap in frequency …
-COMMON_MODULI = 0.25
-#: … and where they are joined pair by pair, the best steps of E' and of E'' differ by about this.
+#: Where sweeps are joined pair by pair, the best steps of E' and of E'' differ by about this.
 PAIR_UNCERTAINTY = 0.5  # decades
 SMALLEST_NOISE = 1e-6  # decades; keeps noise-free data from dividing by zero
 #: Half of normal errors are smaller than this many standard deviations …
@@ -184,17 +182,10 @@ def failures(joins: list[Join]) -> list[int]:
 
 
 def parted(sweeps: list[LogSweep], log10_shifts: Array) -> list[int]:
-    """Return neighbours that shifts move apart although E', which rises with frequency, has values in common."""
-    found = []
-    for place, (colder, warmer) in enumerate(pairwise(sweeps)):
-        lowest, highest = steps_that_overlap(colder, warmer)
-        moduli = colder.moduli[:, 0], warmer.moduli[:, 0]
-        common = min(float(one.max()) for one in moduli) - max(float(one.min()) for one in moduli)
-        smaller = min(float(np.ptp(one)) for one in moduli)
-        overlap = lowest <= log10_shifts[place] - log10_shifts[place + 1] <= highest
-        if not overlap and common > COMMON_MODULI * smaller:
-            found.append(place)
-    return found
+    """Return neighbours that shifts move apart: they overlap by less than `steps_that_overlap` has it."""
+    steps = log10_shifts[:-1] - log10_shifts[1:]
+    limits = np.array([steps_that_overlap(colder, warmer) for colder, warmer in pairwise(sweeps)])
+    return [int(place) for place in np.flatnonzero((steps < limits[:, 0]) | (steps > limits[:, 1]))]
 
 
 #: Isotherms overlap well if they differ by this at most.

@@ -478,16 +478,14 @@ VERTICAL_UNIDENTIFIED = 0.02  # decades
 def _on_steps(temperatures: Array, found: CommonShifts, quantities: int) -> Iterator[Note]:
     """Yield notes on neighbours that a common curve moved apart, and on steps of α that are not identified."""
     if found.parted:
-        one, why, cure = "moduli", "", ""
-        if quantities > 1:
-            one, why = "storage moduli", ", because E' and E'' do not agree on the shift"
-            cure = " Look for loss moduli that the instrument itself makes, as a resonance does at its highest "
-            cure += "frequencies."
+        disagree = ", or E' and E'' do not agree on the shift" if quantities > 1 else ""
+        cure = ", and look for loss moduli that the instrument itself makes, as a resonance does at its highest "
         yield Note(
             "joined-by-pairs",
             f"The isotherms from {ranges(steps_at(temperatures, found.parted))} were joined pair by pair: one common "
-            f"curve would move them apart although their {one} overlap{why}; each step there is uncertain by "
-            f"{PAIR_UNCERTAINTY:g} decades or more.{cure}",
+            f"curve would move them apart, as where they overlap little{disagree}; each step there is uncertain by "
+            f"{PAIR_UNCERTAINTY:g} decades or more. Measure closer temperatures"
+            f"{f'{cure}frequencies' if quantities > 1 else ''}.",
         )
     places = unidentified_places(found)
     if places:
