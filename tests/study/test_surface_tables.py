@@ -91,6 +91,17 @@ def test_direction_is_no_condition_of_an_indenter() -> None:
     assert mistakes(text + 'direction = "10 deg"\n') == ["conditions.direction"]
 
 
+def test_a_finer_grid_and_rounded_heights_have_no_shorter_waves(tmp_path: Path) -> None:
+    made = vf.self_affine(0.8, shape=(24, 24), spacing="5 um", shortest="20 um", rms_height="3 um", seed=7)
+    np.savetxt(tmp_path / "scan.csv", 1e6 * made.heights, fmt="%.4f", delimiter=",")
+    path = tmp_path / "study.toml"
+    path.write_text(MATERIAL + SCAN + 'prepare = ["periodic", "resample 1.25 um"]\n' + CONDITIONS, encoding="utf-8")
+    case = load_study(path).sweep().cases[0]
+    assert isinstance(case, SurfaceCase)
+    assert case.surface.shape == (96, 96)
+    assert case.surface.wavelengths == pytest.approx((20e-6, 120e-6), rel=1e-9)
+
+
 def test_a_measured_surface_is_read_and_prepared(tmp_path: Path) -> None:
     made = vf.self_affine(0.8, shape=(24, 20), spacing="5 um", shortest="20 um", rms_height="3 um", seed=7)
     heights = 1e6 * made.heights + 0.05 * np.arange(24)[:, None]

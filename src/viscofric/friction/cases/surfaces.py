@@ -12,7 +12,10 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
-from viscofric.contact.periodic.surface import PeriodicSurface
+import numpy as np
+import scipy.fft
+
+from viscofric.contact.periodic.surface import PeriodicSurface, wave_number
 from viscofric.errors import DataFileError, InputError, brief
 from viscofric.notes import Note, note_of
 from viscofric.roughness.made import self_affine
@@ -24,6 +27,8 @@ from viscofric.units import positive, to_si
 TOLERANCE = 1e-7
 # Surfaces that a process keeps: one of 2048² points takes 34 MB.
 _KEPT = 2
+#: Part of the mean square curvature that is no wave: heights in a file are rounded.
+_ROUNDED = 1e-6
 
 
 @dataclass(frozen=True)
@@ -109,18 +114,8 @@ class ScannedSurface:
 
     @property
     def wavelengths(self) -> tuple[float, float]:
-        """The shortest and the longest that the points can represent, m."""
-        surface = surface_of(self)
-        along = [
-            (step, period)
-            for step, period, n in zip(surface.spacing, surface.period, surface.shape, strict=True)
-            if n > 1
-        ]
-        least = 2.0 * min(step for step, _ in along)
-        return max([least, *self._cut_offs()]), max(period for _, period in along)
-
-    def _cut_offs(self) -> list[float]:
-        return [to_si(one.split(maxsplit=1)[1], "m", "shortest") for one in self.steps if one.startswith("shortest")]
+        """The shortest that its heights have, and the longest that its points can represent, m."""
+        return _wavelengths_of(self)
 
 
 SurfaceSource: TypeAlias = MadeSurface | ScannedSurface
@@ -130,6 +125,18 @@ SurfaceSource: TypeAlias = MadeSurface | ScannedSurface
 def surface_of(source: SurfaceSource) -> PeriodicSurface:
     """Return the surface of contacts, made once for many; InputError or DataFileError if it cannot be made."""
     return source.topography().to_surface()
+
+
+@functools.lru_cache(maxsize=_KEPT)
+def _wavelengths_of(source: ScannedSurface) -> tuple[float, float]:
+    surface = surface_of(source)
+    q = np.hypot(*wave_number(surface.shape, surface.spacing)).ravel()
+    order = np.argsort(q)[::-1]
+    shorter = np.cumsum((q**4 * np.square(np.abs(scipy.fft.rfft2(surface.z))).ravel())[order])
+    first = order[int(np.argmax(shorter >= _ROUNDED * shorter[-1]))]
+    along = [place for place, n in enumerate(surface.shape) if n > 1]
+    least = 2.0 * min(surface.spacing[place] for place in along)
+    return max(least, 2.0 * math.pi / float(q[first])), max(surface.period[place] for place in along)
 
 
 @functools.lru_cache(maxsize=_KEPT)
