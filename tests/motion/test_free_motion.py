@@ -11,6 +11,7 @@ from refusals import refused
 from viscofric.contact.free.grids import Grid
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
+from viscofric.contact.reference.hertz import hertz_ellipse
 from viscofric.motion.free import mover, past, solve
 from viscofric.motion.free.box import Box
 from viscofric.motion.free.past import Wake
@@ -507,3 +508,12 @@ def test_inertia_of_a_motion_is_that_of_its_largest_speed() -> None:
     (note,) = (one for one in map(note_of, run.warnings) if one.code == "quasi-static")
     waves = np.sqrt(np.abs(soft.complex_modulus(2.0 * 2.0 / (run.front + run.rear))) / (3.0 * 1150.0))
     assert note.values["wave_speed"] == pytest.approx(waves.min(), rel=1e-6)  # of the same contacts
+
+
+def test_a_slender_indenter_that_lies_between_the_points_of_the_first_grid_is_that_of_hertz() -> None:
+    history = vf.motion.History([0.0, 1.0], indentation=1e-4, before="at rest")
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 s")
+    run = vf.motion.solve_transient(rubber, vf.Ellipsoid("10 mm", "21 m"), history, times=[1.0], accuracy=0.1)
+    exact = hertz_ellipse(float(run.load[0]), "10 mm", "21 m", "1 MPa", 0.5)
+    # load ~ depth^1.5, by the depth of Hertz's ellipse
+    assert abs(1.5 * (exact.indentation / 1e-4 - 1.0)) * run.load[0] <= run.errors.load[0] < 0.1 * run.load[0]

@@ -105,7 +105,11 @@ class Cells:
     def attempts(self) -> Iterator[int]:
         """Count attempts to solve in windows that become wider; ConvergenceError after too many."""
         yield from range(_MOST_WINDOWS)
-        raise ConvergenceError("no window was found that holds the contact.", code="no-window")
+        shape = " x ".join(map(str, self.grid.shape))
+        raise ConvergenceError(
+            f"no window of up to {shape} cells holds the contact; it may be too slender for a contact over time.",
+            code="no-window",
+        )
 
     def widened(self, loaded: Mask) -> bool:
         """Widen the window where the contact comes near its edges; return whether it did."""

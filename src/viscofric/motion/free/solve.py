@@ -204,7 +204,7 @@ def _measured_from(whole: Setting, track: Track[Any], part: Setting, problem: Pr
 
 def _first(task: _Task, cells: int, level: Level | None) -> Level:
     """March on the coarsest grid that has so many cells along the longest contact; one may have been tried."""
-    size = 1.0
+    size, missed = 1.0, False
     for attempt in range(_ATTEMPTS + 1):
         if level is None:
             setting = task.setting(2.0 * size / cells)
@@ -213,11 +213,19 @@ def _first(task: _Task, cells: int, level: Level | None) -> Level:
             grid = setting.geometry.around(half, half, half, math.ceil(2.0 * half / spacing))
             level = task.march(replace(grid, spacing=spacing), None, task.problem.accuracy, size)
         longest = level.mover.longest
-        fits = level.size is None or longest == 0.0 or _SHORT < 0.5 * longest / level.size < 1.0 / _SHORT
-        if fits or level.track.interrupted or attempt == _ATTEMPTS:
+        fits = level.size is None or missed or _SHORT < 0.5 * longest / level.size < 1.0 / _SHORT
+        if (fits and longest > 0.0) or level.track.interrupted or attempt == _ATTEMPTS:
             break
-        size, level = 0.5 * longest, None
+        # At a given depth, a slender indenter may lie between all points.
+        missed = missed or longest == 0.0
+        size, level = 0.5 * (longest or size), None
     assert level is not None
+    if level.mover.longest == 0.0 and not level.track.interrupted:
+        raise ConvergenceError(
+            f"no point touches with {cells / size:.0f} cells along the contact; the indenter is too slender for a "
+            "contact over time.",
+            code="no-window",
+        )
     return level
 
 
