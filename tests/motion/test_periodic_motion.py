@@ -507,3 +507,10 @@ def test_inertia_of_a_surface_in_motion_is_that_where_the_rubber_is_softest(temp
         [note for note in map(note_of, one.warnings) if note.code == "quasi-static"] for one in (run, steady)
     )
     assert found.values["change"] == pytest.approx(known.values["change"], rel=1e-2)  # the accuracy of the run
+
+
+def test_a_surface_without_load_is_refused_as_other_contacts_are() -> None:
+    for speed in (0.0, 1e-3):
+        history = vf.motion.History([0.0, 1.0], pressure=0.0, speed=speed)
+        with refused("no-contact"):
+            vf.motion.solve_transient(vf.synthetic_fluoroelastomer(), profile(16), history)

@@ -84,7 +84,7 @@ class PeriodicMover(Mover[PeriodicState]):
         response = self.grid.response
         self.response_unit = float(response.max())
         self.compliance_unit = self.response_unit * spectrum.relaxed
-        largest = 0.0 if schedule.control == "gap" else schedule.largest
+        largest = 0.0 if schedule.control == "gap" else schedule.insist_on_contact()
         self.pressure_unit = flattening_pressure(self.depth_unit, self.compliance_unit, largest)
         unit = 1.0 / spectrum.relaxed
         self.modes = Modes(

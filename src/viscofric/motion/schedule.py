@@ -113,6 +113,13 @@ class Schedule:
         """Largest value of what is prescribed (load, depth, pressure or gap)."""
         return float(self._value.max())
 
+    def insist_on_contact(self) -> float:
+        """Return the largest value of what is prescribed; InputError if it is not above zero."""
+        if self.largest > 0.0:
+            return self.largest
+        said = f"{self.control}: never above zero, so that there is no contact; give one that is."
+        raise InputError(said, code="no-contact", values={"argument": self.control})
+
     @property
     def is_held(self) -> bool:
         """Whether a depth or gap is prescribed, without motion along the surface."""

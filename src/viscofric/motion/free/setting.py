@@ -106,12 +106,7 @@ class Setting:
         assert isinstance(indenter, Indenter)
         body, counterface = Body.of(modes, problem), problem.counterface
         compliance = problem.plane_strain * modes.relaxed + counterface
-        largest = schedule.largest
-        if largest <= 0.0:
-            raise InputError(
-                f"{schedule.control}: never above zero, so that there is no contact; give one that is.",
-                code="no-contact",
-            )
+        largest = schedule.insist_on_contact()
         levelled = indenter.geometry.has_far_field or (layer is not None and counterface == 0.0)
         if schedule.control == "load":
             scale = Scale.for_load(indenter, 1.0 / compliance, largest)
