@@ -346,7 +346,8 @@ class _Falling(NamedTuple):
         omega = math.pi / half * _HARMONICS
         share = np.sinc(np.outer(omega, steps) / (2.0 * math.pi)) * np.exp(-1j * np.outer(omega, middle))
         taken = lag_of_waves(modes.complex_modulus(omega), nu).real * np.square(np.abs(share @ rise))
-        e, energy = contact.restitution, 0.5 * self.mass * contact.speed**2
+        e = contact.restitution
+        energy = self.mass * (0.5 * contact.speed**2 + self.gravity * contact.largest_indentation)
         change = -math.expm1(-float(np.trapezoid(taken, omega)) / (math.pi * energy * (e or 1.0)))
         modulus = float(np.abs(modes.complex_modulus(math.pi / half)))
         said = f"waves take about {plain(100.0 * change, 2)} % of the energy of the {'rebound' if e else 'impact'}"
