@@ -19,6 +19,7 @@ from viscofric.report.results import (
     is_extrapolated,
     is_rough,
     is_synthetic,
+    on_group,
     reference_temperature,
     rubbers,
 )
@@ -110,10 +111,8 @@ def _few_heated(tree: DataTree) -> str:
     return f" {HEATED} of {count} curves are drawn." if count > HEATED else ""
 
 
-def _of_temperature_map(tree: DataTree) -> str:
-    data = group(tree, "temperature_map")
-    if data is None:
-        return ""
+@on_group("temperature_map", "")
+def _of_temperature_map(data: Dataset, _: DataTree) -> str:
     at = f"{degrees(float(data.attrs['temperature']))}, {speed(float(data.attrs['speed']))}"
     seen = "along the motion" if data.sizes["y"] == 1 else "seen from above, and on the centre line"
     return (
@@ -152,11 +151,9 @@ def _of_sweep(tree: DataTree) -> str:
     return f"{said}.{missing}"
 
 
-def _of_histories(tree: DataTree) -> str:
+@on_group("history", "")
+def _of_histories(data: Dataset, _: DataTree) -> str:
     """Say what is drawn over time, and how many cases are left out."""
-    data = group(tree, "history")
-    if data is None:
-        return ""
     before = {"untouched": "untouched material", "at rest": "a contact at rest", "sliding": "steady sliding"}
     begun = before.get(str(data.attrs["before"]))
     words = "One period of contacts in their periodic state" if begun is None else f"Contacts over time, from {begun}"
@@ -164,11 +161,9 @@ def _of_histories(tree: DataTree) -> str:
     return words + warm + _some(data, "time", data.sizes["instant"])
 
 
-def _of_impacts(tree: DataTree) -> str:
+@on_group("impact", "")
+def _of_impacts(data: Dataset, _: DataTree) -> str:
     """Say what falls, and how many lines are left out."""
-    data = group(tree, "impact")
-    if data is None:
-        return ""
     each = max(data.sizes["impact_speed"], data.sizes.get("temperature", 1))
     mass = prefixed(1e3 * float(data.attrs["mass"]), None, "g")
     return f"Restitution of impacts of {mass}{_some(data, 'restitution', each)}"

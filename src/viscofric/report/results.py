@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
+from functools import wraps
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from viscofric.arrays import Array, Integers, Mask
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.datasets import Dataset, DataTree
 from viscofric.notes import from_json, notes_in
+
+Found = TypeVar("Found")
 
 #: Temperatures closer than this are one nominal temperature, K.
 SAME_TEMPERATURE = 0.5
@@ -25,6 +28,22 @@ def group(tree: DataTree, name: str) -> Dataset | None:
     dataset = child.to_dataset()
     empty = not dataset.data_vars or any(size == 0 for size in dataset.sizes.values())
     return None if empty else dataset
+
+
+def on_group(
+    name: str, otherwise: Any = None
+) -> Callable[[Callable[[Dataset, DataTree], Found]], Callable[[DataTree], Found]]:
+    """Have a function of a tree begin with a group of it; where that is absent, the function gives `otherwise`."""
+
+    def decorated(read: Callable[[Dataset, DataTree], Found]) -> Callable[[DataTree], Found]:
+        @wraps(read)
+        def of_tree(tree: DataTree) -> Found:
+            found = group(tree, name)
+            return otherwise if found is None else read(found, tree)
+
+        return of_tree
+
+    return decorated
 
 
 def rubbers(tree: DataTree) -> list[tuple[str, DataTree]]:

@@ -15,7 +15,7 @@ from viscofric.errors import InputError
 from viscofric.report.data import as_dataset
 from viscofric.report.figures import style
 from viscofric.report.figures.interface import plot_friction_parts
-from viscofric.report.results import group, is_extrapolated, nominal_temperatures, number, values
+from viscofric.report.results import group, is_extrapolated, nominal_temperatures, number, on_group, values
 from viscofric.report.sweeps import axis_of, best_estimate, thinned
 from viscofric.report.texts.numbers import short
 
@@ -202,11 +202,9 @@ def _shown(tree: DataTree) -> list[tuple[str, Dataset]]:
     return found
 
 
-def temperature_map_figure(tree: DataTree) -> Figure | None:
+@on_group("temperature_map")
+def temperature_map_figure(data: Dataset, _: DataTree) -> Figure | None:
     """Return the rise of temperature of the rubber's face at the warmest contact: seen from above, and along it."""
-    data = group(tree, "temperature_map")
-    if data is None:
-        return None
     line = data.sizes["y"] == 1
     figure = style.new_figure(6.2, 3.2 if line else 5.6)
     panels = [figure.subplots()] if line else list(figure.subplots(2, 1, height_ratios=[1.6, 1.0]))

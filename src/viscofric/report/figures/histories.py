@@ -12,7 +12,7 @@ from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
 from viscofric.report.figures.motion import label_restitution
 from viscofric.report.figures.style import GREY, legend_above, looks, new_figure, unit_for
-from viscofric.report.results import group
+from viscofric.report.results import on_group
 from viscofric.report.sweeps import SAMPLE, axis_of, band_of_samples, best_estimate, thinned
 from viscofric.units import celsius
 
@@ -39,11 +39,9 @@ class _Line(NamedTuple):
         return low, high
 
 
-def histories_figure(tree: DataTree) -> Figure | None:
+@on_group("history")
+def histories_figure(data: Dataset, _: DataTree) -> Figure | None:
     """Return load, indentation, friction and rise of temperature of at most six cases against time."""
-    data = group(tree, "history")
-    if data is None:
-        return None
     lines = _lines(data, "time", _ALONG)
     slides = any(np.any(one.best["friction_force"].values != 0.0) for one in lines)
     varies = any(
@@ -72,11 +70,9 @@ def histories_figure(tree: DataTree) -> Figure | None:
     return figure
 
 
-def impacts_figure(tree: DataTree) -> Figure | None:
+@on_group("impact")
+def impacts_figure(data: Dataset, _: DataTree) -> Figure | None:
     """Return the restitution of impacts against temperature or speed, whichever has more values."""
-    data = group(tree, "impact")
-    if data is None:
-        return None
     along = "temperature" if data.sizes.get("temperature", 1) > data.sizes["impact_speed"] else "impact_speed"
     lines = _lines(data, "restitution", along)
     figure = new_figure()

@@ -17,7 +17,7 @@ from viscofric.friction.curves import FrictionCurves
 from viscofric.report.data import Measured, as_dataset
 from viscofric.report.figures import style
 from viscofric.report.figures.friction import plot_measured
-from viscofric.report.results import group, is_synthetic, nearest, nominal_temperatures, number, values
+from viscofric.report.results import group, is_synthetic, nearest, nominal_temperatures, number, on_group, values
 from viscofric.report.sweeps import has_curves_only, solved_cases, thinned
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
@@ -178,11 +178,10 @@ def _parts_of_mean(found: RoughFriction) -> _Parts:
     return _Parts(np.ravel(speed), np.ravel(kelvin), mean, np.ravel(total) - mean, np.ravel(error))
 
 
-def stress_figure(tree: DataTree) -> Figure | None:
+@on_group("interface")
+def stress_figure(stress: Dataset, tree: DataTree) -> Figure | None:
     """Return the figure of a study's shear stress, with the law fitted to it."""
-    stress, law = group(tree, "interface"), group(tree, "interface_law")
-    if stress is None:
-        return None
+    law = group(tree, "interface_law")
     laws = () if law is None else [law]
     return style.one_panel(plot_shear_stress, stress, laws, size=style.WIDE, synthetic=is_synthetic(tree))
 

@@ -47,6 +47,7 @@ from viscofric.report.results import (
     nearest,
     nominal_temperatures,
     number,
+    on_group,
     reference_temperature,
     rubbers,
     values,
@@ -57,10 +58,8 @@ from viscofric.report.sweeps import MOST_LINES, has_curves_only, predicted_axes,
 def _of(name: str, draw: Callable[..., None], *size: float) -> Callable[[DataTree], Figure | None]:
     """Return what draws a group of the results on a figure of a size, given the figure, the group and the tree."""
 
-    def drawn(tree: DataTree) -> Figure | None:
-        data = group(tree, name)
-        if data is None:
-            return None
+    @on_group(name)
+    def drawn(data: Dataset, tree: DataTree) -> Figure | None:
         figure = new_figure(*size)
         draw(figure, data, tree)
         return figure
@@ -103,11 +102,9 @@ def _step_master_curve(figure: Figure, curve: Dataset, tree: DataTree) -> None:
     temperature_bar(figure, plot_step_master_curve(axes, curve, synthetic=is_synthetic(tree)), [axes])
 
 
-def _vertical_shift(tree: DataTree) -> Figure | None:
-    factors = group(tree, "shift_factors")
-    if factors is None or "log10_vertical_shift" not in factors:
-        return None
-    return one_panel(plot_vertical_shift, factors)
+@on_group("shift_factors")
+def _vertical_shift(factors: Dataset, _: DataTree) -> Figure | None:
+    return one_panel(plot_vertical_shift, factors) if "log10_vertical_shift" in factors else None
 
 
 def _friction_shift_factors(figure: Figure, found: Dataset, tree: DataTree) -> None:
@@ -126,12 +123,12 @@ def friction_against_speed(tree: DataTree) -> Figure | None:
     return one_panel(plot_friction_curves, few, measurement, size=WIDE, synthetic=is_synthetic(tree))
 
 
-def friction_sweep(tree: DataTree) -> Figure | None:
+@on_group("prediction")
+def friction_sweep(friction: Dataset, tree: DataTree) -> Figure | None:
     """Friction over the axes of a study: where more than speed and temperature varies, or the speed does not."""
-    friction = group(tree, "prediction")
     few = {axis.name for axis in predicted_axes(tree)} <= {"speed", "temperature"}
     drawn_as_curves = has_curves_only(tree) or (few and group(tree, "measurement") is not None)
-    return None if friction is None or drawn_as_curves else sweep_figure(friction)
+    return None if drawn_as_curves else sweep_figure(friction)
 
 
 def _few_curves(prediction: Dataset, measurement: Dataset | None) -> Dataset:
@@ -146,11 +143,12 @@ def _few_curves(prediction: Dataset, measurement: Dataset | None) -> Dataset:
     return prediction.isel(case=np.flatnonzero(shown & np.isin(nearest(nominal, temperature), sorted(kept))))
 
 
-def friction_map(tree: DataTree) -> Figure | None:
+@on_group("prediction")
+def friction_map(friction: Dataset, tree: DataTree) -> Figure | None:
     """Friction over speed and temperature."""
-    friction, measurement = group(tree, "prediction"), group(tree, "measurement")
+    measurement = group(tree, "measurement")
     points = None if measurement is None else (values(measurement, "speed"), values(measurement, "temperature"))
-    return None if friction is None else map_figure(friction, points, known_shifts(tree))
+    return map_figure(friction, points, known_shifts(tree))
 
 
 def friction_master_curve(tree: DataTree) -> Figure | None:
@@ -172,10 +170,10 @@ def friction_master_curve(tree: DataTree) -> Figure | None:
 _MASTER = "prediction_master"
 
 
-def coulomb_friction(tree: DataTree) -> Figure | None:
+@on_group("measurement")
+def coulomb_friction(measurement: Dataset, tree: DataTree) -> Figure | None:
     """Measured Coulomb friction."""
-    measurement = group(tree, "measurement")
-    if measurement is None or not np.isfinite(values(measurement, "coulomb")).any():
+    if not np.isfinite(values(measurement, "coulomb")).any():
         return None
     return one_panel(plot_coulomb_friction, measurement, size=(7.4, 4.0), synthetic=is_synthetic(tree))
 

@@ -24,6 +24,7 @@ from viscofric.report.results import (
     is_rough,
     number,
     numbers,
+    on_group,
     reach,
     rubbers,
     values,
@@ -67,10 +68,8 @@ def _judged(name: str, words: str, value: float, attributes: Mapping[Any, Any], 
     return Check.of(name, holds == 1.0, words.replace("@", f"rms; good if ≤ {_decades(limit)}"), value, limit)
 
 
-def _isotherms(tree: DataTree) -> Iterator[Check]:
-    factors = group(tree, "shift_factors")
-    if factors is None:
-        return
+@on_group("shift_factors", ())
+def _isotherms(factors: Dataset, _: DataTree) -> Iterator[Check]:
     given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
     if not (math.isfinite(given) and math.isfinite(used)):
         return
@@ -92,10 +91,8 @@ def _isotherms(tree: DataTree) -> Iterator[Check]:
     yield Check("Isotherms used", "warning", Note("isotherms-used", words, values=counted))
 
 
-def _superposition(tree: DataTree) -> Iterator[Check]:
-    factors = group(tree, "shift_factors")
-    if factors is None:
-        return
+@on_group("shift_factors", ())
+def _superposition(factors: Dataset, tree: DataTree) -> Iterator[Check]:
     storage, loss = (number(factors.attrs, f"overlap_rms_log10_{name}") for name in ("storage", "loss"))
     step = number(factors.attrs, "overlap_rms_log10")
     pairs, apart = (number(factors.attrs, name) for name in ("neighbours", "neighbours_without_overlap"))
@@ -249,10 +246,8 @@ def _small_strain(tree: DataTree) -> Iterator[Check]:
     )
 
 
-def _assumptions(tree: DataTree) -> Iterator[Check]:
-    found = group(tree, "assumptions")
-    if found is None:
-        return
+@on_group("assumptions", ())
+def _assumptions(found: Dataset, _: DataTree) -> Iterator[Check]:
     for check in assumption_checks_of(found):
         if check.name in _ASSUMPTIONS:  # the others are those of small strain, which counts the cases
             yield replace(check, name=_ASSUMPTIONS[check.name])
@@ -294,10 +289,8 @@ def _frequencies(tree: DataTree) -> Iterator[Check]:
     yield Check.of("Measured frequency range", outside == 0, Note("frequency-range", words, values=counted))
 
 
-def _measurement(tree: DataTree) -> Iterator[Check]:
-    measurement = group(tree, "measurement")
-    if measurement is None:
-        return
+@on_group("measurement", ())
+def _measurement(measurement: Dataset, _: DataTree) -> Iterator[Check]:
     freedom = values(measurement, "viscoelastic_freedom") if "viscoelastic_freedom" in measurement else None
     check = consistency_check(values(measurement, "consistency"), values(measurement, "consistency_error"), freedom)
     if check is not None:
@@ -310,21 +303,18 @@ def consistency_shown(check: Check) -> Check:
     return replace(check, name="Consistency of the four configurations", sentence=words)
 
 
-def _friction_shifts(tree: DataTree) -> Iterator[Check]:
-    found = group(tree, "friction_shift_factors")
-    if found is not None:
-        likely = number(found.attrs, "p_value") >= _LIKELY
-        sentence = str(found.attrs.get("sentence", ""))
-        if is_from_friction(tree):
-            yield Check("Shift factors from friction", "noted", f"{sentence} {CIRCULAR}")
-        else:
-            yield Check.of("Shift factors from friction", likely, sentence)
+@on_group("friction_shift_factors", ())
+def _friction_shifts(found: Dataset, tree: DataTree) -> Iterator[Check]:
+    likely = number(found.attrs, "p_value") >= _LIKELY
+    sentence = str(found.attrs.get("sentence", ""))
+    if is_from_friction(tree):
+        yield Check("Shift factors from friction", "noted", f"{sentence} {CIRCULAR}")
+    else:
+        yield Check.of("Shift factors from friction", likely, sentence)
 
 
-def _cases(tree: DataTree) -> Iterator[Check]:
-    found = group(tree, "prediction")
-    if found is None:
-        return
+@on_group("prediction", ())
+def _cases(found: Dataset, tree: DataTree) -> Iterator[Check]:
     failures = notes_in(tree.attrs, "failures")
     if failures:
         many = f"{len(failures)} cases" if len(failures) > 1 else "One case"

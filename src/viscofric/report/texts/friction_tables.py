@@ -20,6 +20,7 @@ from viscofric.report.results import (
     nearest,
     nominal_temperatures,
     number,
+    on_group,
     remarks,
     rubbers,
     shown_error,
@@ -41,8 +42,7 @@ from viscofric.report.texts.tables import (
 )
 from viscofric.study.cases.sweep import COORDINATES, VARIED
 
-_GLANCE = "at-a-glance"
-_MOST_ROWS, _MOST_COLUMNS = 12, 8  # of it
+_MOST_ROWS, _MOST_COLUMNS = 12, 8  # of the table at a glance
 # Rows of a table beyond which the results alone hold the others.
 _LONGEST = 1_000
 _DOUBTFUL = {
@@ -115,14 +115,15 @@ def _friction_grid(tree: DataTree, prediction: Dataset, kind: Sequence[tuple[str
     ]
     some = [f"one speed in {every}"] if every > 1 else []
     some += [f"{len(shown)} of {len(columns)} temperatures"] if len(shown) < len(columns) else []
-    return Table(
-        _GLANCE,
-        "Predicted viscoelastic friction coefficient."
-        + (f" Shown: {several(some)}; more of them are in the tables below." if some else ""),
-        ["speed (mm/s)", *(_together(column) for column in shown)],
-        rows,
-        note=f"* {_meaning(*chain(*doubts))}." if any(cell.endswith("*") for row in rows for cell in row) else "",
-    )
+    more = f" Shown: {several(some)}; more of them are in the tables below." if some else ""
+    caption = f"Predicted viscoelastic friction coefficient.{more}"
+    return _at_a_glance(caption, ["speed (mm/s)", *map(_together, shown)], rows, doubts)
+
+
+def _at_a_glance(caption: str, headings: list[str], rows: list[list[str]], doubts: list[tuple[str, ...]]) -> Table:
+    marked = any(cell.endswith("*") for row in rows for cell in row)
+    note = f"* {_meaning(*chain(*doubts))}." if marked else ""
+    return Table("at-a-glance", caption, headings, rows, note=note)
 
 
 def _mean(cases: Dataset, row: int, friction: float) -> str:
@@ -149,19 +150,9 @@ def _highest_friction(
         rows.append([*map(_together, combination), _mean(prediction, top, float(friction[top])) + mark, *where, lowest])
     shown = [rows[place] for place in thinned(len(rows), 2 * _MOST_ROWS)]
     some = f" Shown: {len(shown)} of {len(rows)} combinations." if len(shown) < len(rows) else ""
-    return Table(
-        _GLANCE,
-        f"Highest predicted viscoelastic friction coefficient.{some}",
-        [
-            *(name.replace("_", " ") for name in others),
-            "highest friction",
-            "at temperature",
-            "and speed",
-            "lowest friction",
-        ],
-        shown,
-        note=f"* {_meaning(*chain(*doubts))}." if any("*" in cell for row in shown for cell in row) else "",
-    )
+    varied = [name.replace("_", " ") for name in others]
+    headings = [*varied, "highest friction", "at temperature", "and speed", "lowest friction"]
+    return _at_a_glance(f"Highest predicted viscoelastic friction coefficient.{some}", headings, shown, doubts)
 
 
 def _together(label: str) -> str:
@@ -174,11 +165,9 @@ def _meaning(*doubts: str) -> str:
     return "; ".join(f"{doubt}: {meaning}" for doubt, meaning in _DOUBTFUL.items() if doubt in doubts)
 
 
-def agreement_table(tree: DataTree) -> Table | None:
+@on_group("agreement")
+def agreement_table(agreement: Dataset, _: DataTree) -> Table | None:
     """Prediction against measurement, temperature by temperature."""
-    agreement = group(tree, "agreement")
-    if agreement is None:
-        return None
     left_out = number(agreement.attrs, "left_out")
     left = ""
     if left_out > 0:
@@ -264,11 +253,9 @@ def _varied_columns(cases: Dataset) -> list[Column]:
     ]
 
 
-def measurement_table(tree: DataTree) -> Table | None:
+@on_group("measurement")
+def measurement_table(measurement: Dataset, tree: DataTree) -> Table | None:
     """Every measured point with its prediction."""
-    measurement = group(tree, "measurement")
-    if measurement is None:
-        return None
     full = measurement.assign(difference=measurement["predicted"] / measurement["viscoelastic"] - 1.0)
     table = made_table(
         "measured-and-predicted",
@@ -300,11 +287,9 @@ def measurement_table(tree: DataTree) -> Table | None:
     return _with_remarks(table, remarks(tree, measurement))
 
 
-def friction_shift_table(tree: DataTree) -> Table | None:
+@on_group("friction_shift_factors")
+def friction_shift_table(found: Dataset, _: DataTree) -> Table | None:
     """Shift factors from friction and from the modulus."""
-    found = group(tree, "friction_shift_factors")
-    if found is None:
-        return None
     columns = [
         Column("temperature", "temperature", degrees),
         Column("log₁₀ α from friction", "log10_shift_factor", logarithm),
@@ -345,14 +330,9 @@ def _within_reach(table: Table) -> Table:
 
 
 def _master_and_rubber(tree: DataTree) -> list[Table | None]:
+    caption = "Friction predicted against the reduced speed, at the reference temperature."
     return [
-        prediction_table(
-            tree,
-            "prediction_master",
-            "prediction-master",
-            "Friction predicted against the reduced speed, at the reference temperature.",
-            False,
-        ),
+        prediction_table(tree, "prediction_master", "prediction-master", caption, False),
         friction_shift_table(tree),
         shift_factor_table(tree),
         None if (laws := group(tree, "laws")) is None else law_table(laws),

@@ -8,22 +8,7 @@ from functools import partial
 from viscofric.showing import ABSENT, prefixed, short, significant, with_error
 from viscofric.units import shown_celsius, shown_number, shown_speed
 
-__all__ = [
-    "ABSENT",
-    "degrees",
-    "length",
-    "megapascals",
-    "percent",
-    "prefixed",
-    "several",
-    "short",
-    "signed_percent",
-    "significant",
-    "speed",
-    "speeds",
-    "unbroken",
-    "with_error",
-]
+__all__ = ["ABSENT", "prefixed", "short", "significant", "with_error"]  # handed on
 
 _SPACE = "\N{NO-BREAK SPACE}"
 

@@ -23,6 +23,7 @@ from viscofric.report.results import (
     is_wide,
     nominal_temperatures,
     number,
+    on_group,
     reference_temperature,
     rubbers,
     shown_error,
@@ -97,7 +98,7 @@ def scope(tree: DataTree) -> list[str]:
         )
         points = f"{measurement.sizes['point']} {kind} points of friction"
         said.append(f"The prediction is compared with {points}{separated}. {enters}")
-    return said + _interface(tree) + _heating(tree)
+    return [*said, *filter(None, (_interface(tree), _heating(tree)))]
 
 
 class _Tests(NamedTuple):
@@ -130,29 +131,27 @@ def _tested(tests: _Tests, deformation: str) -> str:
     return f"{tests.noun}{how}{file}: {at}, {unbroken(f'{_range(values(tests.points, along))} {unit}')}"
 
 
-def _interface(tree: DataTree) -> list[str]:
+@on_group("prediction", "")
+def _interface(found: Dataset, tree: DataTree) -> str:
     """Say which part of friction is measured, fitted and predicted, where there is an interface."""
-    found, stress = group(tree, "prediction"), group(tree, "interface")
-    if found is None or "interface_friction" not in found:
-        return []
+    stress = group(tree, "interface")
+    if "interface_friction" not in found:
+        return ""
     share = found["interface_friction"].values / found["total_friction"].values
     low, high = (percent(float(end)) for end in (np.nanmin(share), np.nanmax(share)))
     law = "given"
     if stress is not None:
         kind = "synthetic" if is_synthetic(tree) else "measured"
         law = f"fitted to {kind} Coulomb friction at {stress.sizes['point']} points"
-    said = (
+    return (
         f"The total friction has two parts: hysteresis, predicted from the material; and the interface, {low} to "
         f"{high} of the total, whose law of shear stress is {law}, and acts on the predicted contact area."
     )
-    return [said]
 
 
-def _heating(tree: DataTree) -> list[str]:
+@on_group("heating", "")
+def _heating(heating: Dataset, tree: DataTree) -> str:
     """Say what of the heat is given, fitted and predicted, and what heating changes."""
-    heating = group(tree, "heating")
-    if heating is None:
-        return []
     changed = heating["friction_coefficient"].values / heating["isothermal_friction"].values
     low, high = (signed_percent(float(end) - 1.0) for end in (np.nanmin(changed), np.nanmax(changed)))
     rise = short(float(np.nanmax(heating["temperature_rise"].values)), 3)
@@ -162,13 +161,12 @@ def _heating(tree: DataTree) -> list[str]:
         "given": "a Coulomb friction that is given, not measured",
         "interface": f"the interface, whose law is {law}",
     }.get(str(heating.attrs["heat_of"]), "no Coulomb friction")
-    said = (
+    return (
         "Every case is also predicted at the temperature to which its own friction heats it, with the heat of "
         f"{coulomb}, and of the predicted viscoelastic loss, in {heating.attrs['rubber']} against "
         f"{heating.attrs['counterface']}. The rubber is up to {rise} K warmer; heating changes viscoelastic "
         f"friction by {low} to {high}. Bands and the comparison with {kind} friction are isothermal."
     )
-    return [said]
 
 
 def inputs(tree: DataTree) -> list[Input]:
@@ -249,10 +247,8 @@ def _under(prediction: Dataset, load: float) -> str:
     return f" under {unbroken(f'{_range(loads, 4)} {unit}')}" if np.isfinite(loads).all() else ""
 
 
-def _isotherms_used(tree: DataTree) -> str:
-    factors = group(tree, "shift_factors")
-    if factors is None:
-        return ""
+@on_group("shift_factors", "")
+def _isotherms_used(factors: Dataset, _: DataTree) -> str:
     given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
     return f"; {used:.0f} of {given:.0f} isotherms used" if math.isfinite(given) and math.isfinite(used) else ""
 
@@ -327,9 +323,10 @@ def _caveat(tree: DataTree, prediction: Dataset) -> str:
     return said
 
 
-def _shift_numbers(tree: DataTree) -> list[KeyNumber]:
-    factors, law, reference = group(tree, "shift_factors"), group(tree, "shift_law"), reference_temperature(tree)
-    if factors is None or law is None or reference is None:
+@on_group("shift_factors", [])
+def _shift_numbers(factors: Dataset, tree: DataTree) -> list[KeyNumber]:
+    law, reference = group(tree, "shift_law"), reference_temperature(tree)
+    if law is None or reference is None:
         return []
     used = "used"
     if str(factors.attrs.get("shift_used", "measured")) == "measured":
@@ -345,11 +342,9 @@ def _shift_numbers(tree: DataTree) -> list[KeyNumber]:
     ]
 
 
-def _ramp_numbers(tree: DataTree) -> list[KeyNumber]:
+@on_group("ramps", [])
+def _ramp_numbers(ramps: Dataset, _: DataTree) -> list[KeyNumber]:
     """Return the law of temperature ramps, and the glass transition at each frequency."""
-    ramps = group(tree, "ramps")
-    if ramps is None:
-        return []
     assumed = str(ramps.attrs.get("assumption", ""))
     found = [KeyNumber("Shift law", str(ramps.attrs.get("law", "")), "assumed, not measured" if assumed else "")]
     for peak in json.loads(str(ramps.attrs.get("glass_transitions", "[]"))):
@@ -360,10 +355,8 @@ def _ramp_numbers(tree: DataTree) -> list[KeyNumber]:
     return found
 
 
-def _modulus_numbers(tree: DataTree) -> list[KeyNumber]:
-    spectrum = group(tree, "spectrum")
-    if spectrum is None:
-        return []
+@on_group("spectrum", [])
+def _modulus_numbers(spectrum: Dataset, _: DataTree) -> list[KeyNumber]:
     found = []
     for name, title in (("E0", "Relaxed modulus E₀"), ("E_inf", "Glassy modulus E∞")):
         value = number(spectrum.attrs, name)
@@ -374,17 +367,9 @@ def _modulus_numbers(tree: DataTree) -> list[KeyNumber]:
 
 
 #: Codes of failures whose sentences differ from case to case in numbers only.
-_ONE_REASON = frozenset(
-    {
-        "accuracy-not-reached",
-        "beyond-indenter",
-        "layer-too-thin",
-        "no-window",
-        "not-converged",
-        "not-finite",
-        "too-fast",
-    }
-)
+_ONE_REASON = {"accuracy-not-reached", "beyond-indenter", "layer-too-thin", "no-window"} | {
+    *("not-converged", "not-finite", "too-fast")
+}
 
 
 def grouped_failures(failures: Sequence[Note], most: int, reader: Reader = "run_file") -> list[str]:

@@ -12,7 +12,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
 from viscofric.notes import table_in
-from viscofric.report.results import group, values
+from viscofric.report.results import on_group, values
 from viscofric.report.texts.numbers import ABSENT, degrees, percent, significant
 from viscofric.showing import aligned
 from viscofric.units import shown_celsius, shown_number
@@ -78,14 +78,8 @@ def made_table(
     """Write down those columns that the dataset has."""
     columns = [column for column in columns if column.variable in dataset.variables]
     texts = [_cells(dataset, column) for column in columns]
-    return Table(
-        key,
-        caption,
-        [column.heading for column in columns],
-        [list(row) for row in zip(*texts, strict=True)],
-        is_open,
-        note,
-    )
+    rows = [list(row) for row in zip(*texts, strict=True)]
+    return Table(key, caption, [column.heading for column in columns], rows, is_open, note)
 
 
 def _cells(dataset: Dataset, column: Column) -> list[str]:
@@ -94,11 +88,9 @@ def _cells(dataset: Dataset, column: Column) -> list[str]:
     return [column.text(float(value)) for value in values(dataset, column.variable)]
 
 
-def shift_factor_table(tree: DataTree) -> Table | None:
+@on_group("shift_factors")
+def shift_factor_table(factors: Dataset, _: DataTree) -> Table | None:
     """Shift factors of the isotherms."""
-    factors = group(tree, "shift_factors")
-    if factors is None:
-        return None
     columns = [
         Column("temperature", "temperature", degrees),
         Column("log₁₀ α", "log10_shift_factor", logarithm),
@@ -125,11 +117,9 @@ def law_table(laws: Dataset) -> Table:
     return made_table("laws", "Shift laws fitted to the shift factors, compared by AIC.", laws, columns, False, note)
 
 
-def spectrum_table(tree: DataTree) -> Table | None:
+@on_group("spectrum")
+def spectrum_table(spectrum: Dataset, _: DataTree) -> Table | None:
     """Modes of the retardation spectrum."""
-    spectrum = group(tree, "spectrum")
-    if spectrum is None:
-        return None
     columns = [
         Column("retardation time τ (s)", "retardation_time", times(1.0)),
         Column("compliance C (1/GPa)", "creep_coefficient", times(1e9)),
@@ -151,11 +141,9 @@ def text_table(data: Dataset, *columns: tuple[str, str] | tuple[str, str, str]) 
             cells.append([heading, *data[name].values])
             continue
         unit = data[name].attrs.get("units", "1")
-        write, factor = _SHOWN.get(name) or (_four, _UNITS[unit][1] if unit in ("m/s", "Pa") else 1.0)
+        write, factor = _SHOWN.get(name) or (times(1.0), _UNITS[unit][1] if unit in ("m/s", "Pa") else 1.0)
         found, error = factor * values(data, name), other[0] if other else f"{name}_error"
-        texts = (
-            _pairs(found, factor * values(data, error), write) if error in data else list(map(write, found.tolist()))
-        )
+        texts = _pairs(found, factor * values(data, error), write) if error in data else map(write, found.tolist())
         cells.append([heading, *texts])
         if np.any(values(data, f"{name}_scatter") > 0.0):
             shares = zip(values(data, f"{name}_scatter"), found, strict=True)
@@ -164,10 +152,6 @@ def text_table(data: Dataset, *columns: tuple[str, str] | tuple[str, str, str]) 
             ends = zip(*(factor * values(data, f"{name}_{end}") for end in ("lower", "upper")), strict=True)
             cells.append(["95 % limits", *(f"{significant(low)} to {significant(high)}" for low, high in ends)])
     return aligned(zip(*cells, strict=True))
-
-
-def _four(value: float) -> str:
-    return significant(value, 4)
 
 
 def _decimals(value: float) -> str:
