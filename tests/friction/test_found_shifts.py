@@ -438,6 +438,24 @@ def test_a_point_near_zero_leaves_the_others_on_their_logarithms(value: float, e
     np.testing.assert_allclose(other.standard_errors, one.standard_errors, rtol=0.3)  # the last point is wrong
 
 
+def test_few_points_that_happen_to_agree_keep_their_stated_errors() -> None:
+    """Two temperatures of three speeds have one degree of freedom: what they scatter by may be a third of 3 %."""
+    exact = made(lambda reduced: 2e-3 * reduced**0.9, 44.0, 46.0, speeds=np.geomspace(0.02, 0.2, 3))
+    least = 0.03 / np.log(10.0) * np.sqrt(2.0 / 3.0) / 0.9  # of the step between two means of three points
+    for seed in range(8):
+        scatter = 1.0 + 0.03 * np.random.default_rng(seed).standard_normal(6)
+        stated = replace(exact, viscoelastic=exact.viscoelastic * scatter, viscoelastic_error=0.03 * exact.viscoelastic)
+        assert shift_friction(stated, reference="44 degC").shift_factors.standard_errors[1] > least
+
+
+def test_friction_of_few_speeds_that_is_the_same_within_its_errors_is_refused() -> None:
+    """Three speeds have no scatter of their own: the stated errors tell that nothing is known but noise about zero."""
+    curves = made(constant, 44.0, 50.0, 56.0, speeds=SPEEDS[:3])
+    noise = 1e-3 * np.array([-0.8, 0.33, 1.6, 0.1, -0.2, 2.5, -0.7, 1.1, -0.4])
+    with refused("curves-too-flat", SuperpositionError):
+        shift_friction(replace(curves, viscoelastic=noise, viscoelastic_error=np.full(9, 1e-3)))
+
+
 @given(st.lists(st.floats(-1e3, 1e3), min_size=2, max_size=6), st.floats(1e-6, 1.0))
 def test_the_scale_is_the_logarithm_far_above_zero_and_linear_about_it(values: list[float], zero: float) -> None:
     """Errors on it are those of its slope; values come back; 100 times above zero it is ln to 1e-4."""

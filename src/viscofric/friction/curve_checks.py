@@ -86,11 +86,9 @@ class Decades:
         clear = values > CLEAR_OF_ZERO * size
         if np.all(clear):
             return cls(0.0)
-        # A value below zero tells that errors are as large. One whose error is above what others clearly have tells
-        # nothing of these.
-        zero = float(np.median(np.maximum(size, -values)[~clear]))
-        others = np.abs(values[clear if np.any(clear) else values != 0.0])
-        return cls(min(zero or np.inf, float(np.min(others, initial=np.inf)))) if zero or others.size else cls(1.0)
+        # A value below zero tells that errors are as large; a single error above most others tells nothing of these.
+        zero = min(float(np.median(np.maximum(size, -values)[~clear])), float(np.median(size)))
+        return cls(zero or float(np.min(np.abs(values[values != 0.0]), initial=1.0)))
 
     def __call__(self, values: Array) -> Array:
         """Return values (n,) on the scale, in decades."""
@@ -123,7 +121,7 @@ def friction_unit(curves: FrictionCurves) -> Array:
     scale = Decades.of(curves.viscoelastic, error)
     if scale.zero == 0.0 or not np.any(known):
         return scale.unit(curves.viscoelastic)
-    sizes = np.maximum(friction, np.where(known, error, 0.0))
+    sizes = scale.unit(friction)
     of_friction, of_largest = np.log(error[known] / sizes[known]), np.log(error[known])
     return sizes if np.std(of_friction) < np.std(of_largest) else np.full(len(friction), friction.max())
 

@@ -44,6 +44,9 @@ NOTED = 1.5
 SURE = 2.0
 #: By which variances grow at most because the scatter is found from few points.
 LARGEST_FACTOR = 5.0
+#: With fewer degrees of freedom scatter below the stated errors may be chance, and these are taken, unless its variance
+#: is below this part of theirs.
+TOO_FEW, TOO_GOOD = 10.0, 0.01
 #: Points that are nearer to the common curve do not count less: it is off exact friction by as much, decades.
 BIAS = 2e-3
 #: Friction whose differences chance makes more often than this may be constant; many pairs were looked at.
@@ -126,7 +129,7 @@ def found_shifts(
             break
         positions = dict(zip(members, values.tolist(), strict=True))
         members = reaching
-    if scale is not None and _may_be_constant(chosen, isotherms, scale):
+    if _may_be_constant(chosen, isotherms, scale):
         raise SuperpositionError(too_flat(chosen))
     factors = widenings(members, values, pairs)
     covariance = widened(covariance, factors, _at_reference(chosen, kelvin)[1])
@@ -160,13 +163,18 @@ def _group(found: list[list[int]], doubts: Doubts, *, fitted: bool = False) -> l
     return max(near, key=len)
 
 
-def _may_be_constant(chosen: Sequence[FrictionIsotherm], isotherms: Sequence[FrictionIsotherm], scale: float) -> bool:
-    """Whether friction of the chosen temperatures differs by no more than its scatter (F test)."""
-    from scipy.special import fdtrc
+def _may_be_constant(
+    chosen: Sequence[FrictionIsotherm], isotherms: Sequence[FrictionIsotherm], scale: float | None
+) -> bool:
+    """Whether friction of the chosen temperatures differs by no more than its scatter, or stated errors (F test)."""
+    from scipy.special import chdtrc, fdtrc
 
     friction = np.concatenate([isotherm.friction for isotherm in chosen])
-    weight = 1.0 / (scale * np.concatenate([isotherm.larger * isotherm.variance for isotherm in chosen]))
-    ratio = np.sum(weight * (friction - np.average(friction, weights=weight)) ** 2) / (friction.size - 1)
+    weight = 1.0 / ((scale or 1.0) * np.concatenate([isotherm.larger * isotherm.variance for isotherm in chosen]))
+    squares = np.sum(weight * (friction - np.average(friction, weights=weight)) ** 2)
+    if scale is None:
+        return bool(chdtrc(friction.size - 1, squares) > CONSTANT)
+    ratio = squares / (friction.size - 1)
     freedom = sum(isotherm.curves.freedom for isotherm in isotherms if len(isotherm) > 3)
     return bool(fdtrc(friction.size - 1, freedom, ratio) > CONSTANT)
 
@@ -187,7 +195,10 @@ def _fit(
         weight = 1.0 / (larger * np.concatenate([isotherm.variance for isotherm in counted]))
         curves = Basis.of(places).curves(friction, weight)
         freedom, away = curves.freedom - len(chosen) + 1.0, distances(curves, larger)
-        squares = away / scatter_of(float(np.sum(curves.residual**2)), freedom, larger, away)
+        scatter = scatter_of(float(np.sum(curves.residual**2)), freedom, larger, away)
+        if freedom < TOO_FEW:
+            covariance = covariance / np.clip(_student(freedom) * scatter, TOO_GOOD, 1.0)
+        squares = away / scatter
         near = curves.residual[:, 0] ** 2 < weight * BIAS**2
         return covariance, np.where(near, np.minimum(squares, 1.0), squares), 1.0
 
@@ -204,8 +215,12 @@ def _fit_as_counted(chosen: Sequence[FrictionIsotherm], start: Array, reference:
     # The scatter is found from few points: shifts in units of their errors follow Student's t, whose variance is this.
     # Those that are left out have none.
     freedom = max(found.freedom - sum(int(np.count_nonzero(one.larger >= LEFT_OUT)) for one in chosen), 1.0)
-    few = freedom / (freedom - 2.0) if freedom > 2.5 else LARGEST_FACTOR
-    return found.values, min(few, LARGEST_FACTOR) * found.freedom / freedom * found.covariance
+    return found.values, _student(freedom) * found.freedom / freedom * found.covariance
+
+
+def _student(freedom: float) -> float:
+    """Return the variance of Student's distribution, limited."""
+    return min(freedom / (freedom - 2.0), LARGEST_FACTOR) if freedom > 2.5 else LARGEST_FACTOR
 
 
 def _at_reference(chosen: Sequence[FrictionIsotherm], reference: float) -> tuple[Array, Array]:

@@ -44,9 +44,10 @@ def shift_friction(
     Without `shift` the shift factors are found from the curves alone: log μ is one smooth function of log(αv), a
     penalised spline whose smoothness follows from restricted maximum likelihood, and all α(T) are fitted at once.
     Points are weighted by their standard errors relative to each other; their scatter is estimated too, and has heavy
-    tails: points more than two standard errors off count less by the square of their distance.  Curves overlap
-    only if some shift makes them coincide over two or more points of each, and moving them apart would contradict the
-    points; a spline is never drawn across a gap.  From curves of 10 speeds at 9 temperatures with 1.8 % of scatter, the
+    tails: points more than two standard errors off count less by the square of their distance.  That of less than ten
+    degrees of freedom is not taken to be below the standard errors.  Curves overlap only if some shift makes them
+    coincide over two or more points of each, and moving them apart would contradict the points; a spline is never drawn
+    across a gap.  From curves of 10 speeds at 9 temperatures with 1.8 % of scatter, the
     95 % intervals of α hold 95 %.
 
     Parameters
