@@ -64,11 +64,6 @@ FAR_ABOVE_ZERO = 10.0
 SHARED_BY_SPEEDS = "errors-shared-by-speeds"
 
 
-def clear_of_zero(friction: Array, error: Array) -> bool:
-    """Whether all friction (n,) is so far above zero that its logarithm has a normal error; unknown errors are none."""
-    return bool(np.all(friction > CLEAR_OF_ZERO * np.where(np.isfinite(error), error, 0.0)))
-
-
 @dataclass(frozen=True)
 class Decades:
     """A scale of measured values: log10 of those far above `zero`, and linear about zero, where they may lie.

@@ -17,7 +17,6 @@ from viscofric.friction.curve_checks import (
     LEFT_OUT,
     MEAN_SQUARE,
     Decades,
-    clear_of_zero,
     error_freedom,
     outliers,
     outlying_points,
@@ -423,23 +422,16 @@ class FrictionMasterCurve(Plotted):
     def _smoothed(self) -> SmoothedPoints:
         kelvin = nominal_temperatures(self.temperature)
         sharing = self.level_error * (np.unique(kelvin)[:, None] == kelvin)
-        points, error = self.curves_at_load, self.friction_error
-        if self._averaged:
-            error = standard_errors(points)[self._order]
+        error = standard_errors(self.curves_at_load)[self._order]
         return SmoothedPoints(np.log10(self.reduced_speed), self.friction_coefficient, error, sharing)
 
     @cached_property
     def _order(self) -> Indices:
         return np.argsort(reduced_decades(self.curves_at_load, self.shift, found=self.found), kind="stable")
 
-    @cached_property
-    def _averaged(self) -> bool:
-        """Whether the error of each point is averaged with its neighbours': all friction is clear of zero."""
-        return clear_of_zero(self.friction_coefficient, self.friction_error)
-
     def own_notes(self) -> tuple[Note, ...]:
         """Return notes on replicates that were inferred for averaged errors, and on points off the curve, if any."""
-        inferred = error_freedom(self.curves_at_load)[1] if self._averaged else ()
+        inferred = error_freedom(self.curves_at_load)[1]
         speed, smoothed = self.curves.speed[self._order], self._smoothed
         off = outlying_points(speed, self.temperature, smoothed.outlying, relative=not smoothed.stated)
         return *inferred, *off
