@@ -517,3 +517,9 @@ def test_a_slender_indenter_that_lies_between_the_points_of_the_first_grid_is_th
     exact = hertz_ellipse(float(run.load[0]), "10 mm", "21 m", "1 MPa", 0.5)
     # load ~ depth^1.5, by the depth of Hertz's ellipse
     assert abs(1.5 * (exact.indentation / 1e-4 - 1.0)) * run.load[0] <= run.errors.load[0] < 0.1 * run.load[0]
+
+
+def test_times_before_the_first_contact_alone_can_be_asked_for() -> None:
+    history = vf.motion.History([0.0, 1.0], indentation=[-1e-4, 1e-5])
+    run = vf.motion.solve_transient(RUBBER, vf.Ellipsoid("10 mm", "20 mm"), history, times=[0.5], accuracy=0.1)
+    assert (run.load[0], run.indentation[0]) == (0.0, pytest.approx(-4.5e-5))

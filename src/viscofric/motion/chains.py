@@ -84,10 +84,10 @@ def difference(pair: Pair[State]) -> Difference:
 
 
 def over_scales(off: Difference, scales: Sizes) -> tuple[float, ...]:
-    """Return the differences that steps are judged by, in parts of the scales."""
+    """Return the differences that steps are judged by, in parts of the scales; of themselves before the first load."""
     energy = scales.energy / _ENERGIES
     each = (scales.load, scales.depth, scales.friction, scales.friction, energy, energy)
-    return tuple(one / scale for one, scale in zip(off, each, strict=False))
+    return tuple(one / (scale or abs(one) or 1.0) for one, scale in zip(off, each, strict=False))
 
 
 @dataclass(frozen=True, eq=False)
