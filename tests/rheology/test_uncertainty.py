@@ -387,10 +387,10 @@ def test_bands_of_the_acrylic_adhesive_follow_what_was_measured(real_data):
     low, high = samples.frequency_range
     glass = half_width(samples.modulus_band(np.array([high / 10.0])))
     assert 0.02 < glass[0, 0] < 0.2
-    # The rubber plateau was not measured: E0 may be lower by what modes of two more decades do.
+    # The rubber plateau was not measured: E0 may be lower by what modes of eight more decades do.
     rubber = half_width(samples.modulus_band(np.array([low])))
     assert np.all(rubber < 0.1)
-    assert np.ptp(np.quantile(np.log10(samples.E0), [0.025, 0.975])) < 1.0
+    assert np.ptp(np.quantile(np.log10(samples.E0), [0.025, 0.975])) < 2.0
 
 
 @pytest.mark.apart
