@@ -14,7 +14,7 @@ from viscofric.cli.contact_options import chosen_direction, contact_options, loa
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV
 from viscofric.cli.output import answer, drawing, json_record, outputs, write_files
-from viscofric.cli.rubber_options import NamedRubber, rubber_options
+from viscofric.cli.rubber_options import NamedRubber, layer_options, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ Example:
 
 @as_command("curve", epilog=_EXAMPLE)
 @rubber_options
+@layer_options
 @sliding_indenter_options
 @together(speed_options("Speed"), load_option(required=True), heading=CONDITIONS)
 @contact_options

@@ -60,12 +60,10 @@ Examples:
     picture="Draw the contact over time, or the restitution of several",
 )
 def command(out: Path | None, picture: Path | None, **parameters: Any) -> None:
-    """Solve the impact of a body of revolution of given mass: restitution, contact time, largest force.
+    """Solve the impact of a body of revolution on thick rubber: restitution, contact time, largest force.
 
     Quantities carry their unit. Several speeds or temperatures give the restitution curve.
     """
-    if parameters["layer"] is not None or parameters["sliding_base"]:
-        raise click.UsageError("impacts are solved on a half-space only; leave out --layer and --sliding-base.")
     contact = Contact(parameters, out, picture)
     speeds = chosen_speeds(parameters)
     reference = contact.rubber.material.reference

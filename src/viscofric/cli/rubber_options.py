@@ -96,6 +96,9 @@ rubber_options = together(
     click.option("--E-inf", "glass_modulus", metavar="E", help="Glassy modulus, e.g. '10 MPa'."),
     quantity("--tau", "TIME", "Retardation time, e.g. '1 ms'."),
     key("material.poisson_ratio", metavar="ν", type=float, help="Poisson's ratio with --E0 or --dma [default: 0.5]."),
+    heading="Material",
+)
+layer_options = together(
     quantity("--layer", "H", "Thickness of a layer on a rigid base [default: half-space]."),
     click.option("--sliding-base", is_flag=True, help="The layer slides on its base instead of being bonded."),
     heading="Material",
@@ -208,8 +211,8 @@ def _named(name: str) -> NamedRubber:
 
 def chosen_layer(parameters: dict[str, Any]) -> Layer | None:
     """Return the layer of the options; none for a half-space."""
-    if parameters["layer"] is None:
-        if parameters["sliding_base"]:
+    if parameters.get("layer") is None:
+        if parameters.get("sliding_base"):
             raise click.UsageError("--sliding-base is for --layer only; a half-space has no base.")
         return None
     from viscofric.contact.bodies import Layer

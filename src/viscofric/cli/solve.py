@@ -14,7 +14,7 @@ from viscofric.cli.contact_options import chosen_direction, contact_options, ind
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, write_fields
 from viscofric.cli.output import answer, drawing, json_record, outputs, print_pairs, write_files
-from viscofric.cli.rubber_options import rubber_options
+from viscofric.cli.rubber_options import layer_options, rubber_options
 from viscofric.cli.speed_options import list_of
 from viscofric.contact.settings import ContactSettings
 
@@ -36,6 +36,7 @@ Example:
 
 @as_command("solve", epilog=_EXAMPLE)
 @rubber_options
+@layer_options
 @indenter_options
 @together(
     quantity("--speed", "V", "Speed, e.g. '100 mm/s'; '0 m/s' and 'infinite' are the elastic limits.", required=True),

@@ -16,7 +16,7 @@ from viscofric.cli.errors import print_notes
 from viscofric.cli.files import DATA, PICTURES, WRITTEN, Source, check_ending, write_dataset
 from viscofric.cli.history_options import chosen_history, chosen_times, history_options
 from viscofric.cli.output import answer, drawing, json_record, outputs, print_pairs, write_files
-from viscofric.cli.rubber_options import rubber_options
+from viscofric.cli.rubber_options import layer_options, rubber_options
 
 if TYPE_CHECKING:
     from viscofric.motion.cycle_solution import CycleSolution
@@ -36,6 +36,7 @@ Examples:
 
 @as_command("transient", epilog=_EXAMPLE)
 @rubber_options
+@layer_options
 @indenter_options
 @surface_options
 @history_options
