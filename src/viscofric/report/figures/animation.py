@@ -17,7 +17,7 @@ from viscofric.motion.solution import TransientSolution
 from viscofric.report.data import moves
 from viscofric.report.figures.motion import plot_transient
 from viscofric.report.figures.pressures import Frames, frames_of, plot_pressure_frame
-from viscofric.report.figures.style import INK, STYLE, mark_synthetic, new_figure, unit_for
+from viscofric.report.figures.style import INK, STYLE, mark_synthetic, new_figure, slender_bar, unit_for
 from viscofric.report.texts.numbers import prefixed
 
 #: Most frames, and how long they last together, s.
@@ -67,7 +67,7 @@ def _drawn(run: TransientSolution, shown: Frames, title: str, *, synthetic: bool
     now = right.axvline(0.0, color=INK, linewidth=1.2)
     mesh = plot_pressure_frame(left, shown, 0)
     if mesh is not None:
-        figure.colorbar(mesh, ax=left, shrink=0.85).set_label(f"pressure $p$ ({shown.pressure.name})")
+        slender_bar(figure, mesh, [left], shown.label)
     if synthetic:
         mark_synthetic([right])
     left.set_title(" ", fontsize=_SMALL)

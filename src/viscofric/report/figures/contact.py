@@ -9,7 +9,7 @@ import numpy as np
 from scipy.ndimage import uniform_filter
 
 from viscofric.arrays import Array, centre_line
-from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, Unit, heat_map, new_figure, unit_for
+from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, Unit, heat_map, new_figure, slender_bar, unit_for
 from viscofric.report.texts.numbers import prefixed, significant
 from viscofric.units import shown_celsius
 
@@ -175,8 +175,8 @@ def contact_figure(solution: ContactSolution, indenter: Indenter, title: str = "
         left, right = figure.subfigures(1, 2, width_ratios=[1.15, 1.0], squeeze=False)[0]
         above = left.subplots()
         beyond = "neither" if solution.diagnostics.peak_resolved else "max"
-        bar = left.colorbar(plot_pressure_map(above, solution), ax=above, shrink=0.85, pad=0.02, extend=beyond)
-        bar.set_label(f"pressure $p$ ({unit_for(solution.max_pressure, 'Pa').name})")
+        label = f"pressure $p$ ({unit_for(solution.max_pressure, 'Pa').name})"
+        slender_bar(left, plot_pressure_map(above, solution), [above], label, extend=beyond)
         profile, surface = right.subplots(2, 1, sharex=True, height_ratios=[1.2, 1.0])
     plot_pressure_profile(profile, solution)
     profile.set_xlabel("")

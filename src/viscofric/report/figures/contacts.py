@@ -81,16 +81,10 @@ def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: fl
     x, y = contact.x[along] / _MILLI, contact.y[across] / _MILLI
     mesh = pressure_mesh(axes, x, y, pressure[np.ix_(along, across)], highest, outlined=True)
     axes.plot([0.0], [0.0], marker="+", color=WHITE, markersize=9, markeredgewidth=1.2, linestyle="none")
-    dot: dict[str, Any] = {
-        "marker": "o",
-        "color": VERMILION,
-        "markersize": 4,
-        "markeredgecolor": WHITE,
-        "markeredgewidth": 0.6,
-    }
-    axes.plot([contact.centre_of_pressure / _MILLI], [0.0], linestyle="none", **dot)
-    axes.set_xlim(-reach / _MILLI, reach / _MILLI)
-    axes.set_ylim(-reach / _MILLI, reach / _MILLI)
+    dot: dict[str, Any] = {"color": VERMILION, "markersize": 4, "markeredgecolor": WHITE, "markeredgewidth": 0.6}
+    axes.plot([contact.centre_of_pressure / _MILLI], [0.0], "o", **dot)
+    ends = (-reach / _MILLI, reach / _MILLI)
+    axes.set(xlim=ends, ylim=ends)
     draw_arrow(axes, (0.04, 0.945), (0.21, 0.945))
     return mesh
 

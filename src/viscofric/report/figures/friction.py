@@ -82,7 +82,7 @@ def plot_friction_curves(
         title.append(("lines: predicted" if title else "predicted") + (", 95 % bands" if lines.has_band else ""))
         title += [_BARS] if np.isfinite(lines.error).any() else []
         title += [_THIN] if lines.extrapolated.any() else []
-    _finish(axes, handles[::-1], "\n".join(title), r"viscoelastic friction coefficient $\mu$")
+    _finish(axes, handles[::-1], "\n".join(title))
 
 
 def plot_friction_master_curve(
@@ -131,7 +131,7 @@ def plot_friction_master_curve(
         at = number(as_dataset(measurement).attrs, "reference_temperature")
     axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + style.at_temperature(at))
     title = "" if measurement is None else f"points: {style.origin(synthetic)} ± scatter"
-    _finish(axes, handles, title, r"viscoelastic friction coefficient $\mu$")
+    _finish(axes, handles, title)
 
 
 def plot_friction_master_curves(
@@ -143,7 +143,7 @@ def plot_friction_master_curves(
         _plot_predicted(axes, predicted(prediction).rows(), color=look.colour, linestyle=look.dashes)
         handles.append(Line2D([], [], color=look.colour, linestyle=look.dashes, label=name))
     axes.set_xlabel(r"reduced speed $\alpha_T\,v$ (mm/s)" + style.at_temperature(reference_temperature))
-    _finish(axes, handles, "predicted", r"viscoelastic friction coefficient $\mu$")
+    _finish(axes, handles, "predicted")
 
 
 def plot_coulomb_friction(axes: Axes, measurement: Friction, *, synthetic: bool = False) -> None:
@@ -170,12 +170,8 @@ def plot_coulomb_friction(axes: Axes, measurement: Friction, *, synthetic: bool 
     nominal = nominal_temperatures(points.temperature)
     plot_measured(axes, points, nominal)
     axes.set_xlabel(r"speed $v$ (mm/s)")
-    _finish(
-        axes,
-        style.temperature_handles(nominal)[::-1],
-        f"{style.origin(synthetic)} ± scatter",
-        r"Coulomb friction coefficient $\mu_\mathrm{c}$",
-    )
+    title, label = f"{style.origin(synthetic)} ± scatter", r"Coulomb friction coefficient $\mu_\mathrm{c}$"
+    _finish(axes, style.temperature_handles(nominal)[::-1], title, label)
 
 
 def _insist_on_any(*given: object) -> None:
@@ -232,16 +228,13 @@ def plot_measured(axes: Axes, points: Measured, nominal: Array) -> None:
     for index, look in enumerate(style.looks(nominal.size)):
         rows = np.flatnonzero((which == index) & np.isfinite(speed) & np.isfinite(points.friction))
         if rows.size:
-            bars: dict[str, Any] = {
-                "yerr": points.scatter[rows],
-                "fmt": look.marker,
-                "color": look.colour,
-                "elinewidth": 1.0,
-            }
-            axes.errorbar(speed[rows], points.friction[rows], **bars)
+            bars: dict[str, Any] = {"fmt": look.marker, "color": look.colour, "elinewidth": 1.0}
+            axes.errorbar(speed[rows], points.friction[rows], points.scatter[rows], **bars)
 
 
-def _finish(axes: Axes, handles: list[Any], title: str, label: str) -> None:
+def _finish(
+    axes: Axes, handles: list[Any], title: str, label: str = r"viscoelastic friction coefficient $\mu$"
+) -> None:
     axes.set(xscale="log", ylabel=label)
     if axes.get_ylim()[1] > 0.0 and axes.dataLim.y0 >= 0.0:
         axes.set_ylim(0.0, max(axes.get_ylim()[1], _HEADROOM * axes.dataLim.y1))

@@ -70,14 +70,8 @@ def plot_heated_friction(axes: Axes, curves: HeatedFrictionCurves | Dataset) -> 
     else:
         axes.plot(speed, warm, color=style.INK, marker="o", markersize=3, label="heated")
     if np.any(beyond := is_extrapolated(data)):
-        ring: dict[str, Any] = {
-            "linestyle": "none",
-            "marker": "o",
-            "markersize": 7,
-            "markerfacecolor": "none",
-            "color": style.GREY,
-        }
-        axes.plot(speed[beyond], warm[beyond], label="frequencies not measured", **ring)
+        ring: dict[str, Any] = {"color": style.GREY, "markersize": 7, "fillstyle": "none"}
+        axes.plot(speed[beyond], warm[beyond], "o", label="frequencies not measured", **ring)
     axes.set(xscale="log", ylabel=r"viscoelastic friction $\mu$")
     axes.set_ylim(0.0, 1.08 * float(np.nanmax(np.concatenate([isothermal, cold, hot]))))
     axes.set_xlabel(r"speed $v$ (mm/s)" + style.at_temperature(kelvin))
@@ -205,24 +199,18 @@ def _shown(tree: DataTree) -> list[tuple[str, Dataset]]:
 @on_group("temperature_map")
 def temperature_map_figure(data: Dataset, _: DataTree) -> Figure | None:
     """Return the rise of temperature of the rubber's face at the warmest contact: seen from above, and along it."""
-    line = data.sizes["y"] == 1
-    figure = style.new_figure(6.2, 3.2 if line else 5.6)
-    panels = [figure.subplots()] if line else list(figure.subplots(2, 1, height_ratios=[1.6, 1.0]))
-    if not line:
-        mesh = _plot_map(panels[0], data)
-        style.slender_bar(figure, mesh, panels[:1], r"rise of temperature $\Delta T$ (K)")
-    _plot_centre_line(panels[-1], data)
-    if not line:
-        panels[1].set_xlim(panels[0].get_xlim())
-    return figure
-
-
-def _plot_map(axes: Axes, data: Dataset) -> Any:
+    if data.sizes["y"] == 1:
+        return style.one_panel(_plot_centre_line, data, size=(6.2, 3.2))
+    figure = style.new_figure(6.2, 5.6)
+    above, below = figure.subplots(2, 1, height_ratios=[1.6, 1.0])
     x, y = _MILLIMETRES * values(data, "x"), _MILLIMETRES * values(data, "y")
-    mesh = style.heat_map(axes, x, y, data["rise"].values, "inferno")
-    axes.contour(x, y, data["contact"].values.T, levels=[0.5], colors=["white"], linewidths=0.9)
-    axes.set(xlabel="along the motion $x$ (mm) →", ylabel="across $y$ (mm)")
-    return mesh
+    mesh = style.heat_map(above, x, y, data["rise"].values, "inferno")
+    above.contour(x, y, data["contact"].values.T, levels=[0.5], colors=["white"], linewidths=0.9)
+    above.set(xlabel="along the motion $x$ (mm) →", ylabel="across $y$ (mm)")
+    style.slender_bar(figure, mesh, [above], r"rise of temperature $\Delta T$ (K)")
+    _plot_centre_line(below, data)
+    below.set_xlim(above.get_xlim())
+    return figure
 
 
 def _plot_centre_line(axes: Axes, data: Dataset) -> None:

@@ -66,13 +66,8 @@ def _plot_known(axes: Axes, known: Material | Master, frequency: Array) -> list[
         return axes.plot(frequency, modulus.real, **dashed, label=known.name or "for comparison")
     points: Moduli = moduli_of_master_curve(known)
     near = (points.angular_frequency >= frequency[0]) & (points.angular_frequency <= frequency[-1])
-    look: dict[str, Any] = {
-        "color": style.INK,
-        "markersize": 3.0,
-        "fillstyle": "none",
-        "markeredgewidth": 0.7,
-        "zorder": 2,
-    }
+    look: dict[str, Any] = {"color": style.INK, "markersize": 3.0, "fillstyle": "none", "markeredgewidth": 0.7}
+    look["zorder"] = 2
     axes.plot(points.angular_frequency[near], points.loss[near], "o", **look)
     return axes.plot(points.angular_frequency[near], points.storage[near], "s", **look, label="DMA")
 

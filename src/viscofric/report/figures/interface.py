@@ -35,11 +35,7 @@ MOST_PANELS = 3
 
 
 def plot_shear_stress(
-    axes: Axes,
-    stress: ShearStress | Dataset,
-    laws: Sequence[InterfaceLaw | Dataset] = (),
-    *,
-    synthetic: bool = False,
+    axes: Axes, stress: ShearStress | Dataset, laws: Sequence[InterfaceLaw | Dataset] = (), *, synthetic: bool = False
 ) -> None:
     """Draw shear stress of all temperatures against the reduced slip speed, and laws fitted to it.
 

@@ -83,9 +83,7 @@ def maximum_ridge(speed: Array, temperature: Array, friction: Array) -> Array:
 
 
 def map_figure(
-    friction: Dataset,
-    measurement: tuple[Array, Array] | None = None,
-    shifts: Sequence[tuple[Array, Array] | None] = (),
+    friction: Dataset, measurement: tuple[Array, Array] | None = None, shifts: Sequence[tuple[Array, Array] | None] = ()
 ) -> Figure | None:
     """Return friction as maps over speed and temperature on one scale, the mean over seeds; None of too few points.
 

@@ -16,7 +16,7 @@ from viscofric.motion.solution import TransientSolution
 from viscofric.report.data import moves, pressure_along, returns
 from viscofric.report.figures.contact import draw_profile, pressure_mesh
 from viscofric.report.figures.motion import plot_force_depth, plot_friction_loop, plot_restitution, plot_transient
-from viscofric.report.figures.style import INK, Unit, new_figure, sequential_looks, unit_for
+from viscofric.report.figures.style import INK, Unit, new_figure, sequential_looks, slender_bar, unit_for
 from viscofric.report.texts.numbers import prefixed
 from viscofric.units import Quantities, to_si_array
 
@@ -38,6 +38,11 @@ class Frames(NamedTuple):
     highest: float  # in its unit
     reach: tuple[tuple[float, float], tuple[float, float]]  # along x and y, in the unit of length
     has_axis: bool  # that of an indenter, which a periodic surface does not have
+
+    @property
+    def label(self) -> str:
+        """Label of an axis or of colours of the pressure."""
+        return f"pressure $p$ ({self.pressure.name})"
 
     @property
     def are_maps(self) -> bool:
@@ -88,27 +93,24 @@ def plot_pressure_profiles(axes: Axes, run: TransientSolution, times: Quantities
         axes.plot(x / frames.length.size, pressure / frames.pressure.size, color=look.colour, label=words)
     axes.set_xlim(*frames.reach[0])
     axes.set_ylim(0.0, 1.05 * frames.highest)
-    axes.set(xlabel=f"$x$ ({frames.length.name})", ylabel=f"pressure $p$ ({frames.pressure.name})")
+    axes.set(xlabel=f"$x$ ({frames.length.name})", ylabel=frames.label)
     axes.legend(loc="best", title="time")
 
 
 def plot_pressure_frame(axes: Axes, frames: Frames, place: int) -> QuadMesh | None:
     """Draw the pressure at one of several times, on their common scales; return the colours of a map."""
     field = frames.fields[place]
-    axes.set_xlim(*frames.reach[0])
-    axes.set_xlabel(f"$x$ ({frames.length.name})")
+    axes.set(xlim=frames.reach[0], xlabel=f"$x$ ({frames.length.name})")
     if not frames.are_maps:
         x, pressure = pressure_along(field)
         draw_profile(axes, x / frames.length.size, pressure / frames.pressure.size)
-        axes.set_ylim(0.0, 1.05 * frames.highest)
-        axes.set_ylabel(f"pressure $p$ ({frames.pressure.name})")
+        axes.set(ylim=(0.0, 1.05 * frames.highest), ylabel=frames.label)
         return None
     x, y = (np.asarray(field[name]) / frames.length.size for name in field.dims)
     mesh = pressure_mesh(axes, x, y, np.asarray(field) / frames.pressure.size, frames.highest)
     if frames.has_axis:
         axes.plot([0.0], [0.0], marker="+", color=INK, markersize=9, linestyle="none")
-    axes.set_ylim(*frames.reach[1])
-    axes.set_ylabel(f"$y$ ({frames.length.name})")
+    axes.set(ylim=frames.reach[1], ylabel=f"$y$ ({frames.length.name})")
     return mesh
 
 
@@ -136,13 +138,10 @@ def pressure_strip(run: TransientSolution, times: Quantities | None = None, titl
     for place, panel in enumerate(panels):
         mesh = plot_pressure_frame(panel, frames, place)
         panel.set_title(prefixed(frames.times[place], None, "s"), fontsize=9.5)
-        panel.set_xlabel("")
-        if place:
-            panel.set_ylabel("")
+        panel.set(xlabel="", **({"ylabel": ""} if place else {}))
     figure.supxlabel(f"$x$ ({frames.length.name})", fontsize=10.5)
     if mesh is not None:
-        label = f"pressure $p$ ({frames.pressure.name})"
-        figure.colorbar(mesh, ax=list(panels), shrink=0.85, pad=0.01, label=label)
+        slender_bar(figure, mesh, panels, frames.label)
     return figure
 
 
@@ -187,7 +186,7 @@ def _plot_pressures(axes: Axes, run: TransientSolution) -> None:
     mesh = plot_pressure_frame(axes, frames, 0)
     assert mesh is not None  # of a map
     axes.set_title(prefixed(frames.times[0], None, "s"), fontsize=9.5)
-    axes.figure.colorbar(mesh, ax=axes).set_label(f"pressure $p$ ({frames.pressure.name})")
+    slender_bar(axes.figure, mesh, [axes], frames.label)
 
 
 def impact_figure(found: ImpactSolution | RestitutionCurve, title: str = "") -> Figure:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any, Literal, NamedTuple
 
 import matplotlib
@@ -14,7 +16,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import QuadMesh
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import ListedColormap, Normalize
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, FigureBase
 from matplotlib.lines import Line2D
 from matplotlib.ticker import (
     FixedFormatter,
@@ -115,19 +117,11 @@ class Look(NamedTuple):
 
 def looks(count: int) -> list[Look]:
     """Return a look for each of so many temperatures; many ones run from dark (cold) to light."""
-    if count <= len(_COLOURS):
-        colours: list[Any] = list(_COLOURS[:count])
-    else:
-        scale = matplotlib.colormaps["viridis"]
-        colours = [scale(0.9 * index / (count - 1)) for index in range(count)]
-    return _marked(colours)
+    return _marked(_COLOURS[:count]) if count <= len(_COLOURS) else sequential_looks(count)
 
 
-def _marked(colours: list[Any]) -> list[Look]:
-    return [
-        Look(colour, _MARKERS[index % len(_MARKERS)], _DASHES[index % len(_DASHES)])
-        for index, colour in enumerate(colours)
-    ]
+def _marked(colours: Sequence[Any]) -> list[Look]:
+    return list(map(Look, colours, itertools.cycle(_MARKERS), itertools.cycle(_DASHES)))
 
 
 def sequential_looks(count: int) -> list[Look]:
@@ -255,14 +249,8 @@ def plain_numbers(axes: Axes, axis: Literal["x", "y"]) -> None:
 
 def legend_above(axes: Axes, handles: Sequence[Any], columns: int = 2) -> None:
     """Put a legend above the axes, where it covers no data."""
-    legend = axes.legend(
-        handles=list(handles),
-        loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
-        ncols=columns,
-        borderaxespad=0.2,
-        columnspacing=1.2,
-    )
+    style: dict[str, Any] = {"ncols": columns, "borderaxespad": 0.2, "columnspacing": 1.2}
+    legend = axes.legend(handles=list(handles), loc="lower left", bbox_to_anchor=(0.0, 1.0), **style)
     legend.set_gid(_ABOVE)
 
 
@@ -306,17 +294,19 @@ def temperature_scale(nominal: Array) -> ScalarMappable:
 _BAR_WIDTH = 0.13  # inches
 
 
-def temperature_bar(figure: Figure, scale: ScalarMappable, panels: Sequence[Axes]) -> Colorbar:
-    """Add the colour bar of a temperature scale to the right of panels."""
-    return slender_bar(figure, scale, panels, "temperature (°C)")
-
-
-def slender_bar(figure: Figure, scale: ScalarMappable, panels: Sequence[Axes], label: str, **style: Any) -> Colorbar:
+def slender_bar(
+    figure: FigureBase, scale: ScalarMappable, panels: Sequence[Axes], label: str, **style: Any
+) -> Colorbar:
     """Add a slender colour bar to the right of panels."""
-    slender = max(figure.get_figheight() / _BAR_WIDTH, 15.0)
+    whole: Any = figure.figure
+    slender = max(whole.get_figheight() / _BAR_WIDTH, 15.0)
     bar = figure.colorbar(scale, ax=list(panels), label=label, pad=0.015, aspect=slender, **style)
     bar.ax.tick_params(top=False, bottom=False, left=False)
     return bar
+
+
+#: Add the colour bar of a temperature scale to the right of panels.
+temperature_bar = partial(slender_bar, label="temperature (°C)")
 
 
 def reduced_frequency(kelvin: float | None = None) -> str:

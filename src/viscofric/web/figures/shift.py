@@ -240,9 +240,7 @@ def verdict_numbers(found: dict[str, Any]) -> list[spec.Spec]:
     numbers = [
         misfit
         and spec.number(
-            "overlap",
-            f"{shown_number(misfit['joint'], 'z.3f')} decades",
-            remark=f"rms over {misfit['points']} points",
+            "overlap", f"{shown_number(misfit['joint'], 'z.3f')} decades", remark=f"rms over {misfit['points']} points"
         ),
         merit is not None and spec.number("figure of merit", merit, digits=2, remark="good if ≤ 1"),
         bool(shift["isotherms"])

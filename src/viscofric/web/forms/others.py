@@ -284,8 +284,7 @@ CARD = [
         choice("@card.temperature_unit", "Temperatures of the model", "K: kelvin; degC: °C", "K"),
     ),
     *when(
-        {"@card.format": ["abaqus"]},
-        choice("@card.domain", "Analysis", "time: time (Prony series); frequency", "time"),
+        {"@card.format": ["abaqus"]}, choice("@card.domain", "Analysis", "time: time (Prony series); frequency", "time")
     ),
     *when(
         {"@card.format": _PROGRAMS},

@@ -11,14 +11,7 @@ from viscofric.datasets import DataTree, plain
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import listed, note_of, notes_in
 from viscofric.report.data import predicted
-from viscofric.report.results import (
-    group,
-    nominal_temperatures,
-    reference_temperature,
-    remarks,
-    sentences,
-    values,
-)
+from viscofric.report.results import group, nominal_temperatures, reference_temperature, remarks, sentences, values
 from viscofric.report.sweeps import cases_of
 from viscofric.report.texts.checks import CIRCULAR, friction_checks
 from viscofric.report.texts.friction_tables import agreement_table
