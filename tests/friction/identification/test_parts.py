@@ -324,13 +324,15 @@ def test_the_level_of_subtracted_friction_is_an_amount_and_other_errors_in_commo
     )
     points = SharedErrors(common=0.02, coulomb_level=level).given_to(usable_points(curves, BALL, None, 1e-6), curves)
     assert 0 < np.count_nonzero(points.logarithmic) < 8
-    missed, by_friction, by_errors = points.missed(np.log(friction), away)
-    np.testing.assert_allclose(missed, 0.0, atol=1e-12)
-    for place, step in enumerate(1e-6 * np.eye(2)):  # a cube of the step is rounding
-        both = [points.missed(np.log(friction), away + sign * step)[0] for sign in (1.0, -1.0)]
-        np.testing.assert_allclose((both[0] - both[1]) / 2e-6, by_errors[:, place], rtol=1e-6, atol=1e-8)
-    both = [points.missed(np.log(friction) + step, away)[0] for step in (1e-6, -1e-6)]
-    np.testing.assert_allclose((both[0] - both[1]) / 2e-6, by_friction, rtol=1e-6, atol=1e-8)
+    np.testing.assert_allclose(points.missed(np.log(friction), away)[0], 0.0, atol=1e-12)
+    for common in (away, np.array([0.03, -40.0])):  # the latter leave less than nothing, as a fit may try
+        missed, by_friction, by_errors = points.missed(np.log(friction), common)
+        rounding = 1e-9 * np.abs(missed) + 1e-8  # over the step; its square is less
+        for place, step in enumerate(1e-6 * np.eye(2)):
+            both = [points.missed(np.log(friction), common + sign * step)[0] for sign in (1.0, -1.0)]
+            np.testing.assert_array_less(np.abs((both[0] - both[1]) / 2e-6 - by_errors[:, place]), rounding)
+        both = [points.missed(np.log(friction) + step, common)[0] for step in (1e-6, -1e-6)]
+        np.testing.assert_array_less(np.abs((both[0] - both[1]) / 2e-6 - by_friction), rounding)
 
 
 @pytest.mark.parametrize("senses", [([-1.0, 1.0],), ([1.0], [-1.0]), ()])

@@ -26,6 +26,8 @@ from viscofric.units import Quantity, positive, shown_celsius, shown_number, sho
 
 #: Fewer points do not determine a spectrum's shape.
 FEWEST_POINTS = 6
+#: Part of modelled friction that is left by errors in common, below which ln μ is continued.
+LEAST_LEFT = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,9 +81,12 @@ class Points:
         factors, amounts = (np.where(kind, self.shared, 0.0) for kind in (~self.absolute, self.absolute))
         friction = np.exp(log_friction + factors @ common - self.log_scale)
         measured = friction + amounts @ common
-        away = np.where(self.logarithmic, np.log(np.where(self.logarithmic, measured, 1.0)), measured - self.friction)
-        unit = np.where(self.logarithmic, measured, 1.0)
-        return away, friction / unit, (friction[:, None] * factors + amounts) / unit[:, None]
+        # While a fit is sought an error may exceed the friction: the logarithm then goes on as its tangent.
+        least = np.maximum(measured, LEAST_LEFT * friction)
+        away = np.where(self.logarithmic, np.log(least) + measured / least - 1.0, measured - self.friction)
+        unit = np.where(self.logarithmic, least, 1.0)
+        by_value = friction / unit + np.where(self.logarithmic, 1.0 - measured / least, 0.0)
+        return away, by_value, by_value[:, None] * factors + amounts / unit[:, None]
 
     def chosen(self, keep: Mask) -> Points:
         """Return some of the points, by a mask (n,)."""
