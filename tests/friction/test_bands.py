@@ -375,3 +375,14 @@ def test_what_is_reported_is_how_far_the_truth_is_off() -> None:
         curves = vf.predict_friction(material, BALL, samples=samples, **asked)
         away.append((curves.viscoelastic - truth) / curves.material_error)
     assert np.sqrt(np.mean(np.square(away))) == pytest.approx(1.0, abs=0.5)
+
+
+def test_friction_of_a_sample_without_losses_is_not_negative() -> None:
+    """Its only mode relaxes in 1e20 s; to first order that is more than the whole friction."""
+    law = vf.Arrhenius(activation_energy=1.286e5, reference="30 degC")
+    lossy, elastic = (
+        replace(vf.Material.standard_linear_solid("1 MPa", "10 MPa", tau), shift=law) for tau in ("10 ms", 1e20)
+    )
+    curves = predicted(lossy, drawn_from(lossy, elastic), 303.15, 0.05, load=1.0)
+    assert curves.viscoelastic_lower is not None
+    assert curves.viscoelastic[0] > 0.0 == curves.viscoelastic_lower[0]

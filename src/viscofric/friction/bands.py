@@ -100,7 +100,8 @@ class DrawnMaterials:
         )
         level /= (1.0 / complex(self.material.complex_modulus(sensitivity.frequency, temperature))).real
         power = sensitivity.compliance_part / sensitivity.friction if sensitivity.friction else 0.0
-        return np.asarray(level**power * (sensitivity.friction + part / level - sensitivity.compliance_part))
+        changed = sensitivity.friction + part / level - sensitivity.compliance_part
+        return np.asarray(level**power * np.maximum(changed, 0.0))  # first order may overshoot: losses are not negative
 
     def missed(self, sensitivity: ComplianceSensitivity, temperature: float) -> float:
         """Return the relative error of μ due to the systematic misfit of the spectrum; see `with_material_band`."""
