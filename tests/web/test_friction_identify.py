@@ -90,7 +90,7 @@ def test_the_rubber_can_be_fetched(context: Context, identified: dict[str, Any])
 
 def test_a_rubber_from_friction_is_no_witness_of_friction(context: Context, identified: dict[str, Any]) -> None:
     shutil.copy(context.downloads / identified["download"], context.files / "found.json")
-    found = done("agreement", context, {**CURVES, "material": {"file": "found.json"}}, accuracy=0.1)
+    found = done("agreement", context, {**CURVES, "material": {"file": "found.json"}, "solver": {"accuracy": 0.1}})
     assert found["warning_records"][0]["code"] == "identified-from-friction"
     assert len(found["warnings"]) == len(found["warning_records"])
     # It fits what it was found from to its noise, which proves nothing.

@@ -131,6 +131,7 @@ def _value(found: dict[str, Any], name: str) -> float:
 
 
 _KEY = ("friction_coefficient", "indentation", "contact_area", "max_pressure")
+_WAVES = (("longest", "slowest"), ("shortest", "fastest"))
 _ROUGH_KEY = ("friction_coefficient", "contact_area_fraction", "mean_contact_pressure", "mean_gap")
 
 
@@ -143,10 +144,7 @@ def _numbers(found: dict[str, Any], rows: dict[str, Any]) -> tuple[list[Spec], l
     rough = found["kind"] == "rough"
     told = {name: number_of(row) for name, row in rows.items()}
     key = [told.pop(name) for name in (_ROUGH_KEY if rough else _KEY)]
-    waves = {
-        "Frequency of the longest wave": "slowest_frequency",
-        "Frequency of the shortest wave": "fastest_frequency",
-    }
+    waves = {f"Frequency of the {wave} wave": f"{name}_frequency" for wave, name in _WAVES}
     frequencies = waves if rough else {"Frequency {v/a}": "frequency"}
     balance = number("Energy balance error", 100.0 * abs(_value(found, "energy_balance")), unit="%", digits=2)
     given, asked = (int(_value(found, name)) for name in (("points", "points_requested") if rough else 2 * ("cells",)))
@@ -168,9 +166,7 @@ def _of_rubber(found: dict[str, Any]) -> str:
 
 
 def _why_rough(found: dict[str, Any]) -> str:
-    ends = [
-        quantity(_value(found, name), "angular_frequency", 2) for name in ("slowest_frequency", "fastest_frequency")
-    ]
+    ends = [quantity(_value(found, f"{name}_frequency"), "angular_frequency", 2) for _, name in _WAVES]
     return (
         f"At {quantity(found['speed'], 'speed')}, the longest wave of the surface deforms the rubber at {ends[0]}, the "
         f"shortest at {ends[1]}, where the rubber has {_of_rubber(found)}. On the leading flanks the rubber is being "

@@ -104,9 +104,8 @@ def _measured(
 
     def some(rows: list[bool], **look: Any) -> spec.Spec:
         error = None if scatter is None else _kept(scatter, rows)
-        return spec.points(
-            curve["speed"], _kept(curve[column], rows), error=error, temperature=kelvin, text=text, **look
-        )
+        y = _kept(curve[column], rows)
+        return spec.points(curve["speed"], y, error=error, temperature=kelvin, text=text, **look)
 
     drawn = [some([not one for one in doubtful])]
     if any(doubtful):
@@ -136,10 +135,8 @@ def master_figures(found: dict[str, Any], **more: Any) -> dict[str, spec.Spec]:
         lines = _predicted(master["line"], **look) if master["line"] else []
         measured = [trace for one in master["points"] for trace in _measured(one, "friction", "scatter")]
         x = {**spec.SPEED, "label": f"reduced speed α·v at {spec.quantity(master['reference'], 'temperature')}"}
-        drawn = spec.figure(
-            "Friction at one temperature", x, _VISCOELASTIC, [*lines, *measured], master["overlap"], **more
-        )
-        figures[f"master-{name}"] = drawn
+        title = "Friction at one temperature"
+        figures[f"master-{name}"] = spec.figure(title, x, _VISCOELASTIC, [*lines, *measured], master["overlap"], **more)
     return figures | {"friction-shift-factors": _factors(found, **more)}
 
 
@@ -182,12 +179,8 @@ def identified_view(found: dict[str, Any], curves: list[dict[str, Any]], **more:
         lines.append(spec.line(one["speed"], one["fitted"], name, band=(one["lower"], one["upper"]), **look))
     measured = [{**trace, "size": 5} for one in curves for trace in _measured(one, "viscoelastic")]
     title, sentence = "Friction of the identified material", found["sentences"][0]
-    head = [
-        "level",
-        f"|E| at {spec.quantity(found['middle'], 'angular_frequency')}",
-        "rms of friction",
-        "χ² above the best",
-    ]
+    middle = spec.quantity(found["middle"], "angular_frequency")
+    head = ["level", f"|E| at {middle}", "rms of friction", "χ² above the best"]
     rows = [
         [
             f"× {one['factor']}",
@@ -199,17 +192,13 @@ def identified_view(found: dict[str, Any], curves: list[dict[str, Any]], **more:
     ]
     at, anchored = found["anchor"], ""
     if at:
-        units = {"modulus": "modulus", "angular_frequency": "angular_frequency", "temperature": "temperature"}
-        where = [spec.quantity(at[name], kind) for name, kind in units.items()]
+        where = [spec.quantity(at[name], name) for name in ("modulus", "angular_frequency", "temperature")]
         anchored = f"Anchored to |E| = {where[0]} at {where[1]} and {where[2]}."
+    family = spec.table("Materials that friction alone hardly distinguishes", head, rows)
+    drawn = spec.figure(title, spec.SPEED, _VISCOELASTIC, [*lines, *measured], sentence, **more)
     return {
-        "figures": {
-            "identified-modulus": _identified(found, **more),
-            "identified-friction": spec.figure(title, spec.SPEED, _VISCOELASTIC, [*lines, *measured], sentence, **more),
-        },
-        "tables": {"family": spec.table("Materials that friction alone hardly distinguishes", head, rows)}
-        if rows
-        else {},
+        "figures": {"identified-modulus": _identified(found, **more), "identified-friction": drawn},
+        "tables": {"family": family} if rows else {},
         "anchored_at": anchored,
     }
 
@@ -233,16 +222,14 @@ def _identified(found: dict[str, Any], **more: Any) -> spec.Spec:
             dashed: spec.Spec = {"colour": "green", "dash": "6px,3px", "width": 1.4}
             traces.append(spec.line("modulus.angular_frequency", f"known.{part}", name, **dashed))
     share = f"{spec.quantity(100.0 * identified['limit'], digits=2)} %"
+    reference = spec.quantity(found["reference"], "temperature")
     level = " except for the magnitude, which friction does not determine" if identified["relative"] else ""
     marks = [{"x": low, "label": f"identified to {share} from …"}, {"x": high, "label": "… to"}]
     caption = f"Strong lines: |E| is identified to {share}{level}. "
     caption += "Beyond, it follows from the assumption of a smooth spectrum."
     return spec.figure(
         "Modulus identified from friction",
-        {
-            **spec.REDUCED_FREQUENCY,
-            "label": f"reduced {{frequency}} α {{omega}} at {spec.quantity(found['reference'], 'temperature')}",
-        },
+        {**spec.REDUCED_FREQUENCY, "label": f"{spec.REDUCED_FREQUENCY['label']} at {reference}"},
         spec.MODULUS,
         traces,
         caption if high > low else f"|E| is not identified to {share} at any frequency.",

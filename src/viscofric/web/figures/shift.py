@@ -47,6 +47,7 @@ def shift_figures(found: dict[str, Any]) -> dict[str, spec.Spec]:
         figures["vertical-shift"] = _vertical(shift["vertical"])
     for name in ("storage_modulus", "loss_modulus", "loss_tangent"):
         y = _COLUMNS[name]
+        traces = spec.isotherms("shift.isotherms", shift["isotherms"], "angular_frequency", name)
         over_b = "/b" if shift["vertical"] and y["kind"] else ""
         figures[f"shifted-{name}"] = spec.figure(
             "Isotherms shifted to the reference",
@@ -54,11 +55,7 @@ def shift_figures(found: dict[str, Any]) -> dict[str, spec.Spec]:
             {**y, "label": f"{y['label']}{over_b}"},
             [
                 {**one, "symbol": "square"} if about["held"] else one
-                for one, about in zip(
-                    spec.isotherms("shift.isotherms", shift["isotherms"], "angular_frequency", name),
-                    shift["isotherms"],
-                    strict=True,
-                )
+                for one, about in zip(traces, shift["isotherms"], strict=True)
             ],
             "Squares are fixed manually." if any(one["held"] for one in shift["isotherms"]) else "",
             look=spec.ISOTHERMS,
@@ -228,13 +225,8 @@ def verdict_numbers(found: dict[str, Any]) -> list[spec.Spec]:
     check, shift = found["check"], found["shift"]
     misfit, merit = shift["misfit"], check.get("figure_of_merit")
     held = sum((shift["factors"] or {}).get("held", ()))
-    origin = (
-        "from a file"
-        if shift["origin"] == "given"
-        else f"{held} fixed manually"
-        if held
-        else "fitted to the measurements"
-    )
+    origin = f"{held} fixed manually" if held else "fitted to the measurements"
+    origin = "from a file" if shift["origin"] == "given" else origin
     agree = {None: "not tested", True: "agree", False: "do not agree"}
     causal = (check.get("kramers_kronig") or {}).get("holds")
     numbers = [
@@ -255,11 +247,5 @@ def _limits_in_words(material: dict[str, Any]) -> str:
     if not material["limits"]:
         return str(material["words"])
     low, high = (None if end is None else spec.quantity(end, "temperature") for end in material["limits"]["valid"])
-    inside = (
-        f"from {low} to {high}"
-        if low and high
-        else f"above {low}"
-        if low and material["limits"]["valid"][0] > 0.0
-        else "at every temperature"
-    )
-    return f"Used: {material['words']}. Valid {inside}."
+    inside = f"above {low}" if low and material["limits"]["valid"][0] > 0.0 else "at every temperature"
+    return f"Used: {material['words']}. Valid {f'from {low} to {high}' if low and high else inside}."

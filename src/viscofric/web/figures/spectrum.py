@@ -145,9 +145,8 @@ def spectrum_numbers_shown(found: dict[str, Any]) -> list[spec.Spec]:
 
     misfits = []
     if fit.get("rms_step") is not None:
-        misfits.append(
-            spec.number("misfit of the step tests", shown_number(fit["rms_step"], "z.3f"), remark="decades, rms")
-        )
+        misfit = shown_number(fit["rms_step"], "z.3f")
+        misfits.append(spec.number("misfit of the step tests", misfit, remark="decades, rms"))
     if fit.get("rms_storage") is not None:
         both = ", ".join(shown_number(fit[name], "z.3f") for name in ("rms_storage", "rms_loss"))
         misfits.append(spec.number("misfit of E′, E″", both, remark="decades, rms"))
@@ -163,12 +162,8 @@ def spectrum_numbers_shown(found: dict[str, Any]) -> list[spec.Spec]:
 
 def modes_table(spectrum: dict[str, Any]) -> spec.Spec:
     """Return the modes in both forms, in SI units."""
-    columns = [
-        spectrum["modes"]["retardation_time"],
-        spectrum["modes"]["creep_coefficient"],
-        spectrum["relaxation"]["relaxation_time"],
-        spectrum["relaxation"]["modulus"],
-    ]
+    shown = {"modes": ("retardation_time", "creep_coefficient"), "relaxation": ("relaxation_time", "modulus")}
+    columns = [spectrum[kind][name] for kind, names in shown.items() for name in names]
     rows = [
         [str(at + 1), *(column[at] if at < len(column) else "" for column in columns)]
         for at in range(max(map(len, columns)))

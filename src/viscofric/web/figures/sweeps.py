@@ -56,22 +56,13 @@ def _id(key: str) -> str:
 
 def _axis(key: str, letter: str) -> spec.Spec:
     title, primes = _MODULI[key]
-    return (
-        {**spec.MODULUS, "label": f"{title.lower()} {letter}{primes}"}
-        if primes
-        else spec.axis("loss tangent tan δ", log=True)
-    )
+    modulus = {**spec.MODULUS, "label": f"{title.lower()} {letter}{primes}"}
+    return modulus if primes else spec.axis("loss tangent tan δ", log=True)
 
 
 def _of_ramps(ramps: list[dict[str, Any]], key: str) -> list[spec.Spec]:
-    return [
-        spec.line(
-            f"ramps[{at}].temperature",
-            f"ramps[{at}].{key}",
-            spec.quantity(one["angular_frequency"], "angular_frequency"),
-        )
-        for at, one in enumerate(ramps)
-    ]
+    names = [spec.quantity(one["angular_frequency"], "angular_frequency") for one in ramps]
+    return [spec.line(f"ramps[{at}].temperature", f"ramps[{at}].{key}", name) for at, name in enumerate(names)]
 
 
 def _of_sweeps(found: dict[str, Any], key: str) -> list[spec.Spec]:
@@ -80,9 +71,8 @@ def _of_sweeps(found: dict[str, Any], key: str) -> list[spec.Spec]:
 
     def value(one: dict[str, Any]) -> float:
         storage, loss = (one[name] or 0.0 for name in ("storage_modulus", "loss_modulus"))
-        return float(
-            {"storage_modulus": storage, "loss_modulus": loss}.get(key, loss / storage if storage > 0.0 else 0.0)
-        )
+        tangent = loss / storage if storage > 0.0 else 0.0
+        return float({"storage_modulus": storage, "loss_modulus": loss}.get(key, tangent))
 
     for name, left, symbol in (("left out", True, "x"), ("far from its neighbours", False, "circle")):
         some = [
@@ -158,12 +148,8 @@ def _files(files: list[dict[str, Any]]) -> spec.Spec:
 
 
 def _flagged(flagged: list[dict[str, Any]]) -> spec.Spec:
-    kinds = {
-        "temperature": "temperature",
-        "angular_frequency": "angular_frequency",
-        "storage_modulus": "modulus",
-        "loss_modulus": "modulus",
-    }
+    kinds = {name: name for name in ("temperature", "angular_frequency")}
+    kinds |= dict.fromkeys(("storage_modulus", "loss_modulus"), "modulus")
     head = ["location", "reason", "temperature", "frequency", "storage modulus", "loss modulus"]
     rows = [
         [one["place"], one["why"], *(spec.quantity(one[name], kind) for name, kind in kinds.items())]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from pydantic import Field
 
 from viscofric.datasets import DataTree, plain
 from viscofric.friction.curves import FrictionCurves
@@ -37,18 +36,14 @@ _BEYOND, _POINTS = 1.25, 25
 _CASES = "friction cases"
 
 
-class Options(JobOptions):
-    """Options of the job."""
-
-    #: Relative error of the predicted friction; that of [solver] without
-    accuracy: float | None = Field(None, ge=1e-4, le=0.1)
+Options = JobOptions
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Predict friction where and how it was measured; return both by temperature, and how well they agree."""
     curves = friction_curves(study, context)
     context.progress(0, 1, "Building the material")
-    contacts = _contacts(_as_measured(study, curves, options), curves, context)
+    contacts = _contacts(_as_measured(study, curves), curves, context)
 
     with Processes() as executor:
         run_plan(contacts.plan, CaseStore(context.cache / _CASES), executor, context.show)
@@ -61,7 +56,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     return numbers | {"figures": agreement_figures(numbers, plain(measured_points(curves)))}
 
 
-def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options) -> dict[str, Any]:
+def _as_measured(study: dict[str, Any], curves: FrictionCurves) -> dict[str, Any]:
     """Return a study of the conditions that were measured."""
     requested = {name: study[name] for name in _TABLES if name in study}
     conditions = {
@@ -78,8 +73,6 @@ def _as_measured(study: dict[str, Any], curves: FrictionCurves, options: Options
     if thickness is not None:
         conditions["thickness"] = thickness
     solver = {**requested.get("solver", {}), "cases": "curves"}
-    if options.accuracy is not None:
-        solver["accuracy"] = options.accuracy
     uncertainty = {**requested.get("uncertainty", {}), "members": 0}
     tables = {"conditions": conditions, "solver": solver, "uncertainty": uncertainty, "outputs": {"fields": "none"}}
     return {**requested, **tables}

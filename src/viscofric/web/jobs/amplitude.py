@@ -48,10 +48,8 @@ def _figure(found: dict[str, Any], letter: str) -> Spec:
     percent = 100.0 * np.array(found["strain_amplitude"])
     traces = []
     for key, name, symbol, colour in (("storage", "′", "square", "blue"), ("loss", "″", "circle", "vermilion")):
-        traces += [
-            points(percent, f"{key}_modulus", f"{letter}{name}", symbol=symbol, colour=colour, size=5),
-            line(percent, f"{key}_fitted", f"{letter}{name}, Kraus", colour=colour, legend=False),
-        ]
+        traces.append(points(percent, f"{key}_modulus", f"{letter}{name}", symbol=symbol, colour=colour, size=5))
+        traces.append(line(percent, f"{key}_fitted", f"{letter}{name}, Kraus", colour=colour, legend=False))
     strain = axis("strain amplitude (%)", log=True)
     return figure("Amplitude sweep", strain, MODULUS, traces, "Points: as measured; lines: Kraus’s law.")
 

@@ -48,9 +48,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     curves = friction_curves(study, context)
     indenter = indenter_of(study)
     if indenter is None:
-        raise JobError(
-            Note("missing", "is missing; give the indenter of the test, such as a ball.", "indenter"), "indenter"
-        )
+        missing = Note("missing", "is missing; give the indenter of the test, such as a ball.", "indenter")
+        raise JobError(missing, "indenter")
     leans = options.shift == "rubber" or (options.anchor is not None and options.anchor.of == "rubber")
     made = made_rubber(study, context) if options.beside or leans else None
     rubber = None if made is None else made.material
@@ -58,11 +57,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     chosen: dict[str, Any] = {"accuracy": options.accuracy or accuracy, "samples": options.samples}
     if options.shift == "rubber":
         if rubber is None or not rubber.has_shift_factors:
-            raise JobError(
-                "The page's material has no shift factors; choose “found from friction”.",
-                "@identify.shift",
-                code="no-shift",
-            )
+            words = "The page's material has no shift factors; choose “found from friction”."
+            raise JobError(words, "@identify.shift", code="no-shift")
         chosen["shift"] = rubber.shift
     anchor = None if options.anchor is None else make_anchor(options.anchor, rubber, curves.load_unit)
     steps = _STEPS + (len(LEVELS) if anchor is None else 0)
@@ -89,10 +85,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     reply = _reply(found, curves, rubber if options.beside else None, anchor)
     about = {"temperature": _temperatures(study, material, context), "from_synthetic": from_synthetic}
     numbers: dict[str, Any] = plain(reply | about)
-    view = identified_view(
-        numbers, plain(measured_points(curves)), synthetic=made_up or (None if options.beside else False)
-    )
-    return numbers | view
+    synthetic = made_up or (None if options.beside else False)
+    return numbers | identified_view(numbers, plain(measured_points(curves)), synthetic=synthetic)
 
 
 def _temperatures(study: dict[str, Any], material: Material, context: Context) -> dict[str, Any] | None:
@@ -159,14 +153,8 @@ def _fit(found: IdentifiedMaterial) -> list[dict[str, Any]]:
     """Return how well the identified rubber meets the friction, by temperature."""
     fit = found.friction
     # ln μ is what is fitted, so that a residual times its error is a relative difference.
-    return by_temperature(
-        fit.temperature,
-        fit.speed,
-        fitted=fit.viscoelastic,
-        lower=fit.viscoelastic_lower,
-        upper=fit.viscoelastic_upper,
-        residual=found.residuals,
-    )
+    band = {"lower": fit.viscoelastic_lower, "upper": fit.viscoelastic_upper}
+    return by_temperature(fit.temperature, fit.speed, fitted=fit.viscoelastic, residual=found.residuals, **band)
 
 
 _Text = Annotated[str, Field(max_length=100)]
@@ -192,11 +180,8 @@ class AnchorOptions(JobOptions):
 def make_anchor(requested: AnchorOptions, rubber: Material | None, load_unit: str) -> Anchor:
     """Return the requested anchor, or that of a rubber's modulus; `JobError` if a quantity cannot be used."""
     try:
-        return (
-            _of_modulus(requested, rubber)
-            if requested.of in ("modulus", "rubber")
-            else _of_contact(requested, load_unit)
-        )
+        of_modulus = requested.of in ("modulus", "rubber")
+        return _of_modulus(requested, rubber) if of_modulus else _of_contact(requested, load_unit)
     except InputError as error:
         name = str(error.note.values.get("argument", "anchor"))
         field = f"@identify.{_FIELDS.get(name, name)}"
@@ -211,11 +196,8 @@ def _given(requested: AnchorOptions, *names: str) -> list[str]:
 
 
 def _of_modulus(requested: AnchorOptions, rubber: Material | None) -> Anchor:
-    known: Any = requested.modulus
-    if requested.of == "modulus":
-        _given(requested, "modulus")
-    (frequency,) = _given(requested, "frequency")
-    at = angular_frequency(frequency, "frequency")
+    known: Any = _given(requested, "modulus")[0] if requested.of == "modulus" else None
+    at = angular_frequency(_given(requested, "frequency")[0], "frequency")
     if requested.of == "rubber":
         if rubber is None:
             raise InputError("there is no rubber whose modulus could be taken.", code="no-rubber")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any, Literal
 
 import numpy as np
-from pydantic import Field
 
 from viscofric.datasets import plain
 from viscofric.errors import InputError, SuperpositionError
@@ -33,12 +32,8 @@ class Options(JobOptions):
     """Options of the job."""
 
     beside: bool = True  # whether to compare with the page's material
-    #: Temperature at which α is 1, with its unit; that of the rubber without, or one that is found
-    reference: str | None = Field(None, max_length=100)
     #: Law to fit to the shift factors found from friction
     law: Literal["best", "wlf", "arrhenius", "vft", "wlf+arrhenius", "polynomial", "none"] = "best"
-    #: Relative standard error of friction that all points of a temperature share
-    level_error: float = Field(0.0, ge=0.0, lt=1.0)
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
@@ -51,13 +46,12 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     result: dict[str, Any] = {"by_rubber": None, "found": None, "refusal": None, "known": None}
     if known is not None:
         context.progress(0, 2, "Shifting by the rubber's factors")
-        by_rubber = shift_friction(curves, shift=known, reference=options.reference, **settings)
+        by_rubber = shift_friction(curves, shift=known, **settings)
         result["by_rubber"] = _curve(by_rubber) | {"words": _words(by_rubber)}
         notes += by_rubber.notes
     context.progress(1, 2, "Finding shift factors from friction")
-    reference = common_reference(curves, known) if options.reference is None else options.reference
     try:
-        found = shift_friction(curves, reference=reference, level_error=options.level_error, **settings)
+        found = shift_friction(curves, reference=common_reference(curves, known), **settings)
     except SuperpositionError as error:
         if known is None:
             raise
@@ -80,14 +74,10 @@ def _settings(curves: FrictionCurves, indenter: Any, rubber: Material | None) ->
 
 
 def _curve(master: FrictionMasterCurve) -> dict[str, Any]:
-    columns = {
-        "friction": master.friction_coefficient,
-        "error": master.friction_error,
-        "scatter": master.friction_scatter,
-    }
+    mu, errors = master.friction_coefficient, {"error": master.friction_error, "scatter": master.friction_scatter}
     return {
         "reference": master.reference,
-        "points": by_temperature(master.temperature, master.reduced_speed, **columns),
+        "points": by_temperature(master.temperature, master.reduced_speed, friction=mu, **errors),
         "line": drawn_line(measured_line(master)),
         "overlap": master.overlap.sentence,
     }

@@ -12,7 +12,7 @@ from viscofric.study.run_file.tables import Temperature
 from viscofric.web.figures.spectrum import moduli_figures
 from viscofric.web.jobs.context import Context, JobError, JobOptions
 from viscofric.web.jobs.rubbers import friction_bands, made_rubber
-from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, moduli
+from viscofric.web.jobs.spectrum_numbers import band_numbers, frequencies, measured_curve, moduli
 
 #: The isotherm within this of the temperature counts as measured there, K.
 _NEAR = 1.0
@@ -49,7 +49,7 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
 
 
 def _moved(rubber: Rubber, at: float, alpha: float) -> dict[str, Any] | None:
-    curve = rubber.master_curve if rubber.fit is None else rubber.fit.master_curve
+    curve = measured_curve(rubber)
     if curve is None:
         return None
     vertical = rubber.material.vertical_shift

@@ -101,10 +101,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     notes = [*rubber.rubber.notes, *unknown_frequencies(rubber.material)]
     warnings = [*solved.warnings, *rubber.doubts([case.temperature])]
     data = solved.to_dataset()
-    shown, over_time = (
-        motion_view(data, contacts, f"{whole.steps} steps, {whole.rejected_steps} rejected"),
-        pressures(whole),
-    )
+    shown = motion_view(data, contacts, f"{whole.steps} steps, {whole.rejected_steps} rejected")
+    over_time = pressures(whole)
     shown["figures"] = over_time.pop("figures", {}) | shown["figures"]
     return {
         **record(data, _DIGITS),

@@ -30,19 +30,14 @@ class Options(JobOptions):
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
     """Make the rubber of [material]; what is known before it is drawn for its bands is sent as a part."""
     table, wanted = checked_tables(study, context)
-    context.progress(
-        0, 2, "shifting the isotherms" if table.dma or table.steps or table.ramps else "reading the rubber"
-    )
+    tested = table.dma or table.steps or table.ramps
+    context.progress(0, 2, "shifting the isotherms" if tested else "reading the rubber")
     rubber = made_rubber(study, context)
     found = _without_bands(rubber, table.fixed_shift_factors)
     reply = found | _view(found)
     if not options.bands or wanted.draws == 0 or rubber.superposed is None:
-        why = (
-            ""
-            if rubber.superposed is not None
-            else "only a material fitted to sweeps or step tests at several temperatures has a known uncertainty"
-        )
-        return reply | {"band": None, "no_band": why}
+        why = "only a material fitted to sweeps or step tests at several temperatures has a known uncertainty"
+        return reply | {"band": None, "no_band": why if rubber.superposed is None else ""}
     context.part(reply)
     context.progress(1, 2, f"drawing the rubber {wanted.draws} times for its 95 % bands")
     drawn = friction_bands(study, context)
@@ -60,11 +55,7 @@ def _view(found: dict[str, Any]) -> dict[str, Any]:
     return {
         "shift": shift and _without_lines(shift),
         "check": check and {**check, "kramers_kronig": alone},
-        "figures": {
-            **spectrum_figures(found),
-            **(shift_figures(found) if shift else {}),
-            **moduli_of_material(spectrum),
-        },
+        "figures": spectrum_figures(found) | (shift_figures(found) if shift else {}) | moduli_of_material(spectrum),
         "tables": found["tables"] | ({"modes": modes_table(spectrum)} if modes else {}),
         "key_numbers": spectrum_numbers_shown(found),
         "verdict_numbers": verdict_numbers(found) if shift and check else [],

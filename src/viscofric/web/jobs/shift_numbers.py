@@ -137,8 +137,7 @@ def _limits(law: ShiftLaw) -> dict[str, Any] | None:
     if isinstance(law, ShiftFactors):
         ends = [float(law.temperatures[0]), float(law.temperatures[-1])]
         return {"valid": ends, "fitted": ends}
-    limits = getattr(law, "extrapolation_limits", None)
-    fitted = getattr(law, "fitted_range", None)
+    limits, fitted = (getattr(law, name, None) for name in ("extrapolation_limits", "fitted_range"))
     if limits is None:
         return None
     return {"valid": plain(list(limits)), "fitted": None if fitted is None else list(fitted)}

@@ -30,7 +30,7 @@ def spectrum_numbers(rubber: Rubber) -> dict[str, Any]:
     material = rubber.material
     modes, why = _modes(material)
     fit = None if modes is None else modes.fit
-    curve = _curve(rubber)
+    curve = measured_curve(rubber)
     at = frequencies(rubber)
     return {
         "reference": material.reference,
@@ -63,19 +63,19 @@ _OF_A_FIT = (
 def _modes(material: Material) -> tuple[RetardationSpectrum | None, tuple[str, ...]]:
     """Return the retardation modes, and what is to be said of them."""
     try:
-        modes = material.modes_at()
-        return modes, material.notes_on_modes
+        return material.modes_at(), material.notes_on_modes
     except InputError as error:
         return None, (error.note,)
 
 
-def _curve(rubber: Rubber) -> MasterCurve | None:
+def measured_curve(rubber: Rubber) -> MasterCurve | None:
+    """Return the measured master curve, if there is one."""
     return rubber.master_curve if rubber.fit is None else rubber.fit.master_curve
 
 
 def frequencies(rubber: Rubber) -> Array:
     """Return the angular frequencies that the rubber's moduli are drawn over, rad/s, at the reference."""
-    curve, spectrum = _curve(rubber), rubber.material.spectrum
+    curve, spectrum = measured_curve(rubber), rubber.material.spectrum
     if not isinstance(spectrum, RetardationSpectrum):
         low, high = float(spectrum.angular_frequency[0]), float(spectrum.angular_frequency[-1])
     elif curve is not None:
