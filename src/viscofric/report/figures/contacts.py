@@ -64,18 +64,9 @@ class Contact(NamedTuple):
 
 
 def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: float, highest: float) -> QuadMesh:
-    """Draw the pressure of a point contact seen from above, with its outline and its axis.
+    """Draw the pressure (nx, ny) of a point contact up to `reach` (m) from its axis, with its outline and its axis.
 
-    Parameters
-    ----------
-    axes : matplotlib.axes.Axes
-    contact : Contact
-    pressure : (nx, ny) array
-        Of the contact, in the unit of the colours.
-    reach : float
-        How far from the axis is shown, m.
-    highest : float
-        Pressure at the end of the colours.
+    Colours end at `highest`, in the unit of the pressure.
     """
     along, across = (np.flatnonzero(np.abs(places) <= reach) for places in (contact.x, contact.y))
     x, y = contact.x[along] / _MILLI, contact.y[across] / _MILLI

@@ -53,9 +53,8 @@ def convergence_figure(cases: Dataset, *, accuracy: float | None = None) -> Figu
         return None
     has_cells = bool((np.isfinite(values(cases, "cells")) & ~interpolated(cases)).any())
     figure = new_figure(7.4, 5.0 if has_cells else 3.4)
-    panels = figure.subplots(1 + has_cells, 1, squeeze=False, sharex=True, height_ratios=[2.0, 1.0][: 1 + has_cells])[
-        :, 0
-    ]
+    heights = [2.0, 1.0][: 1 + has_cells]
+    panels = figure.subplots(1 + has_cells, 1, squeeze=False, sharex=True, height_ratios=heights)[:, 0]
     plot_errors(panels[0], cases, accuracy=accuracy)
     if has_cells:
         plot_cells(panels[1], cases)

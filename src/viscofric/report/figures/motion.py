@@ -126,12 +126,8 @@ def plot_friction_loop(axes: Axes, data: Dataset) -> None:
     axes.plot(x, y, color=style.VERMILION)
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     for place in _arrow_places(x):
-        axes.annotate(
-            "",
-            xy=(float(x[place + 1]), float(y[place + 1])),
-            xytext=(float(x[place]), float(y[place])),
-            arrowprops={"arrowstyle": "->", "color": style.VERMILION, "linewidth": 1.2},
-        )
+        start, end = ((float(x[one]), float(y[one])) for one in (place, place + 1))
+        axes.annotate("", end, start, arrowprops={"arrowstyle": "->", "color": style.VERMILION, "linewidth": 1.2})
     axes.set_xlabel(f"position along the motion ({where.name})")
     axes.set_ylabel(f"{_title(data, 'friction_force')} ({unit.name})")
 

@@ -105,16 +105,9 @@ def plot_law_residuals(axes: Axes, shift_factors: Shifts, laws: Sequence[ShiftLa
     for law, look in zip(laws, style.looks(len(laws)), strict=True):
         residuals = law_residuals(law, table)
         left = values(residuals, "log10_residual")
-        handles += axes.plot(
-            values(residuals, "temperature") - CELSIUS_ZERO,
-            left,
-            color=look.colour,
-            marker=look.marker,
-            linestyle=look.dashes,
-            markersize=4,
-            linewidth=1.0,
-            label=getattr(law, "title", type(law).__name__),
-        )
+        line: dict[str, Any] = {"color": look.colour, "marker": look.marker, "linestyle": look.dashes, "markersize": 4}
+        warm_there, title = values(residuals, "temperature") - CELSIUS_ZERO, getattr(law, "title", type(law).__name__)
+        handles += axes.plot(warm_there, left, linewidth=1.0, label=title, **line)
         every.append(left)
     axes.set_ylim(*_limits_of_residuals(every, doubt))
     axes.set(xlabel="temperature (°C)", ylabel=r"$\log_{10}$ of measured over law's $\alpha_T$")
@@ -172,18 +165,10 @@ def _finish(axes: Axes, low: float, high: float, room: float, handles: list[Any]
 
 
 def _points(axes: Axes, table: ShiftTable, colour: str, marker: str, label: str) -> Any:
-    return axes.errorbar(
-        table.temperature - CELSIUS_ZERO,
-        10.0**table.log10,
-        yerr=bars(table.log10, table.error),
-        fmt=marker,
-        color=colour,
-        markersize=4.5 if marker == "o" else 6.5,
-        fillstyle="full" if marker == "o" else "none",
-        elinewidth=1.0,
-        zorder=3 if marker == "o" else 2,
-        label=label,
-    )
+    small: dict[str, Any] = {"markersize": 4.5, "fillstyle": "full", "zorder": 3}
+    look = small if marker == "o" else {"markersize": 6.5, "fillstyle": "none", "zorder": 2}
+    warm, error = table.temperature - CELSIUS_ZERO, bars(table.log10, table.error)
+    return axes.errorbar(warm, 10.0**table.log10, error, fmt=marker, color=colour, elinewidth=1.0, label=label, **look)
 
 
 def _limits_of_residuals(every: list[Array], doubt: Array) -> tuple[float, float]:

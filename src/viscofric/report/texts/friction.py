@@ -7,7 +7,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import SAME_TEMPERATURE, numbered
-from viscofric.report.texts.numbers import several, short
+from viscofric.report.texts.numbers import several, spanned
 from viscofric.report.texts.tables import text_table
 from viscofric.traction import TractionRuns
 from viscofric.units import shown_celsius
@@ -41,9 +41,7 @@ def friction_lines(curves: FrictionCurves) -> list[tuple[str, str]]:
     """Return what is to be said of separated friction as a whole, as pairs of name and value."""
     lines = []
     if curves.offset is not None:
-        low, high = float(curves.offset.min()), float(curves.offset.max())
-        span = f"{short(low, 3)} N" if low == high else f"{short(low, 3)} to {short(high, 3)} N"
-        lines.append(("zero of the force cell", span))
+        lines.append(("zero of the force cell", f"{spanned(curves.offset)} N"))
     if curves.assumption:
         lines.append(("assumed", curves.assumption))
     if (check := curves.consistency_check) is not None:
@@ -66,9 +64,9 @@ def runs_lines(runs: TractionRuns) -> list[tuple[str, str]]:
     return [
         ("readings", f"{len(runs)}{steps}"),
         ("temperatures", _temperatures(runs.temperature)),
-        ("speed of the disc", f"{_range(1e3 * np.abs(runs.disc_speed))} mm/s{_both(runs.disc_speed)}"),
-        ("slip", f"{_range(1e3 * np.abs(slip))} mm/s{_both(slip)}"),
-        ("load", f"{_range(runs.load)} N"),
+        ("speed of the disc", f"{spanned(1e3 * np.abs(runs.disc_speed))} mm/s{_both(runs.disc_speed)}"),
+        ("slip", f"{spanned(1e3 * np.abs(slip))} mm/s{_both(slip)}"),
+        ("load", f"{spanned(runs.load)} N"),
         ("sign configurations", _configurations(runs.disc_speed, slip)),
     ]
 
@@ -80,11 +78,6 @@ def _temperatures(kelvin: Array) -> str:
     if len(shown) > _MOST_TEMPERATURES:
         return f"{len(shown)} from {shown[0]} to {shown[-1]} °C"
     return f"{several(shown)} °C"
-
-
-def _range(values: Array) -> str:
-    low, high = short(float(values.min()), 3), short(float(values.max()), 3)
-    return low if low == high else f"{low} to {high}"
 
 
 def _both(velocity: Array) -> str:

@@ -35,16 +35,13 @@ def history_words(history: History, geometry: str) -> str:
         f"path {length(way)}" if way else "no sliding",
     ]
     if history.temperature is not None:
-        low, high = float(history.temperature.min()), float(history.temperature.max())
-        parts.append(degrees(low) if low == high else f"{degrees(low)} to {degrees(high)}")
+        ends = (float(history.temperature.min()), float(history.temperature.max()))
+        parts.append(" to ".join(dict.fromkeys(map(degrees, ends))))
     return ", ".join(parts)
 
 
 def _range(values: Any, unit: str) -> str:
-    low, high = float(np.min(values)), float(np.max(values))
-    if low == high:
-        return prefixed(high, None, unit)
-    return f"{prefixed(low, None, unit)} to {prefixed(high, None, unit)}"
+    return " to ".join(dict.fromkeys(prefixed(float(end), None, unit) for end in (np.min(values), np.max(values))))
 
 
 def notes_on_errors(run: TransientSolution) -> tuple[Note, ...]:
@@ -52,9 +49,9 @@ def notes_on_errors(run: TransientSolution) -> tuple[Note, ...]:
     return (_ERRORS_IN_TIME,) if run.geometry == "periodic" else ()
 
 
-#: Columns that say how errors are known, where the indenter is, or what does not exist without sliding.
+#: Columns that say where the indenter is and the like, and what does not exist without sliding.
 _NOT_SHOWN, _OF_SLIDING = (
-    ("position_x", "position_y", "temperature", "lateral_force"),
+    {"position_x", "position_y", "temperature", "lateral_force"},
     ("friction", "interface", "total"),
 )
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from functools import partial
 
+import numpy as np
+
+from viscofric.arrays import Array
 from viscofric.showing import ABSENT, prefixed, short, significant, with_error
 from viscofric.units import shown_celsius, shown_number, shown_speed
 
@@ -49,6 +52,11 @@ def speeds(lowest: float, highest: float) -> str:
         return low
     number, _, unit = low.partition(" ")
     return f"{number if high.endswith(f' {unit}') else low} to {high}"
+
+
+def spanned(numbers: Array, digits: int = 3) -> str:
+    """Return the ends of the known ones of some numbers: 20 to 200, or one where both are the same."""
+    return " to ".join(dict.fromkeys(short(float(end), digits) for end in (np.nanmin(numbers), np.nanmax(numbers))))
 
 
 def unbroken(text: str) -> str:

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import Array
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.datasets import Dataset, DataTree
 from viscofric.files import parse_toml
@@ -38,6 +37,7 @@ from viscofric.report.texts.numbers import (
     several,
     short,
     signed_percent,
+    spanned,
     speeds,
     unbroken,
     with_error,
@@ -128,7 +128,7 @@ def _tested(tests: _Tests, deformation: str) -> str:
     along, unit = ("time", "s") if "time" in tests.points else ("angular_frequency", "rad/s")
     how = f" in {deformation}" if deformation else ""
     file = f", read as {tests.read_as}" if tests.read_as else ""
-    return f"{tests.noun}{how}{file}: {at}, {unbroken(f'{_range(values(tests.points, along))} {unit}')}"
+    return f"{tests.noun}{how}{file}: {at}, {unbroken(f'{spanned(values(tests.points, along))} {unit}')}"
 
 
 @on_group("prediction", "")
@@ -243,19 +243,14 @@ def _under(prediction: Dataset, load: float) -> str:
     loads = loads[np.isfinite(loads)] if np.isfinite(loads).any() else np.array([load])
     unit = str(prediction["load"].attrs.get("units", "N")) if "load" in prediction else "N"
     if "pressure" in prediction:
-        return f" under a mean pressure of {unbroken(_range(values(prediction, 'pressure') / 1e3, 4) + ' kPa')}"
-    return f" under {unbroken(f'{_range(loads, 4)} {unit}')}" if np.isfinite(loads).all() else ""
+        return f" under a mean pressure of {unbroken(spanned(values(prediction, 'pressure') / 1e3, 4) + ' kPa')}"
+    return f" under {unbroken(f'{spanned(loads, 4)} {unit}')}" if np.isfinite(loads).all() else ""
 
 
 @on_group("shift_factors", "")
 def _isotherms_used(factors: Dataset, _: DataTree) -> str:
     given, used = (number(factors.attrs, f"isotherms_{name}") for name in ("given", "used"))
     return f"; {used:.0f} of {given:.0f} isotherms used" if math.isfinite(given) and math.isfinite(used) else ""
-
-
-def _range(numbers: Array, digits: int = 3) -> str:
-    low, high = short(float(np.nanmin(numbers)), digits), short(float(np.nanmax(numbers)), digits)
-    return low if low == high else f"{low} to {high}"
 
 
 #: Name of the key number that compares prediction and measurement.
@@ -286,7 +281,7 @@ def _friction_numbers(tree: DataTree) -> list[KeyNumber]:
     if prediction is not None:
         friction = values(prediction, "friction_coefficient")
         remark = f"predicted, over all requested cases{_caveat(tree, prediction)}"
-        found.append(KeyNumber("Viscoelastic friction coefficient", _range(friction), remark))
+        found.append(KeyNumber("Viscoelastic friction coefficient", spanned(friction), remark))
     if agreement is not None:
         bias, rms, points = (number(agreement.attrs, name) for name in ("bias", "rms", "points"))
         doubt = number(agreement.attrs, "bias_error")
