@@ -172,18 +172,12 @@ class Children:
         for child in [child for child in self._idle if not child.alive]:
             self._idle.remove(child)
             self._bury(child)
-        known = [child for child in self._idle if child.key == key] or [
-            child for child in self._idle if child.key is None
-        ]
-        if not known:
+        if not any(child.key in (key, None) for child in self._idle):
             self.start()
             self.attach()
-            known = [child for child in self._idle if child.key is None]
-        if not known:
-            known = sorted(self._idle, key=lambda child: child.used)
-        if not known:
+        if not self._idle:
             return None
-        child = known[0]
+        child = min(self._idle, key=lambda one: (one.key != key, one.key is not None, one.used))
         self._idle.remove(child)
         return child
 
@@ -220,9 +214,8 @@ class Children:
 
     def interrupt(self, number: int, folder: Path) -> bool:
         """Interrupt a workspace's job, which may still send what it has found; return whether there is such a job."""
-        at_work = [
-            one for one in self._all if one.number == number and one.key == str(folder) and one not in self._idle
-        ]
+        busy = [one for one in self._all if one not in self._idle]
+        at_work = [one for one in busy if (one.number, one.key) == (number, str(folder))]
         for child in at_work:
             asyncio.get_running_loop().run_in_executor(None, child.send, number, None)
         return bool(at_work)

@@ -41,19 +41,14 @@ def checked_name(name: str) -> str:
     """Return the name of a file in its composed form; raise if it is not a plain name that every system can have."""
     name = unicodedata.normalize("NFC", name)
     if not name or name != name.strip() or name.startswith(".") or name.endswith("."):
-        raise InputError(
-            f"{brief(name)} is not the name of a file; it has a letter or more, and no dot or space around it.",
-            code="not-a-name",
-        )
+        words = "is not the name of a file; it has a letter or more, and no dot or space around it."
+        raise InputError(f"{brief(name)} {words}", code="not-a-name")
     if _NOT_IN_NAMES.search(name) or _DEVICE.match(name):
-        raise InputError(
-            f"{brief(name)} is not a plain name of a file that every system can have, like 'sweeps.csv'.",
-            code="not-a-name",
-        )
+        words = "is not a plain name of a file that every system can have, like 'sweeps.csv'."
+        raise InputError(f"{brief(name)} {words}", code="not-a-name")
     if len(name.encode()) > _LONGEST_NAME:
-        raise InputError(
-            f"{brief(name)} is too long for the name of a file; at most {_LONGEST_NAME} bytes.", code="too-long"
-        )
+        words = f"is too long for the name of a file; at most {_LONGEST_NAME} bytes."
+        raise InputError(f"{brief(name)} {words}", code="too-long")
     return name
 
 

@@ -50,10 +50,8 @@ def notes_on_errors(run: TransientSolution) -> tuple[Note, ...]:
 
 
 #: Columns that say where the indenter is and the like, and what does not exist without sliding.
-_NOT_SHOWN, _OF_SLIDING = (
-    {"position_x", "position_y", "temperature", "lateral_force"},
-    ("friction", "interface", "total"),
-)
+_NOT_SHOWN = {"position_x", "position_y", "temperature", "lateral_force"}
+_OF_SLIDING = ("friction", "interface", "total")
 
 
 def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, str]]:
