@@ -163,9 +163,9 @@ def superpose_ramps(
     follows from the scatter of the points about the curves; neighbours that are alike count for fewer.  Moduli of whole
     ramps that are off by a factor each, as after clamping anew, are included where the ramps show it, with a note.
     Four ramps show offsets of 2 %, two ramps in half of the cases only: their intervals then held 69 % of α(T).  95 %
-    intervals of planted constants and of α(T) hold 95 % (`benchmarks/rheology/ramps.py`).  Three things are not in them:
-    that α(T) may follow another law (`check`; compare a second one), errors of the temperature, and a vertical shift
-    that is left out: what follows ρT moved log10 α by up to 0.24 at the ends (compare ``vertical="density"``).
+    intervals of planted constants and of α(T) hold 95 % (`benchmarks/rheology/ramps.py`).  Three things are not in
+    them: that α(T) may follow another law (`check`; compare a second one), errors of the temperature, and a vertical
+    shift that is left out: what follows ρT moved log10 α by up to 0.24 at the ends (compare ``vertical="density"``).
 
     At one frequency the master curve is the ramp itself, drawn over α(T) ω: no data contradict a wrong α(T), except
     that E' and E'' must belong to each other (Kramers and Kronig).  An activation energy that is too high by a factor
