@@ -10,8 +10,7 @@ import pytest
 import viscofric as vf
 from gallery import HERTZ_RADIUS, broad_spectrum_37, low_speed_friction, standard_linear_solid
 from marks import apart, slow
-from viscofric.arrays import gauss
-from viscofric.contact.free.balance import lag, opening
+from viscofric.contact.free.balance import lag, openings
 from viscofric.contact.free.estimates import FEWEST_GRIDS, FRICTION_FLOOR, friction_estimate
 from viscofric.contact.free.geometry import LINE, POINT, Geometry
 from viscofric.contact.free.grids import Grid
@@ -64,38 +63,58 @@ def test_short_memories_are_right_on_the_coarsest_grid(geometry: Geometry, modul
     assert dissipated != pytest.approx(law, rel=0.01)
 
 
-def test_opening_counts_gaps_beside_pressures() -> None:
+def test_openings_count_gaps_ahead_of_and_behind_pressures() -> None:
     pressure, gap = np.zeros((6, 4)), np.full((6, 4), 5.0)
     pressure[2, 1], pressure[3, 1] = 2.0, 3.0
     gap[2:4, 1] = 1e-9  # what the solver's tolerance leaves under pressure counts for nothing
     gap[1, 1], gap[4, 1] = 0.5, 0.25
-    assert opening(Grid(0.1, 3, 3, 2), pressure, gap) == pytest.approx(2.0 * 0.5 + 3.0 * 0.25)
+    assert openings(Grid(0.1, 3, 3, 2), pressure, gap) == pytest.approx((3.0 * 0.25, 2.0 * 0.5))
     strip = Grid(0.1, 3, 3)
-    assert opening(strip, pressure[:, 1:2], gap[:, 1:2]) == pytest.approx((2.0 * 0.5 + 3.0 * 0.25) / 0.1)
+    assert openings(strip, pressure[:, 1:2], gap[:, 1:2]) == pytest.approx((30.0 * 0.25, 20.0 * 0.5))
 
 
 def test_lag_of_waves_left_out() -> None:
     short = SteadyMaterial(0.2, np.array([0.5, 0.3]), np.array([1e-7, 3e-7]))
     # All memories far below the cell: their mean, whatever the cut; the next term is λ = 3e-7.
-    for cut in LINE.cuts:
-        assert lag(short, 1.0, cut) == pytest.approx(0.5e-7 + 0.9e-7, rel=1e-5)
+    for cut in (2.0, 3.0, 5.0):
+        assert lag(short, 1.0, cut, 0.5) == pytest.approx(0.5e-7 + 0.9e-7, rel=1e-5)
     longer = SteadyMaterial(0.2, np.array([0.8]), np.array([0.5]))
-    lags = [lag(longer, 1.0, cut) for cut in LINE.cuts]
+    lags = [lag(longer, 1.0, cut, 0.5) for cut in (2.0, 3.0, 5.0)]
     assert lags[0] > lags[1] > lags[2] > 0.0  # shorter waves find the mode less compliant
-    assert lag(SteadyMaterial(1.0, np.empty(0), np.empty(0)), 1.0, 1.0) == 0.0
+    assert lag(SteadyMaterial(1.0, np.empty(0), np.empty(0)), 1.0, 1.0, 0.5) == 0.0
 
 
-@pytest.mark.parametrize(("modulus_ratio", "error"), [(10.0, 1e-9), (1e4, 1e-7), (1e8, 3e-7)])
-def test_lag_is_that_of_a_finer_rule(modulus_ratio: float, error: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    solids = [
-        SteadyMaterial(1.0 / modulus_ratio, np.array([1.0 - 1.0 / modulus_ratio]), np.array([length]))
-        for length in np.logspace(-8, 8, 33)
-    ]
-    found = [[lag(solid, 1.0, cut) for cut in LINE.cuts] for solid in solids]
-    logarithms, weights = gauss(600, (0.0, math.log(1e13)))
-    monkeypatch.setattr("viscofric.contact.free.balance._LOGARITHMS", logarithms)
-    monkeypatch.setattr("viscofric.contact.free.balance._WEIGHTS", weights)
-    np.testing.assert_allclose(found, [[lag(solid, 1.0, cut) for cut in LINE.cuts] for solid in solids], rtol=error)
+@pytest.mark.parametrize("length", [1e-3, 0.1, 1.0, 3.0])
+def test_lag_of_either_edge_is_the_integral_over_its_waves(length: float) -> None:
+    """Waves of the pressure: at the trailing edge those of a square root, at the leading one over the compliance."""
+    solid, cut = SteadyMaterial(0.02, np.array([0.4, 0.04]), np.array([length, 0.1 * length])), 3.0
+    logarithm, step = np.linspace(-30.0, 30.0, 6001, retstep=True)  # trapezoids: exact to rounding for what fades
+    wave = np.exp(logarithm)
+    weight = step * wave / (cut**2 + wave**2)
+    loss = (bent_share(solid.memory_lengths) * solid.compliances * solid.memory_lengths) @ (
+        1.0 / (1.0 + np.outer(solid.memory_lengths, wave) ** 2)
+    )
+    symbol = solid.symbol(wave)
+    rear = (weight @ loss) / (weight @ symbol.real)
+    assert lag(solid, 1.0, cut, 1.0) == pytest.approx(rear, rel=1e-9)
+    front = (weight @ (loss / np.abs(symbol) ** 2)) / (weight @ (symbol.real / np.abs(symbol) ** 2))
+    # Modes that are found from slopes are parted from the others where they are far apart.
+    rough = 1e-9 if length < 1e-2 else 5e-2
+    assert lag(solid, 1.0, cut, 0.0) == pytest.approx(front, rel=rough)
+
+
+@pytest.mark.parametrize("length", [2e-3, 2e-2])  # a tenth of a cell, and one cell
+def test_cells_leave_out_of_hertz_contact_what_the_closed_form_says(length: float) -> None:
+    """A weak mode leaves it as it is: F = (16/(π l)) ∫ j(q)² (1 − 1/√(1 + q²l²)) dq, j the transform of pressure."""
+    stage = refine(coarse_stage(contact(POINT, 1.0 + 1e-6, [1.0], [length])), 0.5, 128)[-1]
+    wave = 0.01 * (np.arange(200_000) + 0.5)  # what lies beyond is 1e-5 of the result
+    square = ((np.sin(wave) - wave * np.cos(wave)) / wave**3) ** 2
+    known = 0.16 / (math.pi * length) * float(square @ (1.0 - 1.0 / np.sqrt(1.0 + (length * wave) ** 2)))
+    weak = float(stage.problem.solid.compliances[0])
+    left_out = weak * known / stage.load - stage.operator.dissipated_force(stage.result.pressure) / stage.load
+    assert left_out > 1e-3 * weak * known
+    # How the edge lies in its cells: on 128 to 512 cells it is 1 to 6 %.
+    assert stage.lag * stage.opening == pytest.approx(left_out, rel=0.08)
 
 
 def test_bent_share_fades_for_long_memories() -> None:
@@ -148,11 +167,13 @@ def test_low_speed_takes_no_fine_grid() -> None:
 @pytest.mark.parametrize("modulus_ratio", [1.1, *apart(100.0), 1e4])
 def test_every_speed_is_solved_on_a_grid_of_moderate_size(modulus_ratio: float) -> None:
     for decade in (-6, -4, -3, -1, 0, 1, 2, 4, 6):
-        problem = standard_linear_solid(modulus_ratio, 10.0**decade)
+        memory = 10.0**decade
+        problem = standard_linear_solid(modulus_ratio, memory)
         solution = problem.solve(accuracy=1e-3)
         floor = FRICTION_FLOOR * HERTZ_RADIUS / float(problem.ball.radius)  # type: ignore[arg-type]
         assert solution.diagnostics.friction_error <= 1e-3 * max(solution.friction_coefficient, floor)
         assert max(solution.diagnostics.shape) <= 256
-        if decade <= -4:
-            # The law's next term is 0.7 v τ/a0.
-            assert solution.friction_coefficient == pytest.approx(low_speed_friction(problem), rel=1e-4)
+        if decade <= -3:
+            # The next term is of what Hertz's edges do to a mode whose memory is short (see `balance`).
+            law = low_speed_friction(problem) * (1.0 - 2.0 / math.pi * (1.0 + 1.0 / modulus_ratio) * memory)
+            assert abs(solution.friction_coefficient - law) <= solution.diagnostics.friction_error + memory**2 * law

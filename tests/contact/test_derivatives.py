@@ -135,17 +135,19 @@ def test_moments_of_a_strip_are_those_of_the_closed_form(length: float) -> None:
 @pytest.mark.parametrize("counterface", [0.0, 0.1])
 def test_lag_of_what_cells_leave_out_changes_with_the_material(counterface: float) -> None:
     solid = SteadyMaterial(0.05, np.array([0.2, 0.3, 0.4]), np.array([1e-3, 0.2, 3.0]), counterface)
-    glassy, compliances, lengths = lag_changes(solid, 0.02, 1.0)
+    rear, glassy, compliances, lengths = lag_changes(solid, 0.02, 3.0, 0.4)
 
     def change(name: str, place: int | None = None) -> float:
         unit = 1.0 if place is None else np.eye(3)[place]
 
         def moved(step: float) -> Array:
             there = replace(solid, **{name: getattr(solid, name) * (1.0 + step * unit)})
-            return np.array(lag(there, 0.02, 1.0))
+            return np.array(lag(there, 0.02, 3.0, 0.4))
 
         return float(central_difference(moved, 1e-3))
 
+    by_rear = central_difference(lambda step: np.array(lag(solid, 0.02, 3.0, 0.4 + step)), 1e-3)
+    assert rear == pytest.approx(float(by_rear), rel=1e-8)
     assert glassy * solid.glassy == pytest.approx(change("glassy"), rel=1e-8)  # differences of fourth order
     for k in range(3):
         assert compliances[k] * solid.compliances[k] == pytest.approx(change("compliances", k), rel=1e-8)

@@ -88,7 +88,7 @@ def stages_with(values: np.ndarray, *, dimension: int) -> list[Any]:
         SimpleNamespace(
             pressure_friction=value,
             energy_friction=1.0,
-            left_out_range=lambda spacing: math.inf,
+            left_out_range=lambda spacing, doubt=0.0: math.inf,
             opening=1.0,
             window=SimpleNamespace(spacing=1.0),
             operator=SimpleNamespace(shift=0.0, material=material),

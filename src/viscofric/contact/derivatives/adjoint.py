@@ -13,8 +13,8 @@ At the edges of a contact the pressure is zero, so that cells that enter or leav
 first order.  The collocation points (`viscofric.contact.operators.convolution.collocation_shift`) are fixed.
 
 A part of the balanced energy is Λ r, r = Σ q (K p + h − δ)/h² over free cells, q being the pressures of the cells next
-to each (see `viscofric.contact.free.balance`).  With λ = −Λ q/h² there, the same equations include the change of the
-gap.
+to each (see `viscofric.contact.free.balance`).  With λ = −Λ q/h² there, and what Λ itself changes with the two sides of
+the contact, the same equations include the change of the gap.
 
 M. B. Giles, N. A. Pierce, Flow Turbul. Combust. 65 (2000) 393, on adjoints.
 
@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.contact.complementarity import solve_on_contact
-from viscofric.contact.free.balance import free_gap, lag, lag_changes, neighbours
+from viscofric.contact.free.balance import free_gap, neighbours
 from viscofric.contact.free.estimates import Way, friction_way
 from viscofric.contact.influence.moments import correlation, memory_moments
 from viscofric.contact.operators.convolution import bent_share, both_halves, is_even, upper_half
@@ -100,10 +100,12 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
     else:
         value = stage.energy_friction
         by_pressure = operator.dissipated_force_gradient(pressure) / (window.cell_area * total)
-        scale = lag(material, window.spacing, stage.cuts[1]) / (window.spacing**2 * total)
+        late, scale = stage.lag_changes, 1.0 / (window.spacing**2 * total)
+        ahead = scale * (stage.lag - stage.rear_share * late.rear)
+        behind = ahead + scale * late.rear
         gap = free_gap(pressure, stage.gap)
-        by_pressure += scale * neighbours(gap)
-        held = -scale * np.where(gap > 0.0, neighbours(pressure), 0.0)
+        by_pressure += neighbours(gap, behind, ahead)
+        held = -np.where(gap > 0.0, neighbours(pressure, ahead, behind), 0.0)
     field, by_load, by_held = _adjoint_field(stage, by_pressure, value, held)
     box = _box((pressure > 0.0) | (field != 0.0))
     moved = correlation(field[box], pressure[box])
@@ -122,7 +124,7 @@ def friction_adjoint(stage: Stage, way: Way) -> Adjoint:
     lost, change = _lost(slope, bend, material.memory_lengths / window.spacing)
     by_length = material.compliances * change / material.memory_lengths
     gradient = gradient.plus(Gradient(0.0, lost, by_length, 0.0), -operator.unit / total)
-    gradient = gradient.plus(Gradient(*lag_changes(material, window.spacing, stage.cuts[1]), 0.0), stage.opening)
+    gradient = gradient.plus(Gradient(*late[1:], 0.0), stage.opening)
     return Adjoint(gradient, field, by_load)
 
 

@@ -23,7 +23,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.contact.derivatives.adjoint import friction_adjoint, mean_gradients
-from viscofric.contact.free.balance import lag
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -89,7 +88,7 @@ def _stretched(stage: Stage, way: Way, field: Array, gradient: Gradient) -> floa
     layer = stage.problem.layer
     if way == "balance":
         # Gaps are in λ already; what is left out goes with Λ, which is a length, and the inverse square of the cell.
-        change -= lag(operator.material, stage.window.spacing, stage.cuts[1]) * stage.opening
+        change -= stage.lag * stage.opening
     if layer is None:
         return change
     thicker = replace(operator, layer=replace(layer, thickness=(1.0 + _STEP) * layer.thickness))  # type: ignore[call-arg]

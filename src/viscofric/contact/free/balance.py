@@ -15,43 +15,51 @@ differences in place of the derivatives, only the gap that opens between the las
 
     r = Σ_i p_i (g_{i+1} + g_{i−1}) / h²,      summed over loaded cells i next to free ones.
 
-A mode's part of r contributes to the friction in proportion to its memory length.  Waves of wavenumber q, which the
-indenter bends equally whatever the solid, need pressures that are inversely proportional to the compliance S(q); those
-left out therefore contribute to the friction force and to r in the ratio
+A mode's part of r contributes to the friction in proportion to its memory length l_k = λ_k h.  Of an edge where the
+pressure rises like a square root, cells leave out the waves beyond about their own size: with a weight of
+1/(q_c² + q²h²), q_c about 3, the part 1/(1 + q_c λ) of the bends of a mode, as in Hertz's contact on cells to a few
+percent for any λ.  The pressure's spectrum is that of a square root at the trailing edge, and over |S|² at the leading
+edge: the memory extends behind (Wiener's and Hopf's factors of the compliance S).  The integrals over these waves are
+residues.  With
 
-    Λ = ∫ Im S/|S|² w dq / ∫ q Re S/|S|² w dq     over q > q_c,      w = q^−3
+    s = S∞ + Σ_k C_k/(1 + q_c λ_k),      N = Σ_k N_k,      N_k = C_k l_k/(1 + q_c λ_k)
 
-(the spectrum of a square-root edge), with q_c of about one over the cell.  Where all memories are short against the
-cell, Λ is their mean and F_t = Λ ∫ p ∂²h/∂x² dA holds exactly, on any grid.
+the friction and r are as N to s at the trailing edge, and as M to 1/s at the leading one, M = Σ_k N_k/(S_k S_{k−1}).
+S_k is s where the modes up to k, from the shortest on, have all of C_k; the terms are nearly each mode's integrals.  (A
+mode that is found from slopes has none.)  How strong the edges are follows from the parts f and b of r where the gap
+opens ahead and behind, which are those of pressures on cells: with S_c the compliance that these find, the squares of
+their strengths are as f S_c² to b, and
+
+    Λ r = (f + b) (f S_c² M + b N)/(f S_c²/s + b s).
+
+Where all memories are short against the cell, Λ is their mean and F_t = Λ ∫ p ∂²h/∂x² dA holds exactly, on any grid.
 """
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import gauss
 from viscofric.contact.operators.convolution import bent_share
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from viscofric.arrays import Array, ComplexArray
+    from viscofric.arrays import Array
     from viscofric.contact.free.grids import Grid
     from viscofric.contact.operators.convolution import SteadyMaterial
 
 
-# Gauss's rule for the wavenumber's logarithm beyond the cut, and the range that it covers; right to 1e-7 for E∞/E0 up
-# to 1e4, to 3e-7 up to 1e8.
-_LOGARITHMS, _WEIGHTS = gauss(80, (0.0, math.log(1e13)))
+# Wavenumber times the cell of the waves that decide how strong the pressure at either edge is on cells.
+_RESOLVED = 0.4
+_STEP = 1e-50
 
 
-def opening(window: Grid, pressure: Array, gap: Array) -> float:
-    """Return r, the part that cells leave out of ∫ p ∂²h/∂x² dA; the gap (nx, ny) is that of the contact conditions."""
-    beside = neighbours(free_gap(pressure, gap))
-    return window.cell_area * float(np.vdot(pressure, beside)) / window.spacing**2
+def openings(window: Grid, pressure: Array, gap: Array) -> tuple[float, float]:
+    """Return f and b, of which r is the sum; the gap (nx, ny) is that of the contact conditions."""
+    free, scale = free_gap(pressure, gap), window.cell_area / window.spacing**2
+    return scale * float(np.vdot(pressure[:-1], free[1:])), scale * float(np.vdot(pressure[1:], free[:-1]))
 
 
 def free_gap(pressure: Array, gap: Array) -> Array:
@@ -60,55 +68,57 @@ def free_gap(pressure: Array, gap: Array) -> Array:
     return np.where((pressure > 0.0) | np.isinf(gap), 0.0, np.maximum(gap, 0.0))
 
 
-def neighbours(values: Array) -> Array:
-    """Sum of the values in the cells before and behind each."""
+def neighbours(values: Array, lower: float = 1.0, upper: float = 1.0) -> Array:
+    """Sum of the values in the cells at lower and at upper x beside each, times factors."""
     found = np.zeros_like(values)
-    found[1:] += values[:-1]
-    found[:-1] += values[1:]
+    found[1:] += lower * values[:-1]
+    found[:-1] += upper * values[1:]
     return found
 
 
-def lag(material: SteadyMaterial, spacing: float, cut: float) -> float:
-    """Return Λ, the friction force per unit of r that is left out.
+def lag(material: SteadyMaterial, spacing: float, wave: float, rear: float) -> float:
+    """Return Λ, the friction force per unit of r that is left out, where `rear` is b/(f + b).
 
-    `spacing` is the length of a cell along the motion, `cut` the wavenumber of the longest wave left out times the
-    spacing.
+    `spacing` is the length of a cell along the motion, `wave` the wavenumber q_c of about the longest waves left out,
+    times the spacing.
     """
-    wavenumber, symbol, loss, weight = _left_out(material, spacing, cut)
-    return float((wavenumber * loss) @ weight) / float((wavenumber * symbol.real) @ weight)
+    order = np.argsort(material.memory_lengths)
+    return float(_lag(_numbers(material, rear, order)[None], spacing, wave)[0])
 
 
-def _left_out(material: SteadyMaterial, spacing: float, cut: float) -> tuple[Array, ComplexArray, Array, Array]:
-    """Return, of the waves beyond the cut: wavenumber, S, what of the loss is found from bends, over q, and weight."""
-    wavenumber = cut / spacing * np.exp(_LOGARITHMS)
-    lengths, symbol = material.memory_lengths, material.symbol(wavenumber)
-    loss = (bent_share(lengths / spacing) * material.compliances * lengths) @ (
-        1.0 / (1.0 + np.outer(lengths, wavenumber) ** 2)
-    )
-    weight = _WEIGHTS * (wavenumber * np.abs(symbol)) ** -2.0  # w q Δ(ln q) / |S|², without the constant
-    return wavenumber, symbol, loss, weight
+class LagChanges(NamedTuple):
+    """Derivatives of Λ."""
+
+    rear: float  # with respect to b/(f + b)
+    glassy: float  # to the compliance without memory
+    compliances: Array  # (m,)
+    memory_lengths: Array  # (m,)
 
 
-def lag_changes(material: SteadyMaterial, spacing: float, cut: float) -> tuple[float, Array, Array]:
-    """Return the changes of Λ (see `lag`) with the glassy compliance, the modes' compliances and memory lengths."""
-    wavenumber, symbol, loss, weight = _left_out(material, spacing, cut)
-    lengths, compliances = material.memory_lengths, material.compliances
-    share = bent_share(lengths / spacing)
-    whole = float((wavenumber * symbol.real) @ weight)
-    value = float((wavenumber * loss) @ weight) / whole
-    # d(ab/c) with the weight's logarithm −2 Re(dS/S): by a change of S, and by one of the loss.
-    by_loss = wavenumber * weight / whole
-    twice = 2.0 * by_loss * (loss - value * symbol.real) / np.abs(symbol) ** 2
+def lag_changes(material: SteadyMaterial, spacing: float, wave: float, rear: float) -> LagChanges:
+    """Return how Λ changes, by complex steps, which are exact to rounding; arguments as of `lag`."""
+    order = np.argsort(material.memory_lengths)
+    given, back = _numbers(material, rear, order), np.argsort(order)
+    scale = np.concatenate([np.ones(2 + len(order)), material.memory_lengths[order]])  # lengths may be tiny
+    changes = _lag(given + 1j * _STEP * np.diag(scale), spacing, wave).imag / (_STEP * scale)
+    by_compliance, by_length = np.split(changes[2:], 2)
+    return LagChanges(float(changes[0]), float(changes[1]), by_compliance[back], by_length[back])
 
-    def by_symbol(change: NDArray[Any]) -> Array:
-        return np.asarray(-(change * symbol.conj()).real @ twice - value * (change.real @ by_loss))
 
-    wave = 1.0 / (1.0 - 1j * np.outer(lengths, wavenumber))
-    size = np.abs(wave) ** 2
-    lost = (size @ by_loss) * lengths
-    by_compliance = by_symbol(wave) + share * lost
-    # ∂(l/(1 + q²l²))/∂ ln l, and the change of the mode's part, both per length
-    change = lengths * (size * (2.0 * size - 1.0) @ by_loss) - 2.0 * (1.0 - share) * lost
-    by_length = compliances * share * change / lengths
-    by_length += by_symbol((1j * wavenumber * wave**2) * compliances[:, None])
-    return float(by_symbol(np.ones_like(symbol))), by_compliance, by_length
+def _numbers(material: SteadyMaterial, rear: float, order: NDArray[np.intp]) -> Array:
+    glassy = material.glassy + material.counterface
+    return np.concatenate([[rear, glassy], material.compliances[order], material.memory_lengths[order]])
+
+
+def _lag(given: NDArray[Any], spacing: float, wave: float) -> NDArray[Any]:
+    """Return Λ of rows (n, 2 + 2 m): b/(f + b), S∞, compliances, and memory lengths in ascending order."""
+    rear, glassy = given[:, 0], given[:, 1]
+    compliances, lengths = np.split(given[:, 2:], 2, axis=1)
+    left, resolved = (1.0 / (1.0 + q / spacing * lengths) for q in (wave, _RESOLVED))
+    force = bent_share(lengths / spacing) * compliances * lengths * left
+    s = glassy + (compliances * left).sum(axis=1)
+    after = s[:, None] + np.cumsum(compliances * (1.0 - left), axis=1)
+    before = after - compliances * (1.0 - left)
+    strength = (1.0 - rear) * (glassy + (compliances * resolved).sum(axis=1)) ** 2
+    lost = strength * (force / (before * after)).sum(axis=1) + rear * force.sum(axis=1)
+    return np.asarray(lost / (strength / s + rear * s))

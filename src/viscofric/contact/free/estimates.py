@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 Way = Literal["pressure", "balance"]
 
 FEWEST_GRIDS = 3  # one change alone may be small by chance
+# Least doubt of the waves that cells leave out on so few grids: see `Stage.left_out_range`.
+_DOUBT_OF_FEW = 0.45
 #: Friction is resolved relative to its own value, but not below this fraction of a0/R.
 FRICTION_FLOOR = 1e-6
 _ROUNDING = 1e-9  # errors above the accuracy by this part of it are within
@@ -146,7 +148,8 @@ def _uncertainty(stages: list[Stage]) -> float:
     """
     last = stages[-1]
     most = max(stage.opening * last.window.spacing / stage.window.spacing for stage in stages[-FEWEST_GRIDS:])
-    return last.left_out_range(last.window.spacing) * most / last.opening if last.opening > 0.0 else 0.0
+    doubt = _DOUBT_OF_FEW if len(stages) == FEWEST_GRIDS else 0.0
+    return last.left_out_range(last.window.spacing, doubt) * most / last.opening if last.opening > 0.0 else 0.0
 
 
 def least_error(stages: list[Stage], halvings: int) -> float:

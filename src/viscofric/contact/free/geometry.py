@@ -31,15 +31,15 @@ class Geometry:
     # many cells of a rim average it, but not the two at the ends of a strip.
     scatter: float
     finest: int  # default limit of the cells along the longer edge
-    # Longest and shortest wave that might be the first one that cells leave out, and between them the likely one:
-    # wavenumbers times the cell.  Of strips from the closed form, for E∞/E0 from 1.1 to 1e4 and v τ/a0 from 1e-6 to
-    # 1e6; of point contacts from solutions of random ones on finer grids.
-    cuts: tuple[float, float, float]
+    # Wavenumber times the cell of waves that cells leave out (see `viscofric.contact.free.balance`), and how far its
+    # logarithm may be off where little is lost: of strips from Hunter's contact, of point contacts from Hertz's.
+    cut: float
+    doubt: float
 
     def around(self, rear: float, front: float, side: float, cells: int, aspect: float = 1.0) -> Grid:
         """Return the grid over −rear … front and ±side, without sides for a line contact; see `Grid.around`."""
         return Grid.around(rear, front, side if self.dimension > 1 else 0.0, cells, aspect)
 
 
-POINT: Final = Geometry("point", 2, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, (0.8, 1.3, 2.0))
-LINE: Final = Geometry("line", 1, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536, (0.6, 1.0, 1.6))
+POINT: Final = Geometry("point", 2, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, 3.2, 0.15)
+LINE: Final = Geometry("line", 1, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536, 2.5, 0.4)

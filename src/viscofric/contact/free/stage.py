@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.free.balance import lag, opening
+from viscofric.contact.free.balance import LagChanges, lag, lag_changes, openings
+from viscofric.contact.operators.convolution import loss_angle
 
 if TYPE_CHECKING:
     from viscofric.arrays import Array
@@ -19,9 +20,9 @@ if TYPE_CHECKING:
     from viscofric.contact.operators.convolution import ConvolutionOperator
 
 
-# Where displacements are taken behind the cell centres, longer waves are left out: logarithm of the cut per shift, from
-# solutions of random contacts on finer grids.
-_CUT_BY_SHIFT = 2.0
+# Where displacements are taken behind the cell centres, longer waves are left out: logarithm of the cut per shift.  It
+# is in doubt in proportion to the square of the loss angle's sine.  Both from random contacts on finer grids.
+_CUT_BY_SHIFT, _DOUBT_BY_LOSS = 3.0, 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,23 +54,38 @@ class Stage:
     @cached_property
     def energy_friction(self) -> float:
         """Friction coefficient from the dissipated energy, with the part that cells leave out."""
-        left_out = lag(self.operator.material, self.window.spacing, self.cuts[1]) * self.opening
-        return self.operator.dissipated_force(self.result.pressure) / self.load + left_out
+        return self.operator.dissipated_force(self.result.pressure) / self.load + self.lag * self.opening
 
     @property
-    def cuts(self) -> tuple[float, float, float]:
-        """Wavenumbers times the cell of the waves that might be the first ones left out; the second is likely."""
-        delay = math.exp(-_CUT_BY_SHIFT * self.operator.shift)
-        longest, likely, shortest = self.problem.geometry.cuts
-        return delay * longest, delay * likely, delay * shortest
+    def lag(self) -> float:
+        """Λ, the friction coefficient per unit of `opening`."""
+        return lag(self.operator.material, self.window.spacing, self.cut, self.rear_share)
 
-    def left_out_range(self, spacing: float) -> float:
+    @property
+    def lag_changes(self) -> LagChanges:
+        """Derivatives of `lag`."""
+        return lag_changes(self.operator.material, self.window.spacing, self.cut, self.rear_share)
+
+    @property
+    def rear_share(self) -> float:
+        """Part of `opening` that is behind."""
+        return self.openings[1] / self.opening if self.opening > 0.0 else 0.0
+
+    @property
+    def cut(self) -> float:
+        """Wavenumber times the cell of the wave that is likely the first one left out."""
+        return self.problem.geometry.cut * math.exp(-_CUT_BY_SHIFT * self.operator.shift)
+
+    def left_out_range(self, spacing: float, doubt: float = 0.0) -> float:
         """Uncertainty of the part of the friction coefficient that cells of a spacing leave out.
 
-        From the wave that is taken for the first one left out.
+        From the wave that is taken for the first one left out, whose logarithm may be off by `doubt` at least.
         """
-        longest, shortest = (lag(self.operator.material, spacing, cut) for cut in self.cuts[::2])
-        return (longest - shortest) * self.opening
+        material, rear = self.operator.material, self.rear_share
+        lost = math.sin(loss_angle(material, self.window.spacing))
+        factor = math.exp(max(self.problem.geometry.doubt, doubt) + _DOUBT_BY_LOSS * lost**2)
+        longest, shortest = (lag(material, spacing, cut, rear) for cut in (self.cut / factor, self.cut * factor))
+        return abs(longest - shortest) * self.opening
 
     @cached_property
     def centre_of_pressure(self) -> float:
@@ -78,9 +94,15 @@ class Stage:
         return float(self.window.x @ pressure.sum(axis=1)) / float(pressure.sum())
 
     @cached_property
+    def openings(self) -> tuple[float, float]:
+        """Parts of ∫ p ∂²h/∂x² dA that cells leave out ahead and behind, over the load."""
+        ahead, behind = openings(self.window, self.result.pressure, self.gap)
+        return ahead / self.load, behind / self.load
+
+    @property
     def opening(self) -> float:
         """Part of ∫ p ∂²h/∂x² dA that cells leave out, over the load."""
-        return opening(self.window, self.result.pressure, self.gap) / self.load
+        return sum(self.openings)
 
     @property
     def gap(self) -> Array:

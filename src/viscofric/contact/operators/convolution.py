@@ -26,7 +26,7 @@ from viscofric.threads import threads_for
 if TYPE_CHECKING:
     from typing import Self
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
     from viscofric.arrays import Array, ComplexArray
     from viscofric.contact.arrays.backend import AnyArray
@@ -398,7 +398,7 @@ def below(values: Array) -> float:
     return float(values.min() - 0.1 * np.ptp(values))
 
 
-def bent_share(memory_lengths: Array) -> Array:
+def bent_share(memory_lengths: NDArray[Any]) -> Array:
     """Share of each mode's dissipation that is found from the bends of the surface, for memories in cells."""
     return np.asarray(1.0 / (1.0 + (memory_lengths / _BEND_MEMORY) ** 2))
 
@@ -420,8 +420,12 @@ def collocation_shift(material: SteadyMaterial, spacing: float) -> float:
     in an upwind scheme), the displacement is in phase with these pressures.  The shift sets in where the loss angle of
     waves four cells long exceeds `_TOLERATED_ANGLE`; it vanishes as the grid is refined.
     """
-    angle = abs(float(np.angle(material.symbol(np.array([0.5 * np.pi / spacing])))[0]))
-    return 0.5 * max(0.0, (angle - _TOLERATED_ANGLE) / (0.5 * np.pi - _TOLERATED_ANGLE))
+    return 0.5 * max(0.0, (loss_angle(material, spacing) - _TOLERATED_ANGLE) / (0.5 * np.pi - _TOLERATED_ANGLE))
+
+
+def loss_angle(material: SteadyMaterial, spacing: float) -> float:
+    """Return the loss angle of waves four cells long."""
+    return abs(float(np.angle(material.symbol(np.array([0.5 * np.pi / spacing])))[0]))
 
 
 def _optimal_circulant_inverse(influence: Array) -> ComplexArray:
