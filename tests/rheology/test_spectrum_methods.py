@@ -50,6 +50,12 @@ def test_a_strength_at_the_end_of_those_tried_has_a_note_with_a_code():
     assert "regularisation-at-end" in codes(fit.notes)
 
 
+def test_a_trial_without_any_compliance_is_infinitely_far_off():
+    """The search for one mode meets it; a division by zero would end a program whose warnings are errors."""
+    omega = np.array([0.1, 1.0, 10.0])
+    assert np.all(np.isinf(ModulusMisfit(omega, 1e6 * (1.0 + 1j * omega)).residual(np.zeros(3, dtype=complex))))
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_every_method_averages_noise_and_says_how_it_went(method):
     truth = rubber()

@@ -156,9 +156,9 @@ class ModulusMisfit(CurveMisfit):
 
     def residual(self, compliance: ComplexArray) -> Array:
         """Return measured minus computed ln E' and ln E'', (2N,); infinite where a modulus is not above zero."""
-        modulus = 1.0 / compliance
-        if not np.all((modulus.imag > 0.0) & (modulus.real > 0.0)):  # no mode at all
+        if not np.all((compliance.imag < 0.0) & (compliance.real > 0.0)):  # no mode at all
             return np.full(len(self.target), np.inf)
+        modulus = 1.0 / compliance
         return np.asarray(self.target - np.concatenate([np.log(modulus.real), np.log(modulus.imag)]))
 
     def jacobian(self, compliance: ComplexArray, change: ComplexArray) -> Array:
