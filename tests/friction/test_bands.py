@@ -386,3 +386,15 @@ def test_friction_of_a_sample_without_losses_is_not_negative() -> None:
     curves = predicted(lossy, drawn_from(lossy, elastic), 303.15, 0.05, load=1.0)
     assert curves.viscoelastic_lower is not None
     assert curves.viscoelastic[0] > 0.0 == curves.viscoelastic_lower[0]
+
+
+def test_one_sample_far_off_does_not_make_the_standard_error_of_a_narrow_band():
+    law = vf.WLF(C1=8.86, C2=101.6, reference="30 degC")
+    usual = [vf.Material.standard_linear_solid(1e6 * (1.0 + 1e-3 * n), 1e7, "1 ms") for n in range(-100, 101)]
+    *usual, far = (replace(one, shift=law) for one in (*usual, vf.Material.standard_linear_solid(5e3, 1e7, "1 ms")))
+    curves = predicted(usual[100], drawn_from(*usual, far), 303.15, 0.1, accuracy=1e-2)
+    half = 0.5 * (curves.viscoelastic_upper - curves.viscoelastic_lower)
+    # that of a normal distribution of which these limits hold 90 %, at most; the one sample alone would make far more
+    np.testing.assert_allclose(curves.material_error, half / 1.645, rtol=1e-3)
+    without = predicted(usual[100], drawn_from(*usual), 303.15, 0.1, accuracy=1e-2)
+    assert 0.9 * without.material_error[0] < curves.material_error[0] < 1.2 * without.material_error[0]

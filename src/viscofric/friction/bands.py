@@ -127,11 +127,13 @@ def with_material_band(
     missed *= np.abs(curves.viscoelastic)
     outside = 0.5 * (1.0 - LEVEL)
     lower, middle, upper = np.quantile(friction, [outside, 0.5, 1.0 - outside], axis=1, method="weibull")
+    # Far beyond the sweeps a single sample may have all of the variance: no more than what 90 % limits would leave.
+    spread = np.minimum(np.std(friction, axis=1, ddof=1), 0.5 * (upper - lower) / NormalDist().inv_cdf(0.95))
     apart = NormalDist().inv_cdf(1.0 - outside) * missed
     lower, upper = middle - np.hypot(middle - lower, apart), middle + np.hypot(upper - middle, apart)
     return replace(
         curves,
-        material_error=np.hypot(np.std(friction, axis=1, ddof=1), missed),
+        material_error=np.hypot(spread, missed),
         viscoelastic_lower=lower,
         viscoelastic_upper=upper,
         notes=(*curves.notes, *_doubts(curves.viscoelastic, lower, upper)),
