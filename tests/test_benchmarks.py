@@ -157,8 +157,9 @@ def test_benchmark_of_stated_errors_compares_each_of_them(
     }  # fmt: skip
     assert all(row["apart"] > 0.0 for row in numbers.values())  # two different grids
     assert all(row["within"] == (row["worst"] <= 1.0) for row in results["summary"])
-    (row,) = benchmarks.measured("contact/stated_errors", "--periodic", "--first", "1012", "--count", "1")["rows"]
-    assert row["number"] == "friction"
+    rows = benchmarks.measured("contact/stated_errors", "--periodic", "--first", "1012", "--count", "1")["rows"]
+    row, lateral = rows
+    assert (row["number"], lateral["number"]) == ("friction", "lateral friction")
     assert 0.0 < row["apart"] < 0.01 * row["size"]  # nearly in full contact
 
 
