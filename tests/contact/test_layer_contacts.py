@@ -120,8 +120,9 @@ def test_balls_far_apart_on_a_layer_are_single(poisson_ratio: float, bonded: boo
     x = (np.arange(points) - 0.5 * points + 0.5) * period / points
     balls = PeriodicSurface(-(x[:, None] ** 2 + x**2) / (2.0 * RADIUS), period / points)
     many = solve_periodic(material, balls, speed=1.0, pressure=load / period**2, layer=layer)
-    # The periodic grid's own error, seen by halving it: 3e-4 at 64 cells across the contact; 1e-3 asked of the other.
-    assert many.friction_coefficient == pytest.approx(single.friction_coefficient, rel=1e-3)
+    # The periodic grid's own error, seen by halving it: up to 9e-4 at 64 cells across the contact; 1e-3 asked of the
+    # other.
+    assert many.friction_coefficient == pytest.approx(single.friction_coefficient, rel=1.5e-3)
     assert many.pressure.max() == pytest.approx(single.max_pressure, rel=3e-3)
     if bonded:  # else the mean pressure lifts the sliding layer's whole surface a little
         assert many.indentation == pytest.approx(single.indentation, rel=2e-3)

@@ -199,7 +199,8 @@ def test_planted_modulus_comes_back_from_rebounds_and_unloading() -> None:
     omega = np.geomspace(*found.frequency_range, 5)
     away = found.material.complex_modulus(omega) / RUBBER.complex_modulus(omega, KELVIN) - 1.0
     assert np.abs(away).max() < 0.03  # errors of 1 %, without noise
-    assert codes(found.notes) == {"errors-not-scatter"}
+    # Impacts of up to 1.5 m/s are wide, and waves take some of their energy.
+    assert codes(found.notes) == {"errors-not-scatter", "large-strain", "quasi-static"}
     unloading = vf.friction.IndentationRecord(**{
         name: getattr(shrinking("load"), name) for name in ("time", "load", "indentation", "temperature", "control")
     })  # fmt: skip
