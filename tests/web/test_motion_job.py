@@ -58,7 +58,7 @@ def test_a_jump_is_drawn_before_and_after_it(desk: Desk) -> None:
 
 
 def test_a_history_has_the_coulomb_friction_that_is_given(desk: Desk) -> None:
-    rows = [{"time": time, "value": 25.0, "along": 0.1} for time in (0.0, 0.01)]
+    rows = [{"time": time, "value": 25.0, "along": 0.01 * time} for time in (0.0, 0.01)]
     found, without = (desk.run(motion, BALL, rows=rows, **more) for more in ({"coulomb": 0.2}, {}))
     assert "total_friction" not in without
     assert found["total_friction"][-1] == pytest.approx(found["friction_coefficient"][-1] + 0.2)
