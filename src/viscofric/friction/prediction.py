@@ -14,14 +14,14 @@ from viscofric.contact.bodies import Layer, checked_coulomb
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, insist_on_round_edges
 from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import solve_steady
-from viscofric.errors import ConvergenceError, InputError, ViscofricError
+from viscofric.errors import InputError, ViscofricError
 from viscofric.files import marked
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.cases.record import Record, columns_of_contacts, indenter_record
 from viscofric.friction.coulomb import check_interface, shear_notes, with_interface
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.heating import predict_heated
-from viscofric.friction.planning.shared import SharedContacts, places_of
+from viscofric.friction.planning.shared import SharedContacts, attempt, places_of
 from viscofric.friction.sensitivity import solve_with_sensitivity
 from viscofric.heat.heating import Heating
 from viscofric.notes import Note
@@ -255,16 +255,13 @@ def _outcomes(
         found = [] if shared is None else shared.outcomes(places_of(contacts))
         if found and not (sensitive and any(isinstance(one, Record) and one.sensitivity is None for one in found)):
             return found
-    calls = [{"contact": one, "sensitive": sensitive} for one in contacts]
-    return call_all(_attempt, calls, workers=workers, progress=report)
+    calls = [{"function": _record, "contact": one, "sensitive": sensitive} for one in contacts]
+    return call_all(attempt, calls, workers=workers, progress=report)
 
 
-def _attempt(contact: dict[str, Any], sensitive: bool) -> Record | ViscofricError:
-    """Return the record of a contact, arguments of `solve_steady`, or its error."""
-    try:
-        solution, known = solve_with_sensitivity(**contact) if sensitive else (solve_steady(**contact), None)
-    except (ConvergenceError, InputError) as error:
-        return error
+def _record(contact: dict[str, Any], sensitive: bool) -> Record:
+    """Return the record of a contact, arguments of `solve_steady`."""
+    solution, known = solve_with_sensitivity(**contact) if sensitive else (solve_steady(**contact), None)
     return indenter_record(solution, contact["temperature"], known)
 
 

@@ -11,7 +11,7 @@ from viscofric.contact.settings import ContactSettings
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.cases.solving import Task, solve
+from viscofric.friction.cases.solving import solve
 from viscofric.friction.planning.plan import Plan, plan_cases
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.material import Material
@@ -119,8 +119,8 @@ class SharedContacts:
 
         while tasks := plan.wanted():
             new = [task for task in tasks if task.key not in self._known]
-            calls = [{"task": task} for task in new]
-            outcomes = call_all(_attempt, calls, workers=workers, progress=partial(told, plan.done))
+            calls = [{"function": solve, "task": task} for task in new]
+            outcomes = call_all(attempt, calls, workers=workers, progress=partial(told, plan.done))
             self._known |= {task.key: outcome for task, outcome in zip(new, outcomes, strict=True)}
             for task in tasks:
                 outcome = self._known[task.key]
@@ -132,9 +132,9 @@ def _same(value: object, usual: object) -> bool:
     return value is usual or (isinstance(value, int | float | str | tuple) and value == usual)
 
 
-def _attempt(task: Task) -> Record | ViscofricError:
-    """Return the record of a task, or its error: of a curve's contact it is no failure of the cases."""
+def attempt(function: Callable[..., Record], **arguments: Any) -> Record | ViscofricError:
+    """Return the record of a contact, or its error: of a curve's contact it is no failure of the cases."""
     try:
-        return solve(task)
+        return function(**arguments)
     except (ConvergenceError, InputError) as error:
         return error

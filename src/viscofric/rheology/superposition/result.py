@@ -263,11 +263,10 @@ def _noise_near(sweep: LogSweep, variances: Array | None = None) -> tuple[Array,
 
 def flowing(tests: Sequence[StepTest]) -> list[str]:
     """Name the temperatures where creep tests end in flow, in one sentence; the glass transition can look like it."""
-    powers = {one.temperature: _last_power(one) for one in tests}
+    ends = [(one.temperature, one.response[-1], _last_power(one)) for one in tests]
     # In flow J is above that of all tests which end otherwise: below, it rises towards the rubber.
-    rubbery = max((one.response[-1] for one in tests if powers[one.temperature] <= FLOW), default=0.0)
-    ending = {one.temperature: powers[one.temperature] for one in tests if one.response[-1] > rubbery}
-    found = {kelvin: power for kelvin, power in ending.items() if power > FLOW}
+    rubbery = max((J for _, J, power in ends if power <= FLOW), default=0.0)
+    found = {kelvin: power for kelvin, J, power in ends if power > FLOW and rubbery < J}
     if not found:
         return []
     warmest = max(found)

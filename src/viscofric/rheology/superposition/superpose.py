@@ -478,14 +478,16 @@ VERTICAL_UNIDENTIFIED = 0.02  # decades
 def _on_steps(temperatures: Array, found: CommonShifts, quantities: int) -> Iterator[Note]:
     """Yield notes on neighbours that a common curve moved apart, and on steps of α that are not identified."""
     if found.parted:
-        disagree = ", or E' and E'' do not agree on the shift" if quantities > 1 else ""
-        cure = ", and look for loss moduli that the instrument itself makes, as a resonance does at its highest "
+        disagree = cure = ""
+        if quantities > 1:
+            disagree = ", or E' and E'' do not agree on the shift"
+            cure = ", and look for loss moduli that the instrument itself makes, as a resonance does at its highest "
+            cure += "frequencies"
         yield Note(
             "joined-by-pairs",
             f"The isotherms from {ranges(steps_at(temperatures, found.parted))} were joined pair by pair: one common "
             f"curve would move them apart, as where they overlap little{disagree}; each step there is uncertain by "
-            f"{PAIR_UNCERTAINTY:g} decades or more. Measure closer temperatures"
-            f"{f'{cure}frequencies' if quantities > 1 else ''}.",
+            f"{PAIR_UNCERTAINTY:g} decades or more. Measure closer temperatures{cure}.",
         )
     places = unidentified_places(found)
     if places:

@@ -12,7 +12,7 @@ from viscofric.errors import InputError
 from viscofric.files import file_path
 from viscofric.study.cases.sweep import shown
 from viscofric.study.results.columns import over_all_dimensions
-from viscofric.study.results.file import OTHER_CASES, cases_of, open_tree
+from viscofric.study.results.file import OTHER_CASES, PREDICTION, cases_of, open_tree
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -98,7 +98,7 @@ def tables_of_file(path: str | Path) -> dict[str, CaseTable]:
         return tables_of_tree(*open_tree(path))
     from viscofric.friction.curve_files import read_friction_curves
 
-    return {"prediction": CaseTable.of_curves(read_friction_curves(path), str(path))}
+    return {PREDICTION: CaseTable.of_curves(read_friction_curves(path), str(path))}
 
 
 def tables_of_tree(tree: DataTree, folder: Path) -> dict[str, CaseTable]:
@@ -106,7 +106,7 @@ def tables_of_tree(tree: DataTree, folder: Path) -> dict[str, CaseTable]:
     cases = cases_of(tree, folder)
     others = {name: child.to_dataset() for name, child in tree.children.items() if name in OTHER_CASES}
     others = {name: data.assign_attrs(accuracy=cases.attrs.get("accuracy")) for name, data in others.items()}
-    return {name: CaseTable.of_group(str(folder), data) for name, data in ({"prediction": cases} | others).items()}
+    return {name: CaseTable.of_group(str(folder), data) for name, data in ({PREDICTION: cases} | others).items()}
 
 
 class Common(NamedTuple):

@@ -19,10 +19,11 @@ from viscofric.files import parse_toml
 from viscofric.notes import Note, table_in
 from viscofric.showing import Rows, Shown
 from viscofric.study.results.case_table import CaseTable, Common, common_cases
+from viscofric.study.results.file import OTHER_CASES, PREDICTION
 
 #: Variables that are compared, by the groups of results; those of rough contacts, on their grid, have no stated error.
 COMPARED = {
-    "prediction": (
+    PREDICTION: (
         *("friction_coefficient", "indentation", "contact_area", "front", "rear", "half_width"),
         *("max_pressure", "centre_of_pressure", "contact_area_fraction", "corrected_area_fraction", "mean_gap"),
         *("interface_friction", "total_friction"),
@@ -31,7 +32,6 @@ COMPARED = {
     "history": ("friction_force", "indentation", "temperature_rise", "time"),
     "impact": ("restitution", "contact_time", "peak_force", "largest_indentation"),
 }
-_PREDICTION = "prediction"
 #: Variables -> those with their stated errors.
 _ERRORS = ERRORS | {
     "interface_friction": "interface_error",
@@ -158,12 +158,12 @@ def compare_tables(
     one: Mapping[str, CaseTable], other: Mapping[str, CaseTable], tolerance: float | None
 ) -> ResultsComparison:
     """Compare two results, of each group a table, case by case; see `viscofric.compare_results`."""
-    first, second = (tables[_PREDICTION] for tables in (one, other))
-    pairs, solved_once, differences = _compared(_PREDICTION, first, second, tolerance)
+    first, second = (tables[PREDICTION] for tables in (one, other))
+    pairs, solved_once, differences = _compared(PREDICTION, first, second, tolerance)
     only_first, only_second = len(first) - len(pairs.first), len(second) - len(pairs.second)
     same, remarks = only_first == only_second == solved_once == 0, list(pairs.remarks)
     known = bool(first.attributes and second.attributes)  # friction curves have no other groups
-    for name in [name for name in COMPARED if known and name != _PREDICTION and (name in one or name in other)]:
+    for name in [name for name in OTHER_CASES if known and (name in one or name in other)]:
         if name not in one or name not in other:
             same = False
             remarks.append(f"Only {(first if name in one else second).name} has a group '{name}'.")
@@ -205,7 +205,7 @@ def _compared(
     both = solved[0] & solved[1]
     rows = pairs.first[both], pairs.second[both]
     differences = [_difference(name, (one, other), rows, tolerance, accuracy) for name in names] if both.any() else []
-    if group != _PREDICTION:
+    if group != PREDICTION:
         differences = [replace(found, name=f"{group}/{found.name}") for found in differences]
     return pairs, int(np.count_nonzero(solved[0] != solved[1])), differences
 

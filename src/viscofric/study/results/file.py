@@ -14,7 +14,7 @@ from viscofric.files import file_path
 from viscofric.study.results.netcdf import read_netcdf, write_netcdf
 
 RESULTS_FILE = "results.nc"
-_PREDICTION = "prediction"
+PREDICTION = "prediction"
 #: Keys of a run file that describe a study in words, and attributes of its results.
 DESCRIBED = ("author", "sample", "comment", "citation", "licence")
 #: Attributes of the root that a data set of the tree keeps: title and provenance.
@@ -44,10 +44,10 @@ OTHER_CASES = {"heating": "cases with heat", "history": "cases over time", "impa
 
 def cases_of(tree: DataTree, folder: Path) -> Dataset:
     """Return the predicted cases of results; see `StudyResults.dataset`."""
-    if _PREDICTION not in tree.children:
+    if PREDICTION not in tree.children:
         words = "these results have no prediction of friction; they are of a material alone."
         raise InputError(f"{folder}: {words}", code="no-prediction")
-    found = tree[_PREDICTION].to_dataset()
+    found = tree[PREDICTION].to_dataset()
     return found.assign_attrs({name: tree.attrs[name] for name in _ABOUT if name in tree.attrs})
 
 
@@ -56,7 +56,7 @@ def rubbers_of(tree: DataTree) -> dict[str, DataTree]:
     branches = tree.children.get("materials")
     if branches is None:
         return {str(tree.attrs.get("material", "")): tree}
-    given = tree[_PREDICTION].coords["material"].values.tolist() if _PREDICTION in tree.children else []
+    given = tree[PREDICTION].coords["material"].values.tolist() if PREDICTION in tree.children else []
     names = dict(enumerate(map(str, given), 1))
     return {names.get(int(number), number): branch for number, branch in branches.children.items()}
 

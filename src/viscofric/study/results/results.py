@@ -21,7 +21,7 @@ from viscofric.showing import Plotted, Rows
 from viscofric.study.results.case_table import CaseTable, tables_of_file, tables_of_tree
 from viscofric.study.results.compare import ResultsComparison, compare_tables
 from viscofric.study.results.export import Form, export_results
-from viscofric.study.results.file import cases_of, open_tree, rubbers_of
+from viscofric.study.results.file import PREDICTION, cases_of, open_tree, rubbers_of
 from viscofric.units import number
 
 if TYPE_CHECKING:
@@ -264,7 +264,7 @@ def _tables_of(given: StudyResults | FrictionCurves | str | Path) -> dict[str, C
         return tables_of_tree(given.tree, given.folder)
     from viscofric.friction.curves import FrictionCurves
 
-    return {"prediction": CaseTable.of_curves(given)} if isinstance(given, FrictionCurves) else tables_of_file(given)
+    return {PREDICTION: CaseTable.of_curves(given)} if isinstance(given, FrictionCurves) else tables_of_file(given)
 
 
 def input_hashes(inputs: Iterable[Path], folder: Path | None = None) -> str:
