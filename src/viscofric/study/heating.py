@@ -168,7 +168,6 @@ class Heatings(Singles):
             "interface": self._interface,
             "indenter_modulus": case.modulus,
             "indenter_poisson_ratio": case.poisson_ratio,
-            "fields": False,
         }
 
     def _map_task(self) -> list[Task]:

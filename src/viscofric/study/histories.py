@@ -98,7 +98,6 @@ def _task(case: Any, rubbers: Rubbers, history: History, study: Study, label: st
         "layer": case.layer,
         "indenter_modulus": case.modulus,
         "indenter_poisson_ratio": case.poisson_ratio,
-        "fields": False,
         **({"cycle": True} if table.cycle else {}),
     }
     return Task(solve_history, arguments, label)
@@ -181,7 +180,6 @@ class Impacts(Singles):
                     "accuracy": min(study.solver.accuracy, LOOSEST),
                     "indenter_modulus": case.modulus,
                     "indenter_poisson_ratio": case.poisson_ratio,
-                    "fields": False,
                 }
                 try:
                     rubber = {"modes": rubbers.modes(case), "poisson_ratio": rubbers.of(case).poisson_ratio}

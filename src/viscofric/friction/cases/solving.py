@@ -43,7 +43,7 @@ class Task:
     @property
     def fields(self) -> bool:
         """Whether its record has fields."""
-        return bool(self.arguments["fields"])
+        return bool(self.arguments.get("fields"))
 
 
 def solve(task: Task) -> Record:

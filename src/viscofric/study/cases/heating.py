@@ -37,13 +37,13 @@ _KEPT = (BEYOND, "interface-extrapolated", "interface-pressure", "loss-beyond", 
 
 
 def solve_heated(
-    material: Material, *, speeds: tuple[float, ...], temperature: float, fields: bool = False, **settings: Any
+    material: Material, *, speeds: tuple[float, ...], temperature: float, **settings: Any
 ) -> HistoryRecord:
     """Solve contacts of one temperature and load at all speeds, each at the temperature to which it heats itself.
 
     Speeds at which there is no solution are left out, with a warning; if there is none at any, the error of the first
-    is raised.  `fields` is not used; `settings` are further arguments of `predict_friction`, SI, or with a
-    `surface`, the description of one, and its `direction` (rad), those of `predict_rough_friction`.
+    is raised.  `settings` are further arguments of `predict_friction`, SI, or with a `surface`, the description of one,
+    and its `direction` (rad), those of `predict_rough_friction`.
     """
 
     def solve(chosen: list[float]) -> Any:
@@ -116,7 +116,6 @@ def solve_temperature_map(
     face_rise: float,
     heating: Heating,
     interface: InterfaceLaw | None = None,
-    fields: bool = False,
     **settings: Any,
 ) -> HistoryRecord:
     """Return the rise of temperature of the rubber's face in and around a contact that is so much warmer, K.

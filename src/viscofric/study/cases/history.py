@@ -37,12 +37,12 @@ _OF_IMPACT = {
 
 
 def solve_history(
-    material: Material, *, history: History, points: int, cycle: bool = False, fields: bool = False, **contact: Any
+    material: Material, *, history: History, points: int, cycle: bool = False, **contact: Any
 ) -> HistoryRecord:
     """Solve a contact over time, or with `cycle` the periodic state of a period, at so many times (`dense_times`).
 
     An isothermal `material` has the modes at its temperature, without shift factors; `contact` are further arguments
-    of `solve_transient`, SI, with `surface`, a description of one, instead of `indenter`.  `fields` is not used.
+    of `solve_transient`, SI, with `surface`, a description of one, instead of `indenter`.
     """
     times = dense_times(history, points)
     if "surface" in contact:
@@ -58,9 +58,7 @@ def solve_history(
     return HistoryRecord({}, tuple(map(note_of, run.warnings)), columns=_columns(run.to_dataset()))
 
 
-def solve_hit(
-    modes: RetardationSpectrum, poisson_ratio: float, *, fields: bool = False, **impact: Any
-) -> HistoryRecord:
+def solve_hit(modes: RetardationSpectrum, poisson_ratio: float, **impact: Any) -> HistoryRecord:
     """Solve an impact by `solve_impact`, whose further arguments are `impact`, SI; see `solve_history`."""
     hit = solve_impact(Material(modes, poisson_ratio=poisson_ratio), **impact)
     columns = {name: Column([float(getattr(hit, name))], *about) for name, about in _OF_IMPACT.items()}
