@@ -15,6 +15,9 @@ import resource
 import sys
 import tempfile
 import time
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -54,29 +57,35 @@ def cases_of(speeds: int, temperatures: int) -> list[IndenterCase]:
 
 
 class Timed:
-    """Solves tasks of this process, and adds up what that takes."""
+    """A plan whose tasks are solved in this process, and add up what that takes."""
 
-    def __init__(self) -> None:
-        self.seconds, self.solved = 0.0, 0
+    def __init__(self, plan: Plan) -> None:
+        self._plan, self.seconds = plan, 0.0
 
-    def __call__(self, task: Task) -> Record:
-        """Solve a task."""
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._plan, name)
+
+    def wanted(self) -> list[Task]:
+        """Return the tasks of the plan."""
+        return [replace(task, verb=partial(self._solve, task.verb)) for task in self._plan.wanted()]
+
+    def _solve(self, verb: Callable[..., Record], **contact: Any) -> Record:
         start = time.process_time()
         try:
-            return solve(task)
+            return verb(**contact)
         finally:
             self.seconds += time.process_time() - start
-            self.solved += 1
 
 
 def carried_out(name: str, cases: list[IndenterCase], workers: int, folder: Path, **settings: Any) -> dict[str, Any]:
     """Plan, solve and store cases; a row of the table and, under "found", what was found."""
-    timed, store = Timed(), CaseStore(folder)
+    store = CaseStore(folder)
     before = len(list(folder.glob("*.json")))
     wall, cpu = time.perf_counter(), _cpu_with_children()
     plan: Plan = plan_cases(cases, [CURVE_RUBBER], **settings)
+    timed = Timed(plan)
     with Processes(workers) as executor:
-        run_plan(plan, store, executor, solve=timed if workers == 1 else solve)
+        run_plan(timed if workers == 1 else plan, store, executor)
     found = plan.found()
     row: dict[str, Any] = {
         "case": f"{name}, {workers} process{'es' * (workers > 1)}",

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +15,7 @@ from viscofric.errors import ConvergenceError
 from viscofric.friction.cases.case import Settings
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.cases.solving import Task, solve
+from viscofric.friction.cases.solving import Task, solve_indenter
 
 RUBBER = vf.Material.standard_linear_solid(E0=1e6, E_inf=1e7, tau=1e-3, poisson_ratio=0.5)
 
@@ -27,17 +29,21 @@ def task(speed: float, fields: bool = False) -> Task:
 class TwoWaves:
     """First contacts at some speeds, then two at speeds that the answers tell."""
 
-    def __init__(self, count: int = 6, fields: bool = False) -> None:
-        self.first = [task(float(speed), fields) for speed in np.geomspace(0.1, 5.0, count)]
+    def __init__(self, verb: Callable[..., Record] | None = None) -> None:
+        self.first = [task(float(speed)) for speed in np.geomspace(0.1, 5.0, 6)]
+        self.verb = verb  # that solves the contacts instead
         self.second: list[Task] = []
         self.known: dict[str, Record | Failure] = {}
-        self.total = count + 2
+        self.total = 8
 
     @property
     def done(self) -> int:
         return len(self.known)
 
     def wanted(self) -> Sequence[Task]:
+        return self._wanted() if self.verb is None else [replace(one, verb=self.verb) for one in self._wanted()]
+
+    def _wanted(self) -> Sequence[Task]:
         waiting = [one for one in self.first if one.key not in self.known]
         if waiting:
             return waiting
@@ -58,17 +64,17 @@ class TwoWaves:
         ]
 
 
-def solve_or_end(asked: Task) -> Record:
+def solve_or_end(**contact: Any) -> Record:
     """Solve a contact, unless it is the one that ends its process."""
-    if asked.arguments["speed"] < 0.11:
+    if contact["speed"] < 0.11:
         os._exit(1)
-    return solve(asked)
+    return solve_indenter(**contact)
 
 
-def solve_some(asked: Task) -> Record:
+def solve_some(**contact: Any) -> Record:
     """Solve a contact, unless it is one of those that fail."""
-    if asked.arguments["speed"] < 0.11:
+    if contact["speed"] < 0.11:
         raise ConvergenceError("it does not converge.")
-    if asked.arguments["speed"] > 4.9:
+    if contact["speed"] > 4.9:
         raise MemoryError("nobody thought of that")
-    return solve(asked)
+    return solve_indenter(**contact)

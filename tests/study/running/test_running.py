@@ -14,7 +14,7 @@ from refusals import refused
 from study.running.tasks import TwoWaves, solve_or_end, solve_some, task
 from viscofric.errors import DataFileError, ViscofricError
 from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.cases.solving import solve
+from viscofric.friction.cases.solving import key_of, solve, solve_indenter
 from viscofric.study.heating import Heatings
 from viscofric.study.histories import Histories, Impacts
 from viscofric.study.running.executors import Processes, take
@@ -71,21 +71,21 @@ def test_every_stage_that_solves_contacts_has_words() -> None:
 
 
 def test_what_is_stored_is_not_solved_again(alone: tuple[TwoWaves, CaseStore]) -> None:
-    def refuse(_: object) -> Record:
+    def refuse(**_: object) -> Record:
         raise AssertionError("a stored case was solved again")
 
-    plan, heard = TwoWaves(), []
-    run_plan(plan, alone[1], Processes(), heard.append, solve=refuse)
+    plan, heard = TwoWaves(refuse), []
+    run_plan(plan, alone[1], Processes(), heard.append)
     assert plan.bits() == alone[0].bits()
     assert [event.event for event in heard] == ["stage", *["stored"] * 8, "stage"]
 
 
 @pytest.mark.parametrize("processes", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["serial", "processes"])
 def test_failed_cases_leave_the_others_alone(request: pytest.FixtureRequest, processes: bool, tmp_path: Path) -> None:
-    plan, store = TwoWaves(), CaseStore(tmp_path)
+    plan, store = TwoWaves(solve_some), CaseStore(tmp_path)
     heard: list[Event] = []
     executor = request.getfixturevalue("pair") if processes else Processes()
-    run_plan(plan, store, executor, heard.append, solve=solve_some)
+    run_plan(plan, store, executor, heard.append)
     failures = [one for one in plan.known.values() if isinstance(one, Failure)]
     assert [str(one) for one in failures] == [
         "0.1 m/s: it does not converge.",
@@ -101,8 +101,8 @@ def test_failed_cases_leave_the_others_alone(request: pytest.FixtureRequest, pro
 
 @pytest.mark.apart
 def test_case_that_ends_one_process_after_the_other_is_lost_alone(pair: Processes, tmp_path: Path) -> None:
-    plan, store = TwoWaves(), CaseStore(tmp_path)
-    run_plan(plan, store, pair, solve=solve_or_end)
+    plan, store = TwoWaves(solve_or_end), CaseStore(tmp_path)
+    run_plan(plan, store, pair)
     (failure,) = (one for one in plan.known.values() if isinstance(one, Failure))
     assert (failure.label, failure.code) == ("0.1 m/s", "process-ended")
     assert store.get(plan.first[0].key) is None
@@ -113,20 +113,20 @@ def test_case_that_ends_one_process_after_the_other_is_lost_alone(pair: Processe
 def test_interrupt_loses_no_more_than_what_is_worked_on(tmp_path: Path) -> None:
     store, solved = CaseStore(tmp_path), []
 
-    def interrupted(asked: Any) -> Record:
+    def interrupted(**contact: Any) -> Record:
         if len(solved) == 3:
             raise KeyboardInterrupt
-        return counted(asked)
+        return counted(**contact)
 
-    def counted(asked: Any) -> Record:
-        solved.append(asked.key)
-        return solve(asked)
+    def counted(**contact: Any) -> Record:
+        solved.append(key_of(contact))
+        return solve_indenter(**contact)
 
     with pytest.raises(KeyboardInterrupt):
-        run_plan(TwoWaves(), store, Processes(), solve=interrupted)
+        run_plan(TwoWaves(interrupted), store, Processes())
     assert sorted(store.stored()) == sorted(solved)
-    plan = TwoWaves()
-    run_plan(plan, store, Processes(), solve=counted)
+    plan = TwoWaves(counted)
+    run_plan(plan, store, Processes())
     assert sorted(solved) == sorted(plan.known)  # each of them once
 
 
@@ -176,7 +176,7 @@ def test_worker_with_another_solver_is_refused(
     pair: Processes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with refused("other-solver", ViscofricError):
-        take(solve, task(1.0), "another")
+        take(task(1.0), "another")
     monkeypatch.setattr("viscofric.study.running.executors.solver_fingerprint", lambda: "another")
     with refused("other-solver", ViscofricError):
         run_plan(TwoWaves(), CaseStore(tmp_path), pair)

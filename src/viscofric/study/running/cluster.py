@@ -19,7 +19,7 @@ from typing import Any, Self
 from viscofric.errors import InputError, ViscofricError, not_imported
 from viscofric.friction.cases.solving import Task, solver_fingerprint
 from viscofric.study.run_file.settings import ClusterTable
-from viscofric.study.running.executors import Answers, Executor, Lost, Outcome, Solve, Waiting, take_on_cluster
+from viscofric.study.running.executors import Answers, Executor, Lost, Outcome, Waiting, take_on_cluster
 
 _PATIENCE = 30.0  # s
 _POLLING = 1.0  # s
@@ -96,11 +96,11 @@ class Dask(Executor):
         self._client = None
         self._open.close()
 
-    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
+    def map(self, tasks: Sequence[Task]) -> Answers:
         """Solve tasks; see `Executor`."""
         run = uuid.uuid4().hex  # the scheduler keeps names for a while, also of cancelled tasks
         keys = [f"{task.key}-{run}" for task in tasks]
-        work = functools.partial(take_on_cluster, solve, fingerprint=solver_fingerprint())
+        work = functools.partial(take_on_cluster, fingerprint=solver_fingerprint())
         futures = dict(zip(self._client.map(work, tasks, key=keys, pure=False), tasks, strict=True))
         try:
             for found in self._finished(list(futures)):

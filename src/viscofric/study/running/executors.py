@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import functools
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from typing import Any, Self, TypeAlias
 
 from viscofric.errors import ConvergenceError, InputError, ViscofricError
 from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.cases.solving import Task, solver_fingerprint
+from viscofric.friction.cases.solving import Task, solve, solver_fingerprint
 from viscofric.processes import Workers, as_they_come
 from viscofric.threads import one_blas_thread
 
@@ -28,7 +28,7 @@ Answers: TypeAlias = "Generator[tuple[str, Outcome | Waiting | None]]"
 class Executor(contextlib.AbstractContextManager["Executor"]):
     """Solves tasks, in a ``with`` block; the results do not depend on the executor or its number of workers."""
 
-    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
+    def map(self, tasks: Sequence[Task]) -> Answers:
         """Solve independent tasks, and yield the key and the outcome of each in the order in which they finish.
 
         The outcome is None when a task starts, and `Lost` when its workers ended again and again.  `Waiting`, without a
@@ -43,7 +43,7 @@ class Executor(contextlib.AbstractContextManager["Executor"]):
 class NoSolver(Executor):
     """Solves no task."""
 
-    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
+    def map(self, tasks: Sequence[Task]) -> Answers:
         """Give up every task; see `Executor`."""
         for task in tasks:
             yield (
@@ -68,10 +68,10 @@ class Processes(Executor):
     def __exit__(self, *error: Any) -> None:
         self._workers.__exit__(*error)
 
-    def map(self, solve: Solve, tasks: Sequence[Task]) -> Answers:
+    def map(self, tasks: Sequence[Task]) -> Answers:
         """Solve tasks; see `Executor`."""
         fingerprint = solver_fingerprint()
-        calls = [{"solve": solve, "task": task, "fingerprint": fingerprint} for task in tasks]
+        calls = [{"task": task, "fingerprint": fingerprint} for task in tasks]
         with contextlib.closing(as_they_come(take, calls, workers=self._workers)) as found:
             for index, kind, value in found:
                 task = tasks[index]
@@ -81,7 +81,6 @@ class Processes(Executor):
 
 
 Outcome: TypeAlias = Record | Failure
-Solve: TypeAlias = Callable[[Any], Record]
 
 
 class Lost(Failure):
@@ -96,7 +95,7 @@ class Lost(Failure):
 
 
 @one_blas_thread
-def attempt(solve: Solve, task: Task) -> Outcome:
+def attempt(task: Task) -> Outcome:
     """Return the record of a task, or its failure."""
     try:
         return solve(task)
@@ -106,7 +105,7 @@ def attempt(solve: Solve, task: Task) -> Outcome:
         return Lost.by(error, task)
 
 
-def take(solve: Solve, task: Task, fingerprint: str) -> Outcome:
+def take(task: Task, fingerprint: str) -> Outcome:
     """Solve a task of another process or machine; raise `ViscofricError` if the solver there is another one."""
     if fingerprint != solver_fingerprint():
         raise ViscofricError(
@@ -114,13 +113,13 @@ def take(solve: Solve, task: Task, fingerprint: str) -> Outcome:
             "must not change while a study runs.",
             code="other-solver",
         )
-    return attempt(solve, task)
+    return attempt(task)
 
 
-def take_on_cluster(solve: Solve, task: Task, fingerprint: str) -> Outcome:
+def take_on_cluster(task: Task, fingerprint: str) -> Outcome:
     """Solve a task in a process that may run several threads."""
     _keep_blas_to_one_thread()
-    return take(solve, task, fingerprint)
+    return take(task, fingerprint)
 
 
 @functools.cache

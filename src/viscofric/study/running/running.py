@@ -9,8 +9,8 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Protocol
 
 from viscofric.errors import DataFileError, InputError
-from viscofric.friction.cases.solving import Task, solve
-from viscofric.study.running.executors import Executor, Lost, NoSolver, Outcome, Processes, Solve, Waiting
+from viscofric.friction.cases.solving import Task
+from viscofric.study.running.executors import Executor, Lost, NoSolver, Outcome, Processes, Waiting
 from viscofric.study.running.store import CaseStore, Damaged
 
 if TYPE_CHECKING:
@@ -111,15 +111,13 @@ class Plan(Protocol):
         """Take the result of a task."""
 
 
-def run_plan(
-    plan: Plan, store: CaseStore, executor: Executor, progress: Progress = silent, solve: Solve = solve
-) -> list[str]:
+def run_plan(plan: Plan, store: CaseStore, executor: Executor, progress: Progress = silent) -> list[str]:
     """Solve all tasks of a plan that are not stored; return the labels of those whose stored contacts were damaged.
 
     The plan receives results in the order of its tasks, whatever the order in which they finish, so that its next
     tasks do not depend on timing.  An interrupt loses only the tasks being solved.
     """
-    run = _Run(plan, store, executor, progress, solve)
+    run = _Run(plan, store, executor, progress)
     run.report("stage")
     while tasks := list(plan.wanted()):
         run.wave(tasks)
@@ -139,8 +137,8 @@ def run_plan(
 class _Run:
     """State of a plan while it runs."""
 
-    def __init__(self, plan: Plan, store: CaseStore, executor: Executor, progress: Progress, solve: Solve) -> None:
-        self.plan, self.store, self.executor, self.progress, self.solve = plan, store, executor, progress, solve
+    def __init__(self, plan: Plan, store: CaseStore, executor: Executor, progress: Progress) -> None:
+        self.plan, self.store, self.executor, self.progress = plan, store, executor, progress
         self.solves = 0
         self.damaged: list[str] = []
         self.kept: set[str] = set()
@@ -174,7 +172,7 @@ class _Run:
             pass_on()
             self.report("stored", task)
         begun: dict[str, float] = {}
-        with contextlib.closing(self.executor.map(self.solve, missing)) as answers:
+        with contextlib.closing(self.executor.map(missing)) as answers:
             for key, outcome in answers:
                 if outcome is None:
                     begun[key] = time.monotonic()
