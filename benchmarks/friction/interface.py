@@ -3,8 +3,9 @@
     python benchmarks/friction/interface.py --problems 1000 --json interface.json
 
 Every problem is SYNTHETIC: a law, its constants, slip speeds, temperatures, replicates, noise, an error that all points
-of a temperature share, and contact pressures are drawn anew; Coulomb friction is measured with that noise.  The law is
-fitted by its kind, and chosen by comparison.  Bands are looked up at the measured points, and half a decade beyond
+of a temperature share, and contact pressures are drawn anew; Coulomb friction is measured with that noise, in half of
+the problems a part of it, else of its median at all points, as that of a force cell.  The law is fitted by its kind,
+and chosen by comparison.  Bands are looked up at the measured points, and half a decade beyond
 them.
 """
 
@@ -49,7 +50,10 @@ def problem(kind: str, random: np.random.Generator) -> tuple[vf.friction.Interfa
     noise, level = random.uniform(0.01, 0.05), random.choice([0.0, 0.02])
     pressure = 10.0 ** random.uniform(5.0, 6.0) * (v / v[0]) ** 0.05
     shared = 1.0 + level * np.repeat(random.standard_normal(kelvin.size), speed.size)
-    readings = law(v, T) / pressure * shared * (1.0 + noise * random.standard_normal((replicates, n)))
+    friction = law(v, T) / pressure
+    # Of friction itself, or of a force cell: the same at all points.
+    unit = friction if random.random() < 0.5 else np.full(n, np.median(friction))
+    readings = friction * shared + noise * unit * random.standard_normal((replicates, n))
     columns = {"speed": v, "temperature": T, "load": np.full(n, 5.0), "replicates": np.full(n, replicates)}
     columns |= {f"viscoelastic{name}": np.full(n, 0.01) for name in ("", "_error", "_scatter")}
     scatter = readings.std(axis=0, ddof=1)

@@ -135,9 +135,10 @@ def test_points_without_slip_are_left_out_and_missing_slip_is_noted():
     assert {note.code for note in found.notes} == {"slip-assumed"}
 
 
-def test_stress_near_zero_is_fitted_as_it_is():
-    """A constant stress known absolutely, with errors of 40 % at every point: the weighted mean, and its error."""
-    error = 0.4 * 3e5 / CONTACTS.mean_pressure
+@pytest.mark.parametrize("part", [0.4, 0.9])
+def test_stress_near_zero_is_fitted_as_it_is(part):
+    """A constant stress known absolutely, with errors of 40 or 90 %: the weighted mean, and its error."""
+    error = part * 3e5 / CONTACTS.mean_pressure
     true = 3e5 / CONTACTS.mean_pressure
     known = replace(measured(), coulomb=true + error * np.random.default_rng(2).standard_normal(N), coulomb_error=error)
     stress = vf.friction.shear_stress(replace(known, coulomb_freedom=None), CONTACTS, shift=TRUE.shift)
@@ -149,6 +150,15 @@ def test_stress_near_zero_is_fitted_as_it_is():
     # Points are fitted by their logarithm from ten standard errors on: none is. Errors are those of their temperature.
     assert law.stress == pytest.approx(expected, abs=0.1 * spread)
     assert law.standard_errors[0] == pytest.approx(spread, rel=0.1)
+
+
+def test_stress_that_no_point_shows_is_refused_unless_all_show_it_together():
+    """Points of one standard error each: 27 of them are 5 together, 9 of them 3."""
+    rubbed = replace(measured(), coulomb=0.1 * np.ones(N), coulomb_error=0.1 * np.ones(N))
+    assert len(vf.friction.shear_stress(rubbed, CONTACTS, shift=TRUE.shift)) == N
+    with pytest.raises(vf.InputError) as refused:
+        vf.friction.shear_stress(rubbed.select(np.arange(9)), CONTACTS, shift=TRUE.shift)
+    assert refused.value.code == "no-points"
 
 
 def test_stress_of_one_level_has_no_shift_factors_and_is_constant():

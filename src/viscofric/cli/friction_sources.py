@@ -13,7 +13,6 @@ from viscofric.cli.errors import words_of
 from viscofric.cli.files import plainly
 from viscofric.cli.keys import key, table_of
 from viscofric.cli.rubber_options import column_options, find_rubber, rubber_of
-from viscofric.files import says_synthetic
 from viscofric.notes import Note, Remedy, dumped, note_of
 
 if TYPE_CHECKING:
@@ -192,9 +191,7 @@ def shifts(
 
 
 def is_of_synthetic(name: str | None) -> bool:
-    """Whether a material, or a table of shift factors, that an option names is synthetic."""
+    """Whether an option names a synthetic material; tables of shift factors say themselves that they are."""
     from viscofric.rheology.catalogue import is_synthetic
 
-    if name is None or Path(name).suffix.lower() in _TABLES:
-        return name is not None and says_synthetic(name)
-    return is_synthetic(rubber_of(name)[0])
+    return name is not None and Path(name).suffix.lower() not in _TABLES and is_synthetic(rubber_of(name)[0])

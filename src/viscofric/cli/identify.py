@@ -228,7 +228,7 @@ def command(
 
     answer(record, lambda: _print(found))
     print_notes(curves.notes)
-    made_up = is_synthetic(synthetic, sources) or any(is_of_synthetic(parameters[one]) for one in ("prior", "shift"))
+    made_up = found.material.synthetic or is_synthetic(synthetic, sources) or is_of_synthetic(parameters["shift"])
     material = replace(found.material, synthetic=made_up)
     write_files(
         ("material", out, lambda path: write_card(material, path, format="json")),

@@ -109,16 +109,15 @@ class Decades:
 def friction_unit(curves: FrictionCurves) -> Array:
     """Return what errors of friction are relative to where they are alike, (n,): friction itself, or the largest.
 
-    It is the largest if some is near zero and the errors are then more alike, as those of a force cell are.
+    It is the largest if the errors are then more alike, as those of a force cell are.
     """
-    friction, error = np.maximum(np.abs(curves.viscoelastic), np.finfo(float).tiny), curves.viscoelastic_error
+    error = curves.viscoelastic_error
     known = np.isfinite(error) & (error > 0.0)
-    scale = Decades.of(curves.viscoelastic, error)
-    if scale.zero == 0.0 or not np.any(known):
-        return scale.unit(curves.viscoelastic)
-    sizes = scale.unit(friction)
+    sizes = np.maximum(Decades.of(curves.viscoelastic, error).unit(curves.viscoelastic), np.finfo(float).tiny)
+    if not np.any(known):
+        return sizes
     of_friction, of_largest = np.log(error[known] / sizes[known]), np.log(error[known])
-    return sizes if np.std(of_friction) < np.std(of_largest) else np.full(len(friction), friction.max())
+    return sizes if np.std(of_friction) < np.std(of_largest) else np.full(len(error), np.abs(curves.viscoelastic).max())
 
 
 def shared_level(curves: FrictionCurves) -> float:

@@ -326,8 +326,11 @@ def shear_stress(
 def _usable(curves: FrictionCurves, coulomb: Array, coulomb_error: Array) -> tuple[Mask, tuple[Note, ...]]:
     """Return which points have slip, and notes on the others and on doubts."""
     keep = np.full(len(curves), True) if curves.slip is None else curves.slip > 0.0
-    if not np.any(keep & (coulomb > CLEAR_OF_ZERO * np.where(np.isfinite(coulomb_error), coulomb_error, 0.0))):
-        raise InputError("Coulomb friction is not clear of zero at any point with slip.", code="no-points")
+    error = np.where(np.isfinite(coulomb_error), coulomb_error, 0.0)
+    together = np.sum(coulomb[keep]) > CLEAR_OF_ZERO * np.linalg.norm(error[keep])
+    if not together and not np.any(keep & (coulomb > CLEAR_OF_ZERO * error)):
+        said = "Coulomb friction with slip is not clear of zero, neither at any point nor that of all together."
+        raise InputError(said, code="no-points")
     notes = []
     if curves.slip is None:
         said = "The friction curves state no slip: the slip speed is taken to be the speed, as in pure sliding."

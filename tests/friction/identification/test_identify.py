@@ -23,10 +23,12 @@ from friction.synthetic_curves import synthetic_curves
 from marks import apart
 from refusals import refused
 from viscofric.errors import SuperpositionError
+from viscofric.files import SYNTHETIC
 from viscofric.friction.curve_files import read_friction_curves, write_friction_curves
 from viscofric.friction.identification.solving import Contacts
 from viscofric.friction.measurement.assumed_coulomb import COULOMB_ASSUMED
 from viscofric.notes import Note, codes, note_of
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 SETTINGS = {"indenter": BALL, "accuracy": 1e-2, "samples": 40, "modes": 15}
 FEW = SETTINGS | {"samples": 20}
@@ -193,6 +195,7 @@ def test_a_part_of_the_modulus_known_beforehand_fixes_the_level() -> None:
     curves = closed_form_curves(REFERENCE)
     found = vf.identify_material(curves, shift=RUBBER.shift, prior=curve, prior_error=5e-3, **FEW)
     assert found.anchored
+    assert not found.material.synthetic
     assert np.abs(error_of(found, np.geomspace(0.1, found.frequency_range[1], 9))).max() < 0.01
     with refused("no-prior-band"):
         vf.identify_material(closed_form_curves(REFERENCE), prior=RUBBER, **FEW)
@@ -452,6 +455,24 @@ def test_residuals_that_follow_each_other_are_reported() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("closed_form")
+@pytest.mark.parametrize("kind", ["material", "samples", "curve", "friction"])
+def test_what_rests_on_something_synthetic_is_synthetic(kind: str) -> None:
+    curves, band = closed_form_curves(REFERENCE), {"prior_band": (0.1, 1.0)}
+    made_up, omega = replace(RUBBER, synthetic=True), np.geomspace(0.1, 1.0, 9)
+    E, said = RUBBER.complex_modulus(omega), (Note(SYNTHETIC, "Made up."),)
+    known = {
+        "material": {"prior": made_up, **band},
+        "samples": {"prior": MaterialSamples((made_up, made_up), *np.ones((2, 2, 1)), (0.1, 1.0)), **band},
+        "curve": {"prior": vf.readers.MasterCurve(omega, E.real, E.imag, np.full(9, REFERENCE), REFERENCE, said)},
+        "friction": {"anchor": planted_anchor()},
+    }
+    curves = replace(curves, source="made (synthetic)" if kind == "friction" else "")
+    found = vf.identify_material(curves, shift=RUBBER.shift, **known[kind], **FEW)
+    assert found.material.synthetic
+    assert SYNTHETIC in codes(found.notes)
+
+
 @pytest.mark.usefixtures("closed_form")
 def test_anchors_that_contradict_or_fix_nothing_are_reported() -> None:
     curves = closed_form_curves(REFERENCE)

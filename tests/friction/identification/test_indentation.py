@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import viscofric as vf
 from viscofric.errors import DataFileError, InputError
+from viscofric.files import SYNTHETIC
 from viscofric.friction.identification.indentation.contact import Trial
 from viscofric.friction.identification.indentation.growing import Growing, growing
 from viscofric.friction.identification.indentation.rows import Reduced, usable_rows
@@ -133,10 +136,20 @@ def test_known_factors_and_an_elastic_indenter() -> None:
     stiff = 1e8
     record = creep(318.15, extra=(1.0 - 0.3**2) / stiff)
     found = vf.identify_from_indentation(record, BALL, shift=RUBBER.shift, indenter_modulus=stiff, samples=20, modes=16)
+    assert not found.material.synthetic
     alpha = float(RUBBER.shift(318.15))
     ratio = found.material.complex_modulus(alpha) / RUBBER.complex_modulus(alpha, KELVIN)
     assert abs(ratio - 1.0) < 0.02
     assert not found.shift_found
+
+
+def test_a_material_found_by_synthetic_shift_factors_is_synthetic(tmp_path: Path) -> None:
+    path = tmp_path / "alpha.csv"
+    path.write_text("# synthetic\ntemperature (K),log10 aT\n303.15,0.0\n333.15,-1.0\n")
+    factors = vf.read_shift_factors(path)
+    found = vf.identify_from_indentation(relaxation(), BALL, shift=factors, reference=KELVIN, samples=20, modes=16)
+    assert found.material.synthetic
+    assert SYNTHETIC in codes(found.notes)
 
 
 def test_given_errors_that_are_too_small_are_enlarged() -> None:

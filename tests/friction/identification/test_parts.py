@@ -122,6 +122,17 @@ def test_means_weighed_by_errors_of_four_replicates_err_as_they_say(said: str) -
     assert np.mean(noted) == pytest.approx(1.0 if said == "nothing" else 0.0, abs=0.02)
 
 
+def test_errors_of_a_force_cell_are_drawn_to_one_force() -> None:
+    """Friction over a decade, far from zero, with one error at all points: that of four replicates scatters by 40 %."""
+    random, speed = np.random.default_rng(4), np.geomspace(0.01, 0.5, 40)
+    friction = 0.02 * (speed / 0.01) ** 0.6
+    found = 2e-4 * np.sqrt(random.chisquare(3, 40) / 3.0)
+    curves = replace(curves_of(speed, np.full(40, 300.0), friction, found, load=LOAD), replicates=np.full(40, 4))
+    points = usable_points(curves, BALL, None, 1e-9)
+    # One variance of 120 degrees of freedom is known to 13 %, its root to 6.5 %: three of these.
+    np.testing.assert_allclose(points.error * np.exp(points.log_scale), 2e-4, rtol=0.2)
+
+
 def test_errors_that_follow_the_friction_are_taken_as_they_are() -> None:
     """Stated errors without scatter of their own, here of 1 % at slow and 3 % at fast speeds, are known."""
     speed = np.tile(np.geomspace(0.01, 0.5, 9), 2)

@@ -11,6 +11,7 @@ from viscofric.cli.commands import as_command, quantity
 from viscofric.cli.contact_options import chosen_indenter, elastic_options, elastic_settings, indenter_options
 from viscofric.cli.errors import typed_as
 from viscofric.cli.files import CSV, WRITTEN, Source, check_ending, refuse_to_overwrite
+from viscofric.cli.friction_sources import is_of_synthetic
 from viscofric.cli.identify import chosen_beside, chosen_shift, identified_options
 from viscofric.cli.output import answer, drawing, is_synthetic, write_files
 from viscofric.cli.rubber_options import column_options
@@ -86,7 +87,7 @@ def command(
     kelvin = temperatures if len(temperatures) == len(files) else (temperatures or (None,)) * len(files)
     records = [one for path, at in zip(files, kelvin, strict=True) for one in _records(path, at, parameters)]
     found = identify_from_indentation(records, shape.indenter, **_settings(parameters))
-    made_up = is_synthetic(synthetic, files)
+    made_up = found.material.synthetic or is_synthetic(synthetic, files) or is_of_synthetic(parameters["shift"])
     material = replace(found.material, synthetic=made_up)
     data = found.to_dataset()
     answer(lambda: {"results": record(data), **listed("notes", found.notes)}, lambda: click.echo(str(found)))

@@ -20,7 +20,7 @@ from viscofric.friction.identification.iteration import identify
 from viscofric.friction.identification.moduli import Known, ModulusObservation, known_part
 from viscofric.friction.identification.points import Points, SharedErrors, usable_points
 from viscofric.friction.identification.problem import OVERLAPPING, Problem, Shifts, Smoothness
-from viscofric.friction.identification.result import IdentifiedMaterial
+from viscofric.friction.identification.result import IdentifiedMaterial, synthetic_notes
 from viscofric.friction.identification.solving import Contacts
 from viscofric.friction.shifting.found_shifts import CURVE_LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
@@ -209,7 +209,9 @@ def identify_material(
     points = usable_points(curves, indenter, load, SOLVED_ERROR * accuracy, assumed=assumed)
     kelvin = None if reference is None else positive(reference, "K", "reference")
     points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
-    points = errors.given_to(points, curves)
+    points = replace(
+        errors.given_to(points, curves), notes=(*points.notes, *synthetic_notes(curves.source, shift, prior))
+    )
     shifts = as_shared_errors_allow(points, shifts)
     moduli = [ModulusObservation.of(one) for one in anchors if isinstance(one, ModulusAnchor)]
     if prior is None and prior_band is not None:

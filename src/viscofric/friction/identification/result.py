@@ -13,9 +13,11 @@ from numpy.typing import ArrayLike
 from viscofric.arguments import flag
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset
-from viscofric.files import on_source
+from viscofric.files import SYNTHETIC, of_synthetic, on_source
 from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.identification.moduli import Known
 from viscofric.notes import Note, codes
+from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import LN10, ShiftLaw
@@ -347,6 +349,17 @@ class IdentifiedMaterial(Identified):
         return (sentence,)
 
 
+def synthetic_notes(source: str, *known: Known | ShiftLaw | None) -> tuple[Note, ...]:
+    """Return notes on what is synthetic behind an identification: the measurement, a prior, or given shift factors."""
+    notes = on_source(source)
+    for one in known:
+        materials = one.materials[:1] if isinstance(one, MaterialSamples) else (one,)
+        named = [material.name for material in materials if isinstance(material, Material) and is_synthetic(material)]
+        notes += [Note(SYNTHETIC, f"The prior is synthetic ({name}).") for name in named]
+        notes += of_synthetic(getattr(one, "notes", ()))
+    return tuple(notes)
+
+
 def with_origin(found: Identified, source: str) -> Material:
     """Return the identified material with its origin, for its file; `source` of the measurement may be empty."""
     spectrum, band = found.material.spectrum, found.identified
@@ -365,7 +378,7 @@ def with_origin(found: Identified, source: str) -> Material:
         E0_extrapolated=True,
         E_inf_extrapolated=True,
         frequency_range=(float(ends[0]), float(ends[1])),
-        notes=(origin, *on_source(source), *found.known),
+        notes=(origin, *of_synthetic(found.notes), *found.known),
         method=found.METHOD,
         modes=len(spectrum),
         rms_step=found.rms / LN10 if found.METHOD == FROM_INDENTATION else None,

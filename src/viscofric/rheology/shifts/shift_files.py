@@ -16,7 +16,7 @@ import numpy as np
 from viscofric.arguments import flag
 from viscofric.arrays import Array
 from viscofric.errors import DataFileError, InputError
-from viscofric.files import read_bytes
+from viscofric.files import on_synthetic, read_bytes
 from viscofric.notes import Note, Remedy
 from viscofric.readers.dma.instruments.eplexor import SHIFT_LIST, ShiftList, shift_list
 from viscofric.readers.dma.names import TEMPERATURE
@@ -134,7 +134,7 @@ def read_shift_factors(
         problem = "shift factors need at least two temperatures, none twice, all above absolute zero."
         raise DataFileError(source.path, problem, code="wrong-length")
     values = _falling(source.path, kelvin, values, flag(inverse, "inverse"))
-    notes = found.notes
+    notes = (*on_synthetic([source.path]), *found.notes)
     if spread is None:
         notes += (
             Note(

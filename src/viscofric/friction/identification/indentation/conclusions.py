@@ -18,7 +18,7 @@ from viscofric.friction.identification.indentation.tables import ReboundRecord
 from viscofric.friction.identification.iteration import Weighed, freedom_of, most_evident
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import ROUGHNESS
-from viscofric.friction.identification.result import IdentifiedBand, with_origin
+from viscofric.friction.identification.result import IdentifiedBand, synthetic_notes, with_origin
 from viscofric.motion.impact import LOOSEST, solve_impact
 from viscofric.notes import Note, counted, note_of
 from viscofric.rheology.material import Material
@@ -57,16 +57,17 @@ def conclude(
     narrow = _narrow(problem)
     if narrow:
         bands[2] = IdentifiedBand(middle, middle, limit, relative=False)
+    source = ", ".join(dict.fromkeys(name for one in fitted if (name := getattr(one.record, "source", ""))))
+    made_up = synthetic_notes(source, shift)
     found = MaterialFromIndentation(
         **findings.common(bands, residuals, error_scale),
         anchored=True,
         records=fitted,
         common_errors=_common_errors(usable, posterior),
-        notes=(*usable.notes, *_doubts(fitted, error_scale), *_shared(best, residuals, error_scale), *narrow),
+        notes=(*made_up, *usable.notes, *_doubts(fitted, error_scale), *_shared(best, residuals, error_scale), *narrow),
     )
-    sources = dict.fromkeys(source for one in fitted if (source := getattr(one.record, "source", "")))
     notes = (*found.notes, *_fastest(found.material, problem))
-    return replace(found, material=with_origin(found, ", ".join(sources)), notes=notes)
+    return replace(found, material=with_origin(found, source), notes=notes)
 
 
 def _ends(problem: IndentationProblem, place: Array) -> tuple[float, float, float]:
