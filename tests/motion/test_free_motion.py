@@ -54,6 +54,18 @@ def test_a_line_load_put_on_at_once_is_glassy_then_relaxed_and_what_is_not_store
     assert "no-level" in codes(run.warnings)
 
 
+def test_a_slow_motion_of_a_cylinder_needs_no_fine_cells():
+    """The load is given, and the depth smooth: differences of grids are not those of the times of their steps."""
+    time = np.linspace(0.0, 10.0, 5)
+    history = vf.motion.History(time, load=5.0 + 500.0 * np.sin(0.1 * np.pi * time))
+    run = vf.motion.solve_transient(RUBBER, CYLINDER, history, accuracy=1e-2)
+    middle = int(np.argmax(run.load))
+    half_width = A0 * (run.load[middle] / LOAD) ** 0.5  # Hertz's, at E0
+    assert run.front[middle] == pytest.approx(half_width, rel=1.0 / 96)  # a cell, of 96 along the contact
+    assert np.all(run.errors.load <= 1e-6 * run.load)
+    assert np.all(run.errors.indentation <= 2e-3 * np.ptp(run.indentation))  # a fifth of the accuracy
+
+
 def test_start_after_a_dwell_on_untouched_rubber_rises_from_below():
     """Independent solution, known to 2e-4."""
     distance = np.array([0.00021850968611841586, 0.0004370193722368317, 0.0010925484305920792])

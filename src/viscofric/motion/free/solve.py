@@ -281,14 +281,16 @@ def _compared(level: Level, coarser: Level, judged: Sequence[int]) -> list[Momen
     kinks = level.mover.setting.schedule.kinks
     here, there = np.array([_values(one) for one in fine]), np.array([_values(one) for one in coarse])
     clock, before = _order([one.instant.time for one in fine]), _order([one.instant.time for one in coarse])
-    left = _LEFT * (here - _interpolated(clock, before, there, kinks))
+    reached = before <= clock[-1]  # a march may have been interrupted
+    apart = _interpolated(before[reached], clock, here, kinks) - there[reached]
+    left = _LEFT * np.column_stack([np.interp(clock, before[reached], column) for column in apart.T])
     forces = left[:, 3:5], left[:, 5:7], here[:, 3:5] - here[:, 5:7]
     off = np.column_stack([np.abs(left[:, :3]), *(np.hypot(*one.T) for one in forces)])
     # One change may be small by chance.
     usual = np.sqrt(np.mean(off[judged or slice(None)] ** 2, axis=0))
-    load, depth, energy, memory, slopes, apart = _MARGIN * np.maximum(off, usual).T
+    load, depth, energy, memory, slopes, between = _MARGIN * np.maximum(off, usual).T
     on_slopes = bool(usual[4] < usual[3])
-    friction = np.maximum(slopes if on_slopes else memory, apart)
+    friction = np.maximum(slopes if on_slopes else memory, between)
     # All energies share the change by the first indentation, so that their mean is no measure.
     energy = np.maximum(energy, _MARGIN * _LEAST_ENERGY * here[:, 2] / max(level.cells, 1.0) ** 2)
     found = []
@@ -303,17 +305,13 @@ def _compared(level: Level, coarser: Level, judged: Sequence[int]) -> list[Momen
 
 def _interpolated(clock: Array, given: Array, values: Array, kinks: Array) -> Array:
     """Return values (n, m) at other times, by cubics between kinks that overshoot nowhere."""
-    # They are cubics of the logarithm of the time since the kink: first steps are short.
     found = np.repeat(values[:1], len(clock), axis=0)  # before a jump at the start
     for start, end in itertools.pairwise(kinks):
         begin = np.nextafter(start, math.inf)  # the second of two points, at a jump
         inside = (given >= (begin if begin in given else start)) & (given <= end)
         wanted = (clock >= (begin if begin in clock else start)) & (clock <= end)
         if np.count_nonzero(inside) > 1:
-            first, second = given[inside][:2]
-            since, then = (np.log1p((one - first) / (second - first)) for one in (given[inside], clock[wanted]))
-            since, rows = np.unique(since, return_index=True)  # times that differ by rounding have one logarithm
-            found[wanted] = PchipInterpolator(since, values[inside][rows])(then)
+            found[wanted] = PchipInterpolator(given[inside], values[inside])(clock[wanted])
         else:
             found[wanted] = values[inside]
     return found
