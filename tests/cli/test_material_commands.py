@@ -226,18 +226,22 @@ def test_a_test_at_one_temperature_has_no_samples_and_says_so_in_words_of_comman
 
 
 @pytest.mark.parametrize(
-    ("words", "code"),
+    ("words", "status", "code"),
     [
-        (["fit", EXAMPLE, "--reference", "30 degC", "--modes", "3"], "contradiction"),
-        (["fit", EXAMPLE, "--reference", "30 degC", "--fix", "0 degC=1", "--fix", "273.15 K=2"], "value"),
-        (["fit", EXAMPLE, "--reference", "30 degC", "--master-curve", "--vertical-shift", "free"], "contradiction"),
+        (["--modes", "3"], 2, "contradiction"),
+        (["--master-curve", "--vertical-shift", "free"], 2, "contradiction"),
+        (["--shift-factor-column", "T=temp"], 2, "contradiction"),
+        (["--card-law", "wlf"], 2, ""),
+        (["--fix", "0 degC=1", "--fix", "273.15 K=2"], 1, "value"),
     ],
     ids=lambda value: str(value)[:40],
 )
-def test_mistakes_are_refused(words: list[object], code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_options_that_contradict_each_other_are_wrong_usage(
+    words: list[object], status: int, code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
-    found = refusal("material", *words)
-    assert (found.status, found.code) == (1, code), found
+    found = refusal("material", "fit", EXAMPLE, "--reference", "30 degC", *words)
+    assert (found.status, found.code) == (status, code), found
 
 
 @pytest.mark.slow

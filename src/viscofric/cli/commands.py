@@ -62,6 +62,9 @@ class Command(click.Command):
         try:
             return super().invoke(ctx)
         except ViscofricError as error:
+            notes = getattr(error, "mistakes", ()) or (error.note,)
+            if all(one.code == "contradiction" and "parameter" in one.values for one in notes):  # of options
+                raise click.UsageError(words_of(error, self.reader), ctx) from error
             kind = _NotAccurateError if isinstance(error, ConvergenceError) else click.ClickException
             raise kind(words_of(error, self.reader)) from error
 

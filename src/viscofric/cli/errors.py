@@ -134,7 +134,7 @@ def _renamed() -> dict[str, str]:
     known = {one.name: _typed(one) for one in params}
     names = {key: name for key, some in _TYPED_AS.items() for name in some if name in known}
     names |= {one.key.key: one.name or "" for one in params if isinstance(one, KeyOption)}
-    return {_option(key): known[name] for key, name in names.items() if key not in known}
+    return {_option(key): known[name] for key, name in names.items() if known.get(key) != _option(key)}
 
 
 def typed_option(name: str, parameter: str | None = None) -> str | None:

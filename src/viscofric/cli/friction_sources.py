@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from viscofric.cli.commands import together
-from viscofric.cli.errors import words_of
 from viscofric.cli.files import plainly
 from viscofric.cli.keys import key, table_of
 from viscofric.cli.rubber_options import column_options, find_rubber, rubber_of
@@ -77,11 +76,9 @@ def _measurement(parameters: dict[str, Any], **source: Any) -> MeasurementTable:
 
     try:
         table: MeasurementTable = table_of("measurement", parameters, **source)
-        return table
     except StudyError as error:
-        if {note_of(one).code for one in error.mistakes or (error.note,)} != {"contradiction"}:
-            raise
-        raise click.UsageError(words_of(error.at(source.get("curves", "")))) from error
+        raise (error.at(source.get("curves", "")) if error.code == "contradiction" else error) from None
+    return table
 
 
 _TABLES = (".csv", ".txt", ".tsv", ".xlsx", ".xls")

@@ -105,6 +105,8 @@ def command(
         raise click.UsageError(" and ".join(f"--{one.replace('_', '-')}" for one in kinds) + " exclude each other.")
     if parameters["master_curve"] and len(files) > 1:
         raise click.BadParameter("is one file, not several.", param_hint="--master-curve")
+    if card_law and not cards:
+        raise click.UsageError("--card-law is for --card only.")
     from viscofric.cli.run import outcome_record, status_of
     from viscofric.report import write_figures_and_report
     from viscofric.study.rubber_results import run_material
