@@ -274,6 +274,44 @@ def test_the_rise_of_a_step_is_left_out(kind):
     assert 0.02 < time[start.first] < 1.0
 
 
+@pytest.mark.parametrize("rise", [0.5, 4.0])
+def test_a_creep_strain_over_a_stress_that_still_rises_is_left_out(tmp_path, rise):
+    # J = t^0.2 under a stress that rises at a constant rate: the strain is a Boltzmann integral.
+    time = np.logspace(-1.0, 3.0, 41)
+    stress = np.minimum(time / rise, 1.0)
+    strain = (time**1.2 - np.maximum(time - rise, 0.0) ** 1.2) / (1.2 * rise)
+    path = written(tmp_path / "creep_25C.txt", ("t (s)", "stress (MPa)", "strain (-)"), [time, stress, strain])
+    tests = vf.read_step_tests(path, kind="creep", deformation="tension")
+    assert "rise-left-out" in codes(tests)
+    kept = tests.tests[0].time
+    # J falls behind by n/2 of the rise over the time, with n = 0.2: 1 % at ten times the rise.
+    np.testing.assert_allclose(1e6 * tests.tests[0].response, kept**0.2, rtol=0.012)
+    assert kept[0] < 20.0 * rise
+
+
+def test_points_after_the_stress_is_released_are_left_out(tmp_path):
+    time = np.concatenate([TIME, 1000.0 + TIME])
+    strain = np.concatenate([TIME**0.2, (1000.0 + TIME) ** 0.2 - TIME**0.2])
+    stress = np.repeat([1.0, 0.01], 13)  # hardly zero
+    path = written(tmp_path / "creep_25C.txt", ("t (s)", "stress (MPa)", "strain (-)"), [time, stress, strain])
+    tests = vf.read_step_tests(path, kind="creep", deformation="tension")
+    assert "recovery-left-out" in codes(tests)
+    np.testing.assert_allclose(tests.tests[0].response, 1e-6 * TIME**0.2, rtol=1e-6)
+
+
+def test_tests_at_stated_temperatures_are_each_one_test(tmp_path):
+    kelvin, time = np.repeat([22.1, 23.0, 23.9], 13), np.tile(TIME, 3)
+    response = np.repeat([0.1, 0.12, 0.15], 13) * time**0.2
+    path = written(tmp_path / "creep.txt", ("T (°C)", "t (s)", "J (1/MPa)"), [kelvin, time, response])
+    tests = vf.read_step_tests(path, deformation="tension")
+    np.testing.assert_allclose(tests.temperatures, 273.15 + np.array([22.1, 23.0, 23.9]))
+    assert tests.notes == ()
+    # Measured ones that vary during a test are of one temperature.
+    kelvin = 23.0 + 0.1 * np.cos(np.arange(39.0))
+    path = written(tmp_path / "again.txt", ("T (°C)", "t (s)", "J (1/MPa)"), [kelvin, time, response])
+    assert len(vf.read_step_tests(path, deformation="tension").tests) == 1
+
+
 @pytest.mark.parametrize("noise", [0.0, 0.005, 0.03])
 def test_noise_is_no_ringing(noise):
     random = np.random.default_rng(1)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscofric.arrays import Array
+from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma.names import (
     SET_TEMPERATURE,
@@ -174,6 +175,16 @@ def response_of(table: Table, source: Source, kind: StepKind, notes: list[str]) 
     notes.append(Note("response-computed", said))
     above, below = (strains, stresses) if kind == "creep" else (stresses, strains)
     return above / np.where(below == 0.0, np.nan, below), table.columns[stress].heading, False
+
+
+def held_of(table: Table, kind: StepKind) -> Array:
+    """Return what a test holds, the stress of creep or the strain of relaxation, as printed; NaN without one column."""
+    what = "stress" if kind == "creep" else "strain"
+    places = [place for place, column in enumerate(table.columns) if column.quantity == what]
+    try:
+        return table.numbers_or_missing(*places) if len(places) == 1 else np.full(len(table.rows), np.nan)
+    except DataFileError:  # words in a column that is not needed
+        return np.full(len(table.rows), np.nan)
 
 
 def _likely_unit(values: Array, kind: StepKind) -> str:

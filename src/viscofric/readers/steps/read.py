@@ -34,14 +34,23 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.dma.tables import reptate
 from viscofric.readers.source import Source, insist_on_content, sources_of
-from viscofric.readers.steps.columns import STEPS, kind_in_name, kind_of, response_of, temperature_of, time_of
+from viscofric.readers.steps.columns import (
+    HELD,
+    STEPS,
+    held_of,
+    kind_in_name,
+    kind_of,
+    response_of,
+    temperature_of,
+    time_of,
+)
 from viscofric.readers.table import Table, make_table
 from viscofric.readers.tables import find_tables
 from viscofric.step_tests import StepKind, StepTest, StepTests
 from viscofric.units import Quantity, shown_celsius
 
-#: Temperatures closer than this belong to one test.
-ONE_TEST = 1.0  # K
+#: Measured temperatures closer than this belong to one test; stated ones are equal up to rounding.
+ONE_TEST, EQUAL = 1.0, 1e-6  # K
 #: Decades that points may lie off the median to be judged by their size.
 LIKE_THE_OTHERS = 3.0
 #: Fewest points of a test.
@@ -50,7 +59,7 @@ LEAST_POINTS = 4
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """One table of a file as columns: temperature (K), time (s) and response, NaN where a cell is missing."""
+    """One table of a file as columns, NaN where a cell is missing: temperature (K), time (s), response, and so on."""
 
     source: str
     format: str
@@ -58,6 +67,7 @@ class _Part:
     temperature: Array
     time: Array
     response: Array
+    held: Array  # stress or strain over its level in the test
     deformation: Deformation | None
     notes: tuple[str, ...]
     lacks_unit: bool
@@ -241,23 +251,23 @@ def _part(table: Table, source: Source, name: str, kind: StepKind | None, form: 
     places = {"temperature": table.place("temperature"), MODULI[0]: headings.index(heading)}
     notes += doubts(table, {one: place for one, place in places.items() if place is not None}, kelvin, modulus)
     insist_on_one_specimen(table, np.round(kelvin)[:, None], "temperature")
-    return _Part(source.path, form, known, kelvin, time, response, deformation, tuple(notes), lacks_unit, said_by)
+    held = _over_level(held_of(table, known), time, kelvin)
+    return _Part(source.path, form, known, kelvin, time, response, held, deformation, tuple(notes), lacks_unit, said_by)
 
 
 def _tests(parts: Sequence[_Part], notes: list[str]) -> list[StepTest]:
     """Sort the points into tests by temperature, and leave out what is not of the material."""
-    kelvin = np.concatenate([part.temperature for part in parts])
-    time = np.concatenate([part.time for part in parts])
-    response = np.concatenate([part.response for part in parts])
+    columns = [(part.temperature, part.time, part.response, part.held) for part in parts]
+    kelvin, time, response, held = map(np.concatenate, zip(*columns, strict=True))
     usable = np.isfinite(kelvin) & (time > 0.0) & (response > 0.0) & np.isfinite(time) & np.isfinite(response)
     if not np.all(usable):
         said = (
             f"{np.count_nonzero(~usable)} of {len(usable)} points were left out: a value is missing or not above zero."
         )
         notes.append(Note("points-left-out", said))
-    kelvin, time, response = kelvin[usable], time[usable], response[usable]
+    kelvin, time, response, held = kelvin[usable], time[usable], response[usable], held[usable]
     order = np.argsort(kelvin, kind="stable")
-    breaks = np.flatnonzero(np.diff(kelvin[order]) > ONE_TEST) + 1
+    breaks = np.flatnonzero(np.diff(kelvin[order]) > (EQUAL if _are_stated(kelvin, time) else ONE_TEST)) + 1
     tests = []
     for rows in np.split(order, breaks) if len(order) else []:
         temperature = float(np.mean(kelvin[rows]))
@@ -272,22 +282,36 @@ def _tests(parts: Sequence[_Part], notes: list[str]) -> list[StepTest]:
                 f"Points at equal times were averaged at {shown_celsius(temperature)} °C ({np.sum(count > 1)} times)."
             )
             notes.append(Note("repeats-averaged", said))
-        first = _first(temperature, times, mean, parts[0].kind, notes)
-        if len(times) - first < LEAST_POINTS:
-            notes.append(Note("left-out", f"The test at {shown_celsius(temperature)} °C has too few usable points."))
+        begin, end = held_over(time[rows], held[rows])
+        last = int(np.searchsorted(times, end))
+        if last < len(times):
+            said = f"At {shown_celsius(temperature)} °C {len(times) - last} points from {end:.3g} s on were left out: "
+            what = "stress" if parts[0].kind == "creep" else "strain"
+            notes.append(Note("recovery-left-out", f"{said}the {what} is no longer held."))
+        first = _first(temperature, times[:last], mean[:last], parts[0].kind, begin, notes)
+        if last - first < LEAST_POINTS:
+            said = f"The test at {shown_celsius(temperature)} °C has too few usable points; times count from its step."
+            notes.append(Note("left-out", said))
             continue
-        tests.append(StepTest(temperature, times[first:], mean[first:]))
+        tests.append(StepTest(temperature, times[first:last], mean[first:last]))
     return tests
 
 
-def _first(kelvin: float, time: Array, response: Array, kind: StepKind, notes: list[str]) -> int:
-    """Return the first point that is of the material; notes say what was left out."""
+def _are_stated(kelvin: Array, time: Array) -> bool:
+    """Return whether temperatures stay the same until time begins again: those of a programme, not measured ones."""
+    return bool(np.all((np.abs(np.diff(kelvin)) < EQUAL) | (np.diff(time) < 0.0)))
+
+
+def _first(kelvin: float, time: Array, response: Array, kind: StepKind, begin: float, notes: list[str]) -> int:
+    """Return the first point that is of the material, held from `begin` (s) on; notes say what was left out."""
     start = start_of(time, response, kind)
+    if (risen := int(np.searchsorted(time, AFTER_RISE * begin))) > start.first:
+        start = replace(start, first=risen, reason="rise")
     where = f"{shown_celsius(kelvin)} °C"
     if start.first:
         why = {
             "ringing": "the instrument's inertia rings",
-            "rise": "the stress still rises" if kind == "creep" else "the strain still rises",
+            "rise": f"the {'stress' if kind == 'creep' else 'strain'} is not yet constant",
         }[start.reason]
         until = time[min(start.first, len(time) - 1)]
         said = f"At {where} the first {start.first} points, to {until:.3g} s, were left out: {why} there."
@@ -343,6 +367,25 @@ def start_of(time: Array, response: Array, kind: StepKind) -> Start:
         return Start(broken_at=late)
     reach = AFTER_RINGING * ringing if ringing else AFTER_RISE * risen
     return Start(int(np.searchsorted(time, reach)), "ringing" if ringing else "rise", late)
+
+
+def _over_level(held: Array, time: Array, kelvin: Array) -> Array:
+    """Return stress or strain over that which each test holds; a test ends where time or temperature begin anew."""
+    ends = np.flatnonzero((np.diff(time) < 0.0) | (np.abs(np.diff(kelvin)) > ONE_TEST)) + 1
+    found = []
+    for one in np.split(np.abs(held), ends):
+        known = one[one > 0.0]
+        level = np.median(known[known > 0.5 * np.quantile(known, 0.9)]) if known.size else np.nan
+        found.append(np.nan_to_num(one / level, nan=1.0))
+    return np.concatenate(found)
+
+
+def held_over(time: Array, held: Array) -> tuple[float, float]:
+    """Return when stress or strain, over its level, becomes constant (s; 0: it always is) and is released (or inf)."""
+    off = np.abs(held - 1.0)
+    begin = float(np.min(time[off <= max(HELD, SIGMAS * float(np.median(off)))], initial=np.inf))
+    released = time[(held < 0.5) & (time > begin)]
+    return begin if begin > time.min() else 0.0, float(np.min(released, initial=np.inf))
 
 
 def _turned(time: Array, log: Array) -> Array:
