@@ -160,6 +160,16 @@ def test_conditions_with_unsigned_speeds_are_left_out_by_name() -> None:
     np.testing.assert_allclose(curves.viscoelastic, 0.02, atol=3e-3)  # noise of .02 N of 25 N: five errors
 
 
+@pytest.mark.parametrize("replicates", [2, 3, 5])
+def test_one_reading_far_off_is_no_run_without_signs(replicates: int) -> None:
+    """Of two directions in one configuration, none is a single reading at one condition alone: none is left out."""
+    runs = traction_runs(viscoelastic=lambda v, T: 0.02, offset=0.0, replicates=replicates, noise=0.02)
+    far = runs.traction_force - 2.0 * runs.traction_force * (np.arange(len(runs)) == 1)
+    curves = separate(replace(runs, traction_force=far))
+    assert not codes(curves.notes) & {"unsigned-speeds", "two-groups-of-force"}
+    assert len(curves) == 6
+
+
 def test_forces_in_two_groups_of_one_sign_are_noted() -> None:
     """Half of the replicates at three times the Coulomb friction, as on another sample; scatter alone is none."""
     runs = traction_runs(viscoelastic=lambda v, T: 0.02, offset=0.0, replicates=6, noise=0.02, load_jitter=0.0)

@@ -38,7 +38,7 @@ _SPLITS = np.array(
 )
 #: Distance of the groups over the largest force of the condition: more than any variation between runs.
 _OF_FORCE = 0.5
-#: Of pairs of readings, which tell nothing of their noise, this share of the configurations must be apart, and so many.
+#: Where a single reading is apart, as an outlier is, this share of the configurations must be so, and so many of them.
 _MOST, _FEWEST_PAIRS = 0.8, 5
 #: Smallest share of the readings in a group: fewer are outliers.
 _SHARE = 0.2
@@ -122,7 +122,7 @@ def _two_groups(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> di
         if apart:
             found[place] = max(apart, key=lambda one: one.distance)
     few = count < max(_FEWEST_PAIRS, _MOST * sum(map(len, every)))
-    return {} if expected == 0.0 and few else found
+    return {place: one for place, one in found.items() if not few or min(one.low.size, one.high.size) > 1}
 
 
 def _two_groups_kept(groups: list[Condition], found: dict[int, _Split]) -> list[str]:
