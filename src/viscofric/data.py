@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note
 from viscofric.showing import Items, Plotted, Rows, rows_of
 from viscofric.units import Quantities, Quantity, checked_poisson_ratio, in_si, positive
+
+Found = TypeVar("Found")
 
 #: How a dynamic mechanical analyser deformed its sample.
 Deformation: TypeAlias = Literal["tension", "compression", "bending", "shear"]
@@ -105,6 +107,13 @@ def picked(rows: object, count: int, noun: str) -> Integers:
     if places.min() < -count or places.max() >= count:
         raise InputError(f"select names a place beyond the {count} {noun}.", code="wrong-selection")
     return places.astype(np.int64)
+
+
+def with_rows(found: Found, rows: Any) -> Found:
+    """Return a dataclass with some entries of all its arrays."""
+    columns = {one.name: getattr(found, one.name) for one in fields(found)}  # type: ignore[arg-type]
+    chosen = {name: column[rows] for name, column in columns.items() if isinstance(column, np.ndarray)}
+    return replace(found, **chosen)  # type: ignore[type-var]
 
 
 def set_columns(measured: object, *names: str, of: str, per: str) -> None:

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on, sentences, text
 from viscofric.arrays import Array, Integers, Mask
-from viscofric.data import picked, read_only, whole_numbers
+from viscofric.data import picked, read_only, whole_numbers, with_rows
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, brief
 from viscofric.notes import Note, Remedy, setting
@@ -307,14 +306,9 @@ class TractionRuns(Plotted):
             raise InputError(
                 "the selection contains no reading; the steps are listed by runs.steps.", code="wrong-selection"
             )
-        columns: dict[str, Any] = {
-            column.name: value[chosen]
-            for column in fields(self)
-            if isinstance(value := getattr(self, column.name), np.ndarray)
-        }
         counts = {"readings": int(chosen.size), "of": len(self)}
         note = Note("readings-selected", f"{chosen.size} of {len(self)} readings are selected.", values=counts)
-        return replace(self, **columns, notes=(*self.notes, note))
+        return replace(with_rows(self, chosen), notes=(*self.notes, note))
 
     def to_dataset(self) -> Dataset:
         """Return the readings along the dimension ``reading``.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from typing import Literal, Self, cast
 
 import numpy as np
@@ -12,7 +12,7 @@ from viscofric.arguments import insist_on, sentences, text
 from viscofric.arrays import Array, Integers, Mask
 from viscofric.checks import Check
 from viscofric.contact.solution import ContactSolution
-from viscofric.data import picked, read_only, whole_numbers
+from viscofric.data import picked, read_only, whole_numbers, with_rows
 from viscofric.datasets import Dataset, dataset, on_grid
 from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.files import marked
@@ -295,13 +295,7 @@ class FrictionCurves(Plotted):
         InputError
             If a mask has another length, or there is no such entry.
         """
-        rows = picked(keep, len(self), "entries")
-        columns = {
-            field.name: getattr(self, field.name)[rows]
-            for field in fields(self)
-            if isinstance(getattr(self, field.name), np.ndarray)
-        }
-        return replace(self, **columns)
+        return with_rows(self, picked(keep, len(self), "entries"))
 
     def at_temperature(self, temperature: Quantity) -> FrictionCurves:
         """Return the entries at one temperature, in ascending speed.

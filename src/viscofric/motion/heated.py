@@ -8,7 +8,7 @@ acts on the future only, so that this converges quickly.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ import numpy as np
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array, Indices
 from viscofric.contact.heated_result import AT_THE_LOSS, THIN
+from viscofric.data import with_rows
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.heat.heating import Heating
 from viscofric.heat.path import Passage, PathRise, path_rise
@@ -85,13 +86,18 @@ def solve_heated(
         warmer, by_loss, found.face, found.below, *heats, np.cumsum(found.counterface), isothermal.friction_force,
         residual, _error(problem, run, heating, heats, (warmer, by_loss), change),
     )  # fmt: skip
-    keep = range(len(grid)) if times is None else _rows(grid, times)
+    keep = list(range(len(grid))) if times is None else _rows(grid, times)
     doubts = _thin_skin(problem, run, heating, found)
     run = replace(run, warnings=(*run.warnings, *doubts), errors=_with_what_is_left(run, history.control, change))
     run = with_coulomb(problem, run, heating.coulomb)
     # A state of the last run is no state of the heated contact.
-    chosen: TransientSolution = replace(_selected(run, keep), heating=_selected(heated, keep), _restart=None)
-    return chosen
+    return replace(
+        with_rows(run, keep),
+        errors=with_rows(run.errors, keep),
+        heating=with_rows(heated, keep),
+        _fields=tuple(run._fields[row] for row in keep) if run._fields else (),
+        _restart=None,
+    )
 
 
 def _with_what_is_left(run: TransientSolution, control: str, change: Array) -> TransientErrors:
@@ -249,18 +255,3 @@ def _rows(grid: Sequence[float], times: Sequence[float]) -> list[int]:
         first = grid.index(time)
         wanted.append(first if twice else first + grid.count(time) - 1)
     return wanted
-
-
-def _selected(found: Any, keep: Sequence[int]) -> Any:
-    """Return a result with some of its times."""
-    rows = list(keep)
-    chosen: dict[str, Any] = {}
-    for one in fields(found):
-        value = getattr(found, one.name)
-        if isinstance(value, np.ndarray):
-            chosen[one.name] = value[rows]
-        elif one.name == "errors":
-            chosen[one.name] = _selected(value, rows)
-        elif one.name == "_fields" and value:
-            chosen[one.name] = tuple(value[row] for row in rows)
-    return replace(found, **chosen)

@@ -56,7 +56,7 @@ def assumption_checks(
     # The largest contact first: if the thickness is unknown, it is the worst.
     for pairs in sorted(alike.values(), key=lambda pairs: -max(_reach(record) for _, record in pairs)):
         records = [record for _, record in pairs]
-        curves = replace(curves_of(records), load_unit=pairs[0][0].indenter.geometry.load_unit)
+        curves = curves_of(records, pairs[0][0].indenter.geometry.load_unit)
         _keep_worst(found, _checked(contacts, pairs[0][0], curves, records, law))
     if at_points.records and contacts.measured is not None:
         solved = np.array([not hasattr(outcome, "reason") for outcome in at_points.outcomes], dtype=bool)

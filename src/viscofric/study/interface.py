@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -71,10 +70,8 @@ def interface_columns(contacts: Contacts, interface: StudyInterface, requested: 
     if contacts.study.surface is not None:
         return _on_surface(table, law, requested, contacts)
     try:
-        curves = curves_of(requested.records)
-        if requested.cases[0].geometry == "line":
-            curves = replace(curves, load_unit="N/m")
-        curves = with_interface(curves, law, table.slip)
+        unit = "N/m" if requested.cases[0].geometry == "line" else "N"
+        curves = with_interface(curves_of(requested.records, unit), law, table.slip)
     except InputError as error:
         return InterfaceColumns({}, [_not_predicted(error)])
     columns = {

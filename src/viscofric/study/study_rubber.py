@@ -11,7 +11,7 @@ import numpy as np
 from viscofric.errors import InputError, StudyError
 from viscofric.friction.bands import DrawnMaterials, with_material_band
 from viscofric.friction.cases.case import Case
-from viscofric.friction.cases.record import Record
+from viscofric.friction.cases.record import Record, columns_of_records
 from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, note_of
 from viscofric.rheology.material import EXTRAPOLATED, Material, unknown_frequencies
@@ -175,22 +175,9 @@ def no_samples(rubber: Rubber, begun: str) -> tuple[Note, ...]:
     return (Note("no-bands", f"{begun} no 95 % bands: {why}"),)
 
 
-def curves_of(records: Sequence[Record]) -> FrictionCurves:
-    """Return the friction of solved cases of indenters, in their order."""
-    pressure = np.array([record.load / record.contact_area for record in records])
-    relative = np.array([record.contact_area_error / record.contact_area for record in records])
-    return FrictionCurves(
-        speed=np.array([record.speed for record in records]),
-        temperature=np.array([record.temperature for record in records]),
-        load=np.array([record.load for record in records]),
-        viscoelastic=np.array([record.friction_coefficient for record in records]),
-        viscoelastic_error=np.array([record.friction_error for record in records]),
-        viscoelastic_scatter=np.zeros(len(records)),
-        replicates=np.ones(len(records), dtype=np.int64),
-        source="prediction",
-        mean_pressure=pressure,
-        mean_pressure_error=relative * pressure,
-    )
+def curves_of(records: Sequence[Record], load_unit: str = "N") -> FrictionCurves:
+    """Return the friction of solved cases of indenters, in their order, without the notes on their contacts."""
+    return FrictionCurves(**columns_of_records(records, load_unit) | {"notes": ()}, source="prediction")
 
 
 class FrictionBands:
