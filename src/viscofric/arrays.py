@@ -1,4 +1,4 @@
-"""Names of NumPy's arrays for annotations, the line of a field through the axis, polynomials, fits above zero."""
+"""Names of NumPy's arrays for annotations, the line of a field through the axis, polynomials, convolution, fits."""
 
 from collections.abc import Callable
 from functools import lru_cache
@@ -42,6 +42,23 @@ def lagrange(nodes: Array, places: Array) -> Array:
         others = np.arange(len(nodes)) != row
         result[:, row] = np.prod(away[:, others] / apart[row, others], axis=1)
     return result
+
+
+def convolved(half: Array, values: Array) -> Array:
+    """Return Σ half(i − i′, |j − j′|) values(i′, j′) on a grid (nx, ny), by FFT.
+
+    `half` (2 nx − 1, ny) is at offsets from −(nx − 1) to nx − 1 and from 0 to ny − 1; several of them, each of its own
+    values, are summed.
+    """
+    import scipy.fft
+
+    nx, ny = values.shape[-2:]
+    both = np.concatenate([half[..., :0:-1], half], axis=-1)
+    # Circular in a period as long as both sides: only offsets that are not needed wrap around.
+    padded = [scipy.fft.next_fast_len(size, real=True) for size in both.shape[-2:]]
+    spectrum = scipy.fft.rfft2(both, padded) * scipy.fft.rfft2(values, padded)
+    summed = spectrum.reshape(-1, *spectrum.shape[-2:]).sum(axis=0)
+    return np.asarray(scipy.fft.irfft2(summed, padded)[nx - 1 : 2 * nx - 1, ny - 1 : 2 * ny - 1])
 
 
 def non_negative_fit(matrix: Array, aim: Array) -> Array:

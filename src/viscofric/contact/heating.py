@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 import scipy.fft
 
+from viscofric.arrays import convolved
 from viscofric.contact.fields.dissipation import dissipation
 from viscofric.contact.heated import ThermalContact
 from viscofric.contact.heated_result import Heat
@@ -173,7 +174,7 @@ def face_temperature(
     entering = (coulomb - balance.counterface_heat) * cells.pressure / cells.pressure.sum()
     influence = cells.influence(Diffusion(heating.rubber, speed), lambda lengths: _to_face(released, lengths))
     heat = np.concatenate([entering[None], loss * _per_loss(released, loss)])
-    rise = cells.rise(influence, heat) + balance.track_rise
+    rise = convolved(influence, heat) + balance.track_rise
     return FaceTemperature(cells.x, cells.y, rise, cells.inside / cells.inside.max())
 
 
@@ -265,14 +266,6 @@ class Cells:
         y = np.zeros(1) if self.is_line else self.cell[1] * np.arange(0.0, ny)
         area = self.cell[0] if self.is_line else self.cell[0] * self.cell[1]
         return np.asarray(diffusion.influence(x, y, self.cell, depth).reshape(-1, 2 * nx - 1, ny) / area)
-
-    def rise(self, influence: Array, heat: Array) -> Array:
-        """Return the rise (nx, ny), K, by heat (m, nx, ny), W, of layers that each have an influence."""
-        nx, ny = self.pressure.shape
-        both = np.concatenate([influence[..., :0:-1], influence], axis=-1)
-        padded = [scipy.fft.next_fast_len(size, real=True) for size in both.shape[1:]]
-        spectrum = scipy.fft.rfft2(both, padded) * scipy.fft.rfft2(heat, padded)
-        return np.asarray(scipy.fft.irfft2(spectrum.sum(0), padded)[nx - 1 : 2 * nx - 1, ny - 1 : 2 * ny - 1])
 
     def rises(
         self, diffusion: Diffusion, flux: Array, face: Array, released: Dissipation, weight: Array

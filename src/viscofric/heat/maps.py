@@ -10,7 +10,7 @@ import scipy.fft
 from numpy.typing import ArrayLike
 
 from viscofric.arguments import flag, insist_on
-from viscofric.arrays import Array, ComplexArray
+from viscofric.arrays import Array, ComplexArray, convolved
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.influence import Diffusion
 from viscofric.thermal import ThermalProperties
@@ -100,11 +100,7 @@ def free_temperature(flux: Array, cell: tuple[float, float], diffusion: Diffusio
     """Return the rise (nx, ny), K, by a map of heat (nx, ny), W/m², that moves towards +x alone on a surface."""
     nx, ny = flux.shape
     x, y = np.arange(1.0 - nx, nx), np.arange(0.0, ny)
-    half = diffusion.influence(np.asarray(cell[0] * x), np.asarray(cell[1] * y), cell)
-    influence = np.concatenate([half[:, :0:-1], half], axis=1)
-    padded = [scipy.fft.next_fast_len(size, real=True) for size in influence.shape]
-    spectrum = scipy.fft.rfft2(influence, padded) * scipy.fft.rfft2(flux, padded)
-    return np.asarray(scipy.fft.irfft2(spectrum, padded)[nx - 1 : 2 * nx - 1, ny - 1 : 2 * ny - 1])
+    return convolved(diffusion.influence(np.asarray(cell[0] * x), np.asarray(cell[1] * y), cell), flux)
 
 
 def _periodic(

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-import scipy.fft
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import convolved
 from viscofric.contact.bodies import Layer
 from viscofric.contact.fields.stress import on_cells, spacing
 from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
@@ -178,7 +178,7 @@ def surface_displacement(
     else:
         influence = _influence(modes, larger.shape, _cell(layer, is_line, step, aspect, ratio))
     factor = 2.0 if is_line else 1.0
-    found = factor * (1.0 - ratio**2) * step / np.pi * _convolve(influence, mirrored)
+    found = factor * (1.0 - ratio**2) * step / np.pi * convolved(influence, mirrored)
     if is_line and layer is None:
         found -= found[-1]
     return SurfaceDisplacement(
@@ -222,11 +222,11 @@ def _cell(layer: Layer | None, is_line: bool, step: float, aspect: float, poisso
 
 
 def _influence(modes: _Modes, shape: tuple[int, ...], cell: CellPotential) -> Array:
-    """Influence of the unit cell at offsets −(nx−1) … nx−1 and −(ny−1) … ny−1."""
+    """Influence of the unit cell at offsets −(nx−1) … nx−1 and 0 … ny−1."""
     nx, ny = shape
     instant = np.array([modes.glassy])
     (half,) = memory_influence((nx, ny), modes.compliances[None], modes.lengths, instant=instant, potential=cell)
-    return np.concatenate([half[:, :0:-1], half], axis=1)
+    return half
 
 
 def _line_influence(modes: _Modes, cells: int) -> Array:
@@ -236,16 +236,6 @@ def _line_influence(modes: _Modes, cells: int) -> Array:
     for compliance, length in zip(modes.compliances, modes.lengths, strict=True):
         total += compliance * line_memory_influence(x, length)[0]
     return total[:, None]
-
-
-def _convolve(influence: Array, pressure: Array) -> Array:
-    """Σ influence(i − j) p(j) at the cells of the pressure, by FFT."""
-    padded = [scipy.fft.next_fast_len(size, real=True) for size in influence.shape]
-    spectrum = scipy.fft.rfft2(influence, padded)
-    spectrum *= scipy.fft.rfft2(pressure, padded)
-    nx, ny = pressure.shape
-    # Circular in a period as long as the influence: only offsets that are not needed wrap around.
-    return np.asarray(scipy.fft.irfft2(spectrum, padded)[nx - 1 : 2 * nx - 1, ny - 1 : 2 * ny - 1])
 
 
 def surface_power(x: ArrayLike, pressure: ArrayLike, displacement: ArrayLike, speed: float) -> Array:
