@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from viscofric.arrays import Array
     from viscofric.contact.fields.dissipation import Modes
     from viscofric.heat.branches import State
+    from viscofric.heat.result import ContactHeating
     from viscofric.notes import Note
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
@@ -200,6 +201,27 @@ class ThermalContact:
         return self.reach(near, rise + min(_KELVIN, _DECADES / max(slope, 1e-6)))
 
 
+class States(NamedTuple):
+    """A contact without heating, its coldest and its hottest state, and that of the branch wanted."""
+
+    contact: ThermalContact
+    isothermal: Warmed
+    cold: Warmed
+    hot: Warmed
+    wanted: Warmed
+    heating: ContactHeating  # of the state wanted
+    notes: tuple[Note, ...]
+
+    @classmethod
+    def of(cls, contact: ThermalContact, isothermal: Warmed, settled: list[Warmed], said: tuple[Note, ...]) -> States:
+        """Return the one or two states of a contact, with further notes; errors as of `_within_law`."""
+        found, left_out = _within_law(contact, settled)
+        order = found if contact.heating.branch == "cold" else found[::-1]
+        heating, notes = described(contact.heating, contact.speed, order, isothermal.friction)
+        every = tuple(dict.fromkeys((*notes, *left_out, *said)))
+        return cls(contact, isothermal, found[0], found[-1], order[0], heating, every)
+
+
 def enough(rise: float, produced: list[float]) -> bool:
     """Whether no state is to be expected beyond a rise, K, from what contacts up to it produce."""
     return rise >= max(_LEAST, _BEYOND * max(produced))
@@ -222,18 +244,15 @@ def solve_heated(contact: ThermalContact, accuracy: float) -> Any:
     states = outermost(curve, _curve_of([contact.hottest(one) for one in scanned]))
     if not states:
         raise beyond(ended, contact.kelvin + scanned[-1].rise)
-    found, left_out = within_law(contact, [_settled(contact, curve, one, accuracy) for one in states])
-    order = found if contact.heating.branch == "cold" else found[::-1]
-    heating, notes = described(contact.heating, contact.speed, order, isothermal.friction)
-    shear = coupling_notes([contact.sheared(order[0])])
-    said = dict.fromkeys((*notes, *shear, *left_out, *sought(curve, ended, contact.kelvin)))
-    solution = order[0].solution
-    error = solution.diagnostics.friction_error + order[0].friction_left
+    settled = [_settled(contact, curve, one, accuracy) for one in states]
+    found = States.of(contact, isothermal, settled, sought(curve, ended, contact.kelvin))
+    solution = found.wanted.solution
+    error = solution.diagnostics.friction_error + found.wanted.friction_left
     return replace(
         solution,
         temperature=contact.kelvin,
-        heating=heating,
-        warnings=(*solution.warnings, *said),
+        heating=found.heating,
+        warnings=(*solution.warnings, *found.notes, *coupling_notes([contact.sheared(found.wanted)])),
         diagnostics=replace(solution.diagnostics, friction_error=error),
     )
 
@@ -263,7 +282,7 @@ def _settled(contact: ThermalContact, curve: HeatCurve, state: State, accuracy: 
     return last[0]._replace(left=curve.left(rise, residual))
 
 
-def within_law(contact: ThermalContact, found: list[Warmed]) -> tuple[list[Warmed], tuple[Note, ...]]:
+def _within_law(contact: ThermalContact, found: list[Warmed]) -> tuple[list[Warmed], tuple[Note, ...]]:
     """Return those of one or two states whose face is no warmer than the law of the interface is known to.
 
     And a note where the other state is left out; raise InputError if it is the one wanted.

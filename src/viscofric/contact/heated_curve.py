@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.heated import LOOSE, enough, sought, within_law
+from viscofric.contact.heated import LOOSE, States, enough, sought
 from viscofric.contact.heated_knots import Between, Knot, knots_of
-from viscofric.contact.heated_result import Heat, beyond, described
+from viscofric.contact.heated_result import Heat, beyond
 from viscofric.heat.branches import HeatCurve, outermost, settling
 from viscofric.heat.result import OF_CONTACT
 from viscofric.processes import call_all
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from viscofric.contact.heated_result import Warmed
     from viscofric.heat.branches import State
     from viscofric.heat.heating import ThermalResistances
-    from viscofric.heat.result import ContactHeating
     from viscofric.notes import Note
     from viscofric.processes import Workers
 
@@ -44,18 +43,6 @@ _FIRST, _FARTHER, _MOST = 30.0, 1.6, 1000.0
 _ALIKE = 0.01
 #: Of the knots, each so many-th has resistances without heating: they only tell near which rise its states are.
 _COLD_KNOTS = 2
-
-
-class States(NamedTuple):
-    """A contact without heating, its coldest and its hottest state, and that of the branch wanted."""
-
-    contact: ThermalContact
-    isothermal: Warmed
-    cold: Warmed
-    hot: Warmed
-    wanted: Warmed
-    heating: ContactHeating  # of the state wanted
-    notes: tuple[Note, ...]
 
 
 def solve_states(
@@ -197,14 +184,6 @@ def _at(contact: ThermalContact, **given: Any) -> Warmed:
     return contact.at(**given)
 
 
-def _chosen(contact: ThermalContact, isothermal: Warmed, found: list[Warmed], said: tuple[Note, ...]) -> States:
-    found, left_out = within_law(contact, found)
-    order = found if contact.heating.branch == "cold" else found[::-1]
-    heating, notes = described(contact.heating, contact.speed, order, isothermal.friction)
-    notes = tuple(dict.fromkeys((*notes, *left_out, *said)))
-    return States(contact, isothermal, found[0], found[-1], order[0], heating, notes)
-
-
 class _Curve:
     """The isothermal curve of one temperature, and what contacts at any rise produce."""
 
@@ -253,7 +232,8 @@ class _Curve:
     def chosen(self) -> list[States]:
         """Return the states of all contacts."""
         return [
-            _chosen(one, self.cold[row], self.settled[row], self.found[row][2]) for row, one in enumerate(self.contacts)
+            States.of(one, self.cold[row], self.settled[row], self.found[row][2])
+            for row, one in enumerate(self.contacts)
         ]
 
     @cache  # noqa: B019 (a curve lives as long as its solve)

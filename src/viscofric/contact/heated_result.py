@@ -121,7 +121,7 @@ def described(
     )
     notes = [] if len(found) == 1 else [_two_states(result, found[1].heat.balance.face_rise)]
     if heating.average == "contact" and result.skin < THIN and rise > 0.0:
-        notes.append(_thin_skin(result))
+        notes.append(thin_skin(result.skin, result.face_rise, result.loss_weighted_rise))
     notes += _loss_beyond(result, found[0].friction, heating.average)
     return result, tuple(notes)
 
@@ -140,19 +140,14 @@ def _two_states(result: ContactHeating, other_face: float) -> Note:
     )
 
 
-def _thin_skin(result: ContactHeating) -> Note:
-    return Note(
-        "thin-skin",
-        f"While the contact passes, heat spreads {result.skin:.2g} contact radii deep: its face is "
-        f"{result.face_rise:.2g} K warmer, but the rubber where the loss is released "
-        f"{result.loss_weighted_rise:.2g} K",
-        remedy="; for friction at the latter, give " + AT_THE_LOSS + ".",
-        values={
-            "skin": result.skin,
-            "face_rise": result.face_rise,
-            "loss_weighted_rise": result.loss_weighted_rise,
-        },
+def thin_skin(skin: float, face: float, below: float, most: str = "") -> Note:
+    """Return the note that only a skin, over the contact radius, is as warm as the face; `most`: "up to "."""
+    said = (
+        f"While the contact passes, heat spreads {skin:.2g} contact radii deep: its face is {most}{face:.2g} K warmer, "
+        f"but the rubber where the loss is released {below:.2g} K"
     )
+    values = {"skin": skin, "face_rise": face, "loss_weighted_rise": below}
+    return Note("thin-skin", said, remedy="; for friction at the latter, give " + AT_THE_LOSS + ".", values=values)
 
 
 def _loss_beyond(result: ContactHeating, friction: float, average: str) -> tuple[Note, ...]:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from viscofric.contact.heated import ThermalContact
-from viscofric.contact.heated_curve import States, heat_columns, solve_states
+from viscofric.contact.heated import States, ThermalContact
+from viscofric.contact.heated_curve import heat_columns, solve_states
 from viscofric.contact.settings import ContactSettings
 from viscofric.contact.steady import thermal_contact
 from viscofric.datasets import Dataset

@@ -15,7 +15,7 @@ import numpy as np
 
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array, Indices
-from viscofric.contact.heated_result import AT_THE_LOSS, THIN
+from viscofric.contact.heated_result import THIN, thin_skin
 from viscofric.data import with_rows
 from viscofric.errors import ConvergenceError, InputError
 from viscofric.heat.heating import Heating
@@ -134,15 +134,7 @@ def _thin_skin(problem: Problem, run: TransientSolution, heating: Heating, found
     if not len(speed) or speed.max() * size.max() == 0.0 or not found.face.any():
         return ()
     skin = float(np.sqrt(2.0 * heating.rubber.diffusivity / (speed.max() * size.max())))
-    if skin >= THIN:
-        return ()
-    face, below = float(found.face.max()), float(found.below.max())
-    said = (
-        f"While the contact passes, heat spreads {skin:.2g} contact radii deep: its face is up to {face:.2g} K warmer, "
-        f"but the rubber where the loss is released {below:.2g} K"
-    )
-    values = {"skin": skin, "face_rise": face, "loss_weighted_rise": below}
-    return (Note("thin-skin", said, remedy="; for friction at the latter, give " + AT_THE_LOSS + ".", values=values),)
+    return (thin_skin(skin, float(found.face.max()), float(found.below.max()), "up to "),) if skin < THIN else ()
 
 
 def _insist_on_heatable(problem: Problem, history: History, heating: Heating) -> None:
