@@ -1,8 +1,8 @@
-"""Names of NumPy's arrays for annotations, the line of a field through the axis, polynomials, convolution, fits."""
+"""Names of NumPy's arrays for annotations, and what several rooms compute with: quadrature, polynomials, fits."""
 
 from collections.abc import Callable
 from functools import lru_cache
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +12,9 @@ ComplexArray: TypeAlias = NDArray[np.complex128]
 Mask: TypeAlias = NDArray[np.bool_]
 Integers: TypeAlias = NDArray[np.int64]
 Indices: TypeAlias = NDArray[np.intp]
+
+# At ±3.1 the last node is 1e-15 from its end.
+_REACH = 3.1
 
 
 def centre_line(y: Array, field: Array) -> Array:
@@ -32,6 +35,25 @@ def gauss(count: int, edges: ArrayLike = (0.0, 1.0)) -> tuple[Array, Array]:
 def _gauss_rule(count: int) -> tuple[Array, Array]:
     """Return nodes and weights on [−1, 1], which take half a millisecond to find."""
     return np.polynomial.legendre.leggauss(count)
+
+
+class UnitNodes(NamedTuple):
+    """Places in (0, 1), their distances from 1 without cancellation, and weights, (n,) each."""
+
+    place: Array
+    rest: Array
+    weight: Array
+
+
+@lru_cache(maxsize=8)
+def unit_nodes(count: int) -> UnitNodes:
+    """Return the nodes of the tanh-sinh rule, which singular ends, and layers next to them, do not disturb."""
+    # H. Takahasi, M. Mori, Publ. RIMS 9 (1974) 721, doi:10.2977/prims/1195192451.
+    t = np.linspace(-_REACH, _REACH, count)
+    e = np.exp(-np.pi * np.sinh(np.abs(t)))
+    near = e / (1.0 + e)
+    place, rest = np.where(t < 0.0, near, 1.0 - near), np.where(t < 0.0, 1.0 - near, near)
+    return UnitNodes(place, rest, (t[1] - t[0]) * np.pi * np.cosh(t) * place * rest)
 
 
 def lagrange(nodes: Array, places: Array) -> Array:

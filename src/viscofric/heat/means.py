@@ -18,8 +18,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from viscofric.arrays import Array
-from viscofric.heat.quadrature import unit_nodes
+from viscofric.arrays import Array, unit_nodes
 from viscofric.thermal import ThermalProperties
 
 #: Nodes with which the means are exact to 1e-13 where Pe < 1e4, and to 1e-9 where Pe < 1e8.

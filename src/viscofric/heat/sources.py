@@ -19,10 +19,9 @@ from typing import Literal
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.arrays import Array
+from viscofric.arrays import Array, unit_nodes
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.means import disc_mean, strip_mean
-from viscofric.heat.quadrature import unit_nodes
 from viscofric.showing import Rows, Shown
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantities, Quantity, positive, to_si, to_si_in_shape

@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on, numbers
-from viscofric.arrays import Array, gauss
+from viscofric.arrays import Array, gauss, unit_nodes
 from viscofric.errors import InputError, check_choice
 from viscofric.heat.influence import Diffusion
-from viscofric.heat.quadrature import unit_nodes
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantity, positive
 
