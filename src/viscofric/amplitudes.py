@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.data import Deformation, Origin, set_columns, tensile_from_shear
+from viscofric.data import Deformation, Origin, modulus_columns, set_columns, tensile_from_shear
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted, Rows
@@ -79,7 +79,8 @@ class AmplitudeSweep(Origin, Plotted):
         set_columns(self, *columns, of="an amplitude sweep", per="amplitude")
         if np.any(np.diff(self.strain_amplitude) <= 0.0):
             raise InputError("the amplitudes of an amplitude sweep must ascend without repeats.", code="not-ascending")
-        object.__setattr__(self, "angular_frequency", _rad_per_second(self.angular_frequency))
+        frequency = angular_frequency(self.angular_frequency, "angular_frequency of an amplitude sweep")
+        object.__setattr__(self, "angular_frequency", frequency)
         object.__setattr__(self, "temperature", positive(self.temperature, "K", "temperature of an amplitude sweep"))
 
     def __len__(self) -> int:
@@ -129,18 +130,7 @@ class AmplitudeSweep(Origin, Plotted):
         """
         return dataset(
             "strain_amplitude",
-            {
-                "storage_modulus": (self.storage_modulus, "Pa", "storage modulus"),
-                "loss_modulus": (self.loss_modulus, "Pa", "loss modulus"),
-            },
+            modulus_columns(self.storage_modulus, self.loss_modulus),
             coordinates={"strain_amplitude": (self.strain_amplitude, "1", "strain amplitude")},
-            attributes={
-                "angular_frequency": self.angular_frequency,
-                "temperature": self.temperature,
-            }
-            | self._origin(),
+            attributes={"angular_frequency": self.angular_frequency, "temperature": self.temperature} | self._origin(),
         )
-
-
-def _rad_per_second(value: object) -> float:
-    return angular_frequency(value, "angular_frequency of an amplitude sweep")  # type: ignore[arg-type]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -143,6 +143,11 @@ class Moduli:
         """E''/E' (or G''/G')."""
         return np.asarray(self.loss_modulus / self.storage_modulus)
 
+    def _times(self, factor: float) -> Self:
+        """Return the same with both moduli multiplied."""
+        moduli: dict[str, Any] = {name: factor * getattr(self, name) for name in ("storage_modulus", "loss_modulus")}
+        return replace(self, **moduli)  # type: ignore[type-var]
+
 
 class Origin:
     """The deformation, the source and the notes of measurements."""
@@ -250,8 +255,7 @@ class Isotherm(Moduli, Plotted, Items[tuple[float, float, float]]):
         return dataset(
             "angular_frequency",
             {
-                "storage_modulus": (self.storage_modulus, "Pa", "storage modulus"),
-                "loss_modulus": (self.loss_modulus, "Pa", "loss modulus"),
+                **modulus_columns(self.storage_modulus, self.loss_modulus),
                 "loss_tangent": (self.loss_tangent, "1", "loss tangent"),
                 "strain_amplitude": None if amplitude is None else (amplitude, "1", "strain amplitude"),
             },
@@ -319,14 +323,7 @@ class IsothermalSweeps(Origin, Plotted, Items[Isotherm]):
         if self.deformation != "shear":
             return self
         factor, note = tensile_from_shear(poisson_ratio)
-        isotherms = tuple(
-            replace(
-                sweep,
-                storage_modulus=factor * sweep.storage_modulus,
-                loss_modulus=factor * sweep.loss_modulus,
-            )
-            for sweep in self.isotherms
-        )
+        isotherms = tuple(sweep._times(factor) for sweep in self.isotherms)
         return replace(self, isotherms=isotherms, deformation="tension", notes=(*self.notes, note))
 
     def to_dataset(self) -> Dataset:
@@ -345,7 +342,7 @@ class IsothermalSweeps(Origin, Plotted, Items[Isotherm]):
         recorded = any(one.strain_amplitude is not None for one in self.isotherms)
         return dataset(
             "reading",
-            _modulus_columns(
+            reading_columns(
                 np.repeat(self.temperatures, [len(one) for one in self.isotherms]),
                 _joined([one.angular_frequency for one in self.isotherms]),
                 _joined([one.storage_modulus for one in self.isotherms]),
@@ -438,7 +435,7 @@ class MasterCurve(Moduli, Plotted, Items[tuple[float, float, float]]):
         """
         return dataset(
             "reading",
-            _modulus_columns(self.temperature, self.angular_frequency, self.storage_modulus, self.loss_modulus),
+            reading_columns(self.temperature, self.angular_frequency, self.storage_modulus, self.loss_modulus),
             attributes={"reference_temperature": self.reference},
         )
 
@@ -447,12 +444,20 @@ def _joined(columns: list[Array]) -> Array:
     return np.concatenate([np.empty(0), *columns])
 
 
-def _modulus_columns(
+def modulus_columns(storage_modulus: Array, loss_modulus: Array) -> dict[str, tuple[Array, str, str]]:
+    """Return two columns of a data set."""
+    return {
+        "storage_modulus": (storage_modulus, "Pa", "storage modulus"),
+        "loss_modulus": (loss_modulus, "Pa", "loss modulus"),
+    }
+
+
+def reading_columns(
     temperature: Array, angular_frequency: Array, storage_modulus: Array, loss_modulus: Array
 ) -> dict[str, tuple[Array, str, str] | None]:
+    """Return the columns of a data set of readings, each with its temperature and its frequency."""
     return {
         "temperature": (temperature, "K", "temperature"),
         "angular_frequency": (angular_frequency, "rad/s", "angular frequency"),
-        "storage_modulus": (storage_modulus, "Pa", "storage modulus"),
-        "loss_modulus": (loss_modulus, "Pa", "loss modulus"),
+        **modulus_columns(storage_modulus, loss_modulus),
     }

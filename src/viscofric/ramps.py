@@ -8,11 +8,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.data import Deformation, Moduli, Origin, set_columns, set_members, tensile_from_shear
+from viscofric.data import (
+    Deformation,
+    Moduli,
+    Origin,
+    modulus_columns,
+    reading_columns,
+    set_columns,
+    set_members,
+    tensile_from_shear,
+)
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.showing import Items, Plotted, Rows
-from viscofric.units import Quantity, angular_frequency, positive, shown_celsius, to_si
+from viscofric.units import Quantity, positive, shown_celsius, to_si
+from viscofric.units import angular_frequency as to_rad_per_s
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +54,7 @@ class TemperatureRamp(Moduli, Plotted):
     def __init__(
         self, angular_frequency: Quantity, temperature: object, storage_modulus: object, loss_modulus: object
     ) -> None:
-        object.__setattr__(self, "angular_frequency", _rad_per_second(angular_frequency))
+        object.__setattr__(self, "angular_frequency", to_rad_per_s(angular_frequency, "angular_frequency of a ramp"))
         columns = {"temperature": temperature, "storage_modulus": storage_modulus, "loss_modulus": loss_modulus}
         vars(self).update(columns)
         set_columns(self, *columns, of="a ramp", per="temperature")
@@ -75,16 +85,11 @@ class TemperatureRamp(Moduli, Plotted):
             "reading",
             {
                 "temperature": (self.temperature, "K", "temperature"),
-                "storage_modulus": (self.storage_modulus, "Pa", "storage modulus"),
-                "loss_modulus": (self.loss_modulus, "Pa", "loss modulus"),
+                **modulus_columns(self.storage_modulus, self.loss_modulus),
                 "loss_tangent": (self.loss_tangent, "1", "loss tangent"),
             },
             attributes={"angular_frequency": self.angular_frequency},
         )
-
-
-def _rad_per_second(value: Quantity) -> float:
-    return angular_frequency(value, "angular_frequency of a ramp")
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,12 +180,7 @@ class TemperatureRamps(Origin, Plotted, Items[TemperatureRamp]):
         if self.deformation != "shear":
             return self
         factor, note = tensile_from_shear(poisson_ratio)
-        ramps = tuple(
-            TemperatureRamp(
-                one.angular_frequency, one.temperature, factor * one.storage_modulus, factor * one.loss_modulus
-            )
-            for one in self.ramps
-        )
+        ramps = tuple(ramp._times(factor) for ramp in self.ramps)
         return replace(self, ramps=ramps, deformation="tension", notes=(*self.notes, note))
 
     def to_dataset(self) -> Dataset:
@@ -196,13 +196,11 @@ class TemperatureRamps(Origin, Plotted, Items[TemperatureRamp]):
         rate = {} if self.heating_rate is None else {"heating_rate": self.heating_rate}
         return dataset(
             "reading",
-            {
-                "temperature": (np.concatenate([one.temperature for one in self.ramps]), "K", "temperature"),
-                "angular_frequency": (np.repeat(self.angular_frequencies, counts), "rad/s", "angular frequency"),
-                "storage_modulus": (
-                    np.concatenate([one.storage_modulus for one in self.ramps]), "Pa", "storage modulus",
-                ),
-                "loss_modulus": (np.concatenate([one.loss_modulus for one in self.ramps]), "Pa", "loss modulus"),
-            },
+            reading_columns(
+                np.concatenate([one.temperature for one in self.ramps]),
+                np.repeat(self.angular_frequencies, counts),
+                np.concatenate([one.storage_modulus for one in self.ramps]),
+                np.concatenate([one.loss_modulus for one in self.ramps]),
+            ),
             attributes=self._origin() | rate,
-        )  # fmt: skip
+        )

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array
-from viscofric.data import DEFORMATIONS
+from viscofric.data import DEFORMATIONS, modulus_columns
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice, wrong_argument
 from viscofric.notes import Note
@@ -177,10 +177,7 @@ class KrausLaw(Plotted):
         moduli = self.complex_modulus(amplitude)
         return dataset(
             "strain_amplitude",
-            {
-                "storage_modulus": (moduli.real, "Pa", "storage modulus"),
-                "loss_modulus": (moduli.imag, "Pa", "loss modulus"),
-            },
+            modulus_columns(moduli.real, moduli.imag),
             coordinates={"strain_amplitude": (amplitude, "1", "strain amplitude")},
             attributes=self.attributes
             | {

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arrays import Array, ComplexArray
+from viscofric.data import modulus_columns
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.showing import Plotted
@@ -48,10 +49,7 @@ class FrequencyResponse(Plotted, ABC):
         modulus = self.complex_modulus(omega)
         return dataset(
             "angular_frequency",
-            {
-                "storage_modulus": (modulus.real, "Pa", "storage modulus"),
-                "loss_modulus": (modulus.imag, "Pa", "loss modulus"),
-            },
+            modulus_columns(modulus.real, modulus.imag),
             coordinates={"angular_frequency": (omega, "rad/s", "angular frequency")},
         )
 
