@@ -156,13 +156,7 @@ def to_plain(material: Material) -> dict[str, Any]:
             "notes": list(spectrum.notes),
         }
     else:
-        content = {
-            "kind": "RetardationSpectrum",
-            "E0": spectrum.E0,
-            "E_inf": spectrum.E_inf,
-            "C": spectrum.C.tolist(),
-            "tau": spectrum.tau.tolist(),
-        }
+        content = {name: one for name, one in plain(spectrum).items() if name != "fit"}  # which `about` has
     return {"format": "viscofric material", "version": VERSION, **about(material), "spectrum": content}
 
 
