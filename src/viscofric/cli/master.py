@@ -74,7 +74,7 @@ def command(
     used; without --shift, that is an error.
     """
     refuse_to_overwrite(sources, out, picture)
-    from viscofric.friction.shifting.shift import chosen_law
+    from viscofric.friction.shifting.shift_agreement import concluded
     from viscofric.report.texts.inverse import shift_factors
     from viscofric.rheology.cards import native
 
@@ -82,10 +82,8 @@ def command(
     known, vertical = shifts(parameters, "known")
     notes = list(curves.notes)
     master = _shifted(curves, known, vertical, parameters, notes)
-    law, why, refused = chosen_law(master, parameters["law"])
-    notes += [] if refused is None else [refused]
-    agreement = _agreement(master, known, notes)
-    notes += master.notes
+    law, why, agreement, refused = concluded(master, parameters["law"], known)
+    notes += [*refused, *master.notes]
     if out is not None and not master.found:
         raise refusal("no-factors", f"{out} is not written: friction determines no shift factors.")
 
@@ -149,19 +147,6 @@ def _shifted(
         said = f"No shift factors from friction: {error.words('shell')} Those of the modulus are used."
         notes.append(Note("no-shift-factors", said))
         return shift_friction(curves, shift=known, reference=reference, **options)
-
-
-def _agreement(master: FrictionMasterCurve, known: ShiftLaw | None, notes: list[str]) -> ShiftAgreement | None:
-    from viscofric.errors import InputError
-    from viscofric.friction.shifting.shift_agreement import compare_shift_factors
-
-    if known is None or not master.found:
-        return None
-    try:
-        return compare_shift_factors(master, known)
-    except InputError as error:
-        notes.append(error.note)
-        return None
 
 
 def _print(

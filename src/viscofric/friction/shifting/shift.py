@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve, reduced_decades
 from viscofric.nominal import SAME_LOAD, nominal_rows
 from viscofric.notes import Note, Remedy, codes
-from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
+from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.units import Quantity, positive
 
@@ -236,30 +236,8 @@ def _frozen(column: Array) -> Array:
     return column
 
 
-class ChosenLaw(NamedTuple):
-    """A law fitted to shift factors from friction, why it was chosen, or why there is none."""
-
-    law: ParametricLaw | None
-    why: str = ""
-    refused: Note | None = None
-
-
 def common_reference(curves: FrictionCurves, known: ShiftLaw | None) -> float | None:
     """Return the reference of known shift factors, K, where friction reaches it; None: that of the curves alone."""
     if known is None or not curves.temperature.min() <= known.reference <= curves.temperature.max():
         return None
     return float(known.reference)
-
-
-def chosen_law(master: FrictionMasterCurve, kind: str) -> ChosenLaw:
-    """Fit a law to shift factors that were found from friction; "best" chooses one, "none" fits none."""
-    if kind == "none" or not master.found:
-        return ChosenLaw(None)
-    factors = master.shift_factors
-    if kind != "best":
-        return ChosenLaw(factors.law(kind))
-    try:
-        compared = factors.compare_laws()
-    except InputError as error:
-        return ChosenLaw(None, refused=Note("no-law", f"No law is fitted: {error}"))
-    return ChosenLaw(compared.best, compared.explanation)

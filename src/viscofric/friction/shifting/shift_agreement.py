@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,8 +13,9 @@ from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
+from viscofric.notes import Note
 from viscofric.rheology.material import Material
-from viscofric.rheology.shifts.laws import ShiftLaw
+from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.superposition.result import Superposition
 from viscofric.showing import Plotted, Rows
@@ -245,3 +246,34 @@ def _slope(x: Array, y: Array, x_spread: Array, y_spread: Array) -> tuple[float,
     chi2 = float((y - slope * x) @ residual)
     excess = max(1.0, chi2 / (x.size - 1)) if x.size > 1 else 1.0
     return slope, float(np.sqrt(excess / (nearest @ inverse @ nearest)))
+
+
+class Conclusions(NamedTuple):
+    """What follows from shift factors that were found from friction, and why something does not."""
+
+    law: ParametricLaw | None = None
+    why: str = ""  # this law
+    agreement: ShiftAgreement | None = None
+    notes: tuple[Note, ...] = ()
+
+
+def concluded(master: FrictionMasterCurve, kind: str, known: ShiftLaw | None) -> Conclusions:
+    """Fit a law ("best" chooses one, "none" fits none), and compare with known shift factors."""
+    if not master.found:
+        return Conclusions()
+    law: ParametricLaw | None = None
+    why, agreement, notes = "", None, []
+    if kind == "best":
+        try:
+            compared = master.shift_factors.compare_laws()
+            law, why = compared.best, compared.explanation
+        except InputError as error:
+            notes.append(Note("no-law", f"No law is fitted: {error}"))
+    elif kind != "none":
+        law = master.shift_factors.law(kind)
+    if known is not None:
+        try:
+            agreement = compare_shift_factors(master, known)
+        except InputError as error:
+            notes.append(error.note)
+    return Conclusions(law, why, agreement, tuple(notes))

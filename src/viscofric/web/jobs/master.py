@@ -7,11 +7,11 @@ from typing import Any, Literal
 import numpy as np
 
 from viscofric.datasets import plain
-from viscofric.errors import InputError, SuperpositionError
+from viscofric.errors import SuperpositionError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-from viscofric.friction.shifting.shift import chosen_law, common_reference, shift_friction
-from viscofric.friction.shifting.shift_agreement import compare_shift_factors
+from viscofric.friction.shifting.shift import common_reference, shift_friction
+from viscofric.friction.shifting.shift_agreement import concluded
 from viscofric.notes import listed
 from viscofric.report.data import beside_friction, law_line, measured_line
 from viscofric.report.texts.inverse import shift_words
@@ -93,13 +93,7 @@ def _found(
     master: FrictionMasterCurve, known: ShiftLaw | None, options: Options, context: Context
 ) -> tuple[dict[str, Any], list[str]]:
     """Return the master curve and shift factors found from friction alone, and their notes."""
-    law, why, refused = chosen_law(master, options.law)
-    notes, agreement = [*master.notes, *([refused] if refused else [])], None
-    if known is not None:
-        try:
-            agreement = compare_shift_factors(master, known)
-        except InputError as error:
-            notes.append(str(error))
+    law, why, agreement, refused = concluded(master, options.law, known)
     factors = master.shift_factors
     factors.save(context.downloads / _DOWNLOAD)
     more = {
@@ -109,7 +103,7 @@ def _found(
         "agreement": None if agreement is None else agreement.sentence,
         "download": _DOWNLOAD,
     }
-    return _curve(master) | more, notes
+    return _curve(master) | more, [*master.notes, *refused]
 
 
 def _known(known: ShiftLaw, beside: dict[str, Any]) -> dict[str, Any] | None:
