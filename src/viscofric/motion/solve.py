@@ -25,7 +25,7 @@ from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.periodic.solve import beyond_measured, too_fast
 from viscofric.contact.periodic.surface import PeriodicSurface
-from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
+from viscofric.contact.periodic.transfer import SlidingSolid, dissipation, losses
 from viscofric.errors import InputError, wrong_argument
 from viscofric.motion.history import History
 from viscofric.motion.march import march
@@ -481,13 +481,15 @@ def _speed_on_waves(
     if not moving:
         return ()
 
-    def waves_of(one: Moment[Any], velocity: Array) -> tuple[PeriodicSurface, SlidingSolid, Any, Any, float]:
+    def losses_of(one: Moment[Any], velocity: Array) -> tuple[PeriodicSurface, SlidingSolid, Array, float]:
         assert one.field is not None
         toward = tuple((velocity / math.hypot(*velocity)).tolist())
         material, layer, along = problem.material, problem.layer, tuple(velocity.tolist())
         solid = SlidingSolid(schedule.spectrum, material.poisson_ratio, along, layer, problem.counterface, toward)
-        transfer, waves = solid.transfer(surface.shape, surface.spacing), scipy.fft.rfft2(one.field.pressure)
-        return surface, solid, transfer, waves, dissipation(transfer, surface.shape, surface.spacing, toward, waves)
+        lost = losses(
+            solid.transfer(surface.shape, surface.spacing), surface.shape, scipy.fft.rfft2(one.field.pressure)
+        )
+        return surface, solid, lost, float(dissipation(lost, surface.shape, surface.spacing) @ toward)
 
     friction = np.array([math.hypot(*one.seen.friction_force) for one, *_ in moving])
     hardest, velocity, *_ = moving[int(np.argmax(friction))]
@@ -495,7 +497,7 @@ def _speed_on_waves(
     speeds, clocks = np.array([math.hypot(*one[2]) for one in moving]), np.array([one[3] for one in moving])
     softness = np.abs(schedule.spectrum.compliance(2.0 * math.pi / max(surface.period) * speeds / clocks))
     one, _, per_time, clock = moving[int(np.lexsort((friction, speeds**2 * softness))[-1])]
-    waves = waves_of(one, per_time / clock)
-    notes = too_fast(*waves, clock=clock, where=f"at {one.instant.time:.3g} s")
+    lost = losses_of(one, per_time / clock)
+    notes = too_fast(*lost, clock=clock, where=f"at {one.instant.time:.3g} s")
     same = one is hardest and np.array_equal(velocity, per_time / clock)
-    return (*beyond_measured(*(waves if same else waves_of(hardest, velocity))), *notes)
+    return (*beyond_measured(*(lost if same else losses_of(hardest, velocity))), *notes)

@@ -30,7 +30,7 @@ from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
 from viscofric.contact.periodic.surface import PeriodicSurface, Topographic, flattening_pressure, wave_number
-from viscofric.contact.periodic.transfer import SlidingSolid, dissipation
+from viscofric.contact.periodic.transfer import SlidingSolid, dissipation, losses
 from viscofric.errors import InputError, wrong_argument
 from viscofric.threads import in_parts, one_blas_thread, so_many, threads_for
 from viscofric.units import Quantity, checked_poisson_ratio, number, positive, to_si, velocity
@@ -327,34 +327,34 @@ def _assemble(
     pressure, displacement = result.pressure, result.displacement
     gap, highest = np.empty_like(pressure), surface.z.max()
 
-    def restore(pressure: Array, displacement: Array, gap: Array, z: Array) -> None:
+    def restore(pressure: Array, displacement: Array, gap: Array, z: Array) -> tuple[float, float, int]:
         pressure *= units.depth / units.compliance
         displacement *= units.depth
         gap[...] = displacement + (highest - z) - units.depth * result.indentation
         displacement += compression
+        return float(gap.sum()), float(pressure.max()), int(np.count_nonzero(pressure > 0.0))
 
     mean_pressure = (units.depth / units.compliance) * float(pressure.mean())
     compression = solid.mean_compression() * mean_pressure
-    in_parts(restore, pressure, displacement, gap, surface.z)
+    gaps, largest, counts = zip(*in_parts(restore, pressure, displacement, gap, surface.z), strict=True)
+    loaded = sum(counts)
     by_slopes, steepness = _on_slopes(surface, pressure, toward)
     transfer *= units.compliance
-    waves = scipy.fft.rfft2(pressure, workers=threads_for(pressure.size))
-    dissipated = _dissipated(transfer, surface, toward, waves)
+    dissipated, lost = _dissipated(transfer, surface, toward, pressure)
     by_pressure, by_energy = float(by_slopes[0]), float(dissipated[0])
-    notes = too_fast(surface, solid, transfer, waves, by_energy)
-    notes += beyond_measured(surface, solid, transfer, waves, by_energy)
-    del waves
+    notes = too_fast(surface, solid, lost, by_energy) + beyond_measured(surface, solid, lost, by_energy)
+    del lost
     estimates = [np.abs(by_slopes - dissipated)]
     if coarser is not None and work.coarser_pressure is not None:
         there = _forces_on(coarser, work.coarser_pressure, solid, units, toward)
         estimates += [np.abs(there[1] - dissipated), _FADING * np.abs(there[1] - there[0])]
     else:
-        few = 1.0 + (_FEW_POINTS / np.count_nonzero(pressure)) ** 2
+        few = 1.0 + (_FEW_POINTS / loaded) ** 2
         estimates += [np.full(2, _UNSURE_AT_EDGES * few * _load_at_edges(pressure) * math.hypot(*dissipated))]
     error, across = (np.max(estimates, axis=0) / mean_pressure).tolist()
     floor = FRICTION_FLOOR * mean_pressure * 2.0 * math.pi * units.depth / max(surface.period)
-    full_contact = bool(np.all(pressure > 0.0))
-    mean_gap = 0.0 if full_contact else max(0.0, float(gap.mean()))  # residuals are not gaps
+    full_contact = loaded == pressure.size
+    mean_gap = 0.0 if full_contact else max(0.0, sum(gaps) / gap.size)  # residuals are not gaps
     wanted, found = (given.pressure, mean_pressure) if given.gap is None else (given.gap, mean_gap)
     solution = PeriodicSolution(
         speed=velocity,
@@ -366,8 +366,8 @@ def _assemble(
         friction_coefficient=by_energy / mean_pressure,
         pressure_friction_coefficient=by_pressure / mean_pressure,
         lateral_friction_coefficient=float(dissipated[1]) / mean_pressure,
-        contact_area_fraction=float(np.count_nonzero(pressure > 0.0)) / pressure.size,
-        max_pressure=float(pressure.max()),
+        contact_area_fraction=loaded / pressure.size,
+        max_pressure=max(largest),
         x=surface.x,
         y=surface.y,
         pressure=pressure,
@@ -394,21 +394,15 @@ def _assemble(
     return solution, steepness
 
 
-def beyond_measured(
-    surface: PeriodicSurface, solid: SlidingSolid, transfer: ComplexArray | Array, waves: ComplexArray, friction: float
-) -> tuple[Note, ...]:
-    """Return a note if much of the friction force per area comes from waves at frequencies that were not measured.
-
-    `waves`, Fourier coefficients of the pressure, are overwritten.
-    """
+def beyond_measured(surface: PeriodicSurface, solid: SlidingSolid, lost: Array, friction: float) -> tuple[Note, ...]:
+    """Return a note if much of the friction force per area comes from waves at frequencies that were not measured."""
     known = solid.spectrum.known_frequencies
     if known is None or friction == 0.0 or not all(map(math.isfinite, solid.velocity)):
         return ()
     measured = known.covers(_frequency(surface, solid))
     if measured.all():
         return ()
-    waves[np.broadcast_to(measured, waves.shape)] = 0.0
-    share = abs(dissipation(transfer, surface.shape, surface.spacing, solid.toward, waves) / friction)
+    share = abs(float(dissipation(lost * ~measured, surface.shape, surface.spacing) @ solid.toward) / friction)
     said: tuple[Note, ...] = known.beyond_part(share)
     return said
 
@@ -416,8 +410,7 @@ def beyond_measured(
 def too_fast(
     surface: PeriodicSurface,
     solid: SlidingSolid,
-    transfer: ComplexArray | Array,
-    waves: ComplexArray,
+    lost: Array,
     friction: float,
     clock: float = 1.0,
     where: str = "",
@@ -441,10 +434,11 @@ def too_fast(
         return ()
     known = np.geomspace(lowest, highest, _MODULI)
     part = np.exp(np.interp(np.log(np.maximum(frequency, lowest)), np.log(known), np.log(slowness(known))))
-    magnitude = np.hypot(*wave_number(surface.shape, surface.spacing))
-    magnitude[0, 0] = 1.0
-    weighted = waves * (np.sqrt(part) * (clock * frequency) / magnitude)
-    change = abs(dissipation(transfer, surface.shape, surface.spacing, solid.toward, weighted) / friction)
+    qx, qy = wave_number(surface.shape, surface.spacing)
+    square = qx**2 + qy**2
+    square[0, 0] = 1.0
+    weighted = lost * (part * (clock * frequency) ** 2 / square)
+    change = abs(float(dissipation(weighted, surface.shape, surface.spacing) @ solid.toward) / friction)
     if change <= LITTLE_INERTIA:
         return ()
     return (inertia_note(speed, speed / math.sqrt(change), where=where, frequency="qv"),)
@@ -459,29 +453,28 @@ def _frequency(surface: PeriodicSurface, solid: SlidingSolid) -> Array:
 
 def _on_slopes(surface: PeriodicSurface, pressure: Array, toward: tuple[float, float]) -> tuple[Array, float]:
     """Return the force per area (2,) from the pressure on the slopes, and the rms slope under pressure."""
-    # Along the motion, and across it to the left.
-    loaded = pressure > 0.0
-    force, square = np.zeros(2), 0.0
-    for axis, along in enumerate(((1.0, 0.0), (0.0, 1.0))):
-        slope = surface.slope(along)
-        # Heights fall where the indenter's surface rises towards the material: ∂h/∂x = −∂z/∂x.
-        force[axis] = -float(np.vdot(pressure, slope)) / pressure.size
-        under = slope[loaded]
-        square += float(under @ under) / under.size
-    return np.array([one @ force for one in _along_and_across(toward)]), math.sqrt(square)
+
+    def sums(slope: Array, pressure: Array) -> tuple[float, float, int]:
+        under = slope[pressure > 0.0]
+        return float(np.vdot(pressure, slope)), float(under @ under), under.size
+
+    x, y = (np.sum(surface.on_slopes(axis, sums, pressure), axis=0) for axis in (0, 1))
+    # Heights fall where the indenter's surface rises towards the material: ∂h/∂x = −∂z/∂x.
+    force = -np.array([x[0], y[0]]) / pressure.size
+    return _along_and_across(toward) @ force, math.sqrt((x[1] + y[1]) / x[2])
 
 
 def _dissipated(
-    transfer: ComplexArray | Array, surface: PeriodicSurface, toward: tuple[float, float], waves: ComplexArray
-) -> Array:
-    """Return the same force (2,) from the energy that the solid dissipates."""
-    return np.array(
-        [dissipation(transfer, surface.shape, surface.spacing, one, waves) for one in _along_and_across(toward)]
-    )
+    transfer: ComplexArray | Array, surface: PeriodicSurface, toward: tuple[float, float], pressure: Array
+) -> tuple[Array, Array]:
+    """Return the same force (2,) from the energy that the solid dissipates, and the `losses`."""
+    lost = losses(transfer, surface.shape, scipy.fft.rfft2(pressure, workers=threads_for(pressure.size)))
+    return _along_and_across(toward) @ dissipation(lost, surface.shape, surface.spacing), lost
 
 
-def _along_and_across(toward: tuple[float, float]) -> tuple[tuple[float, float], tuple[float, float]]:
-    return toward, (-toward[1], toward[0])
+def _along_and_across(toward: tuple[float, float]) -> Array:
+    """Return unit vectors along the motion, and across it to the left."""
+    return np.array([toward, (-toward[1], toward[0])])
 
 
 def _load_at_edges(pressure: Array) -> float:
@@ -499,6 +492,5 @@ def _forces_on(
 ) -> tuple[Array, Array]:
     """Return the force per area (2,) on the next coarser grid, by the pressure on the slopes and by the energy."""
     pressure, surface = (units.depth / units.compliance) * pressure, PeriodicSurface(*coarser)
-    by_slopes, _ = _on_slopes(surface, pressure, toward)
-    waves = scipy.fft.rfft2(pressure, workers=threads_for(pressure.size))
-    return by_slopes, _dissipated(solid.transfer(surface.shape, surface.spacing), surface, toward, waves)
+    transfer = solid.transfer(surface.shape, surface.spacing)
+    return _on_slopes(surface, pressure, toward)[0], _dissipated(transfer, surface, toward, pressure)[0]

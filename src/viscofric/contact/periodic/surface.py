@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from operator import imul
-from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 import scipy.fft
@@ -16,12 +15,14 @@ from viscofric.threads import in_parts, threads_for
 from viscofric.units import Quantity, in_si, two_lengths
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import ArrayLike
 
     from viscofric.arrays import Array, ComplexArray
     from viscofric.showing import Rows
+
+Result = TypeVar("Result")
 
 # Largest mean pressure, over that which flattens a surface: the heights are lost in the rounding of larger ones.
 _LARGEST_MEAN = 1e14
@@ -128,17 +129,26 @@ class PeriodicSurface(Shown):
 
     def slope(self, direction: tuple[float, float]) -> Array:
         """Return the derivative of the heights along a unit vector, by their Fourier series; (nx, ny) array."""
-        found, threads = None, threads_for(self.z.size)
+        found = np.zeros(self.shape)
         for axis, part in enumerate(direction):
-            points = self.shape[axis]
-            if part != 0.0 and points > 1:
-                q: Array = 2.0 * np.pi * np.fft.rfftfreq(points, self.spacing[axis]).astype(np.float64)
-                factor = 1j * part * without_nyquist(q, points)
-                waves = scipy.fft.rfft(self.z, axis=axis, workers=threads)
-                in_parts(imul, waves, np.broadcast_to(factor[:, None] if axis == 0 else factor, waves.shape))
-                along = scipy.fft.irfft(waves, points, axis=axis, overwrite_x=True, workers=threads)
-                found = along if found is None else found + along
-        return np.zeros(self.shape) if found is None else found
+            if part != 0.0:
+
+                def add(slope: Array, found: Array, part: float = part) -> None:
+                    found += part * slope
+
+                self.on_slopes(axis, add, found)
+        return found
+
+    def on_slopes(self, axis: int, function: Callable[..., Result], *fields: Array) -> list[Result]:
+        """Call a function with the slopes along an axis, and with fields (nx, ny), of some lines along it at a time."""
+        points, spacing = self.shape[axis], self.spacing[axis]
+        q: Array = 2.0 * np.pi * np.fft.rfftfreq(points, spacing).astype(np.float64)
+        factor = 1j * without_nyquist(q, points)
+
+        def called(z: Array, *fields: Array) -> Result:
+            return function(scipy.fft.irfft(scipy.fft.rfft(z, axis=1) * factor, points, axis=1), *fields)
+
+        return in_parts(called, *(np.moveaxis(each, axis, 1) for each in (self.z, *fields)))
 
     def coarser(self, shapes: Sequence[tuple[int, int]]) -> list[Coarser]:
         """Return the surface on fewer points of the same period, without its shortest waves."""

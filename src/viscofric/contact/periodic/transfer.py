@@ -81,9 +81,9 @@ class SlidingSolid:
         if self.drag:
             sheared = relaxed * self._coupling(magnitude) - self.indenter_compliance * self.indenter_coupling
             response = response - 1j * self.drag * self._obliquity(shape, spacing, magnitude) * sheared
-        found = np.asarray(2.0 * response / magnitude)
+        found: ComplexArray | Array = 2.0 * (response.real if self.is_symmetric else response) / magnitude
         found[0, 0] = 0.0
-        return found.real.copy() if self.is_symmetric else found
+        return found
 
     def _coupling(self, magnitude: Array) -> Array | float:
         """X of the waves."""
@@ -154,24 +154,23 @@ class SlidingSolid:
         return np.conj(self.spectrum.compliance(frequency))
 
 
-def dissipation(
-    transfer: ComplexArray | Array,
-    shape: tuple[int, int],
-    spacing: tuple[float, float],
-    direction: tuple[float, float],
-    pressure_waves: ComplexArray,
-) -> float:
-    """Friction force per area from the energy that the solid dissipates, along a unit vector.
+def losses(transfer: ComplexArray | Array, shape: tuple[int, int], pressure_waves: ComplexArray) -> Array:
+    """Return 2(1−ν²)/|q| (−Im S(q·v)) |p̂_q|² for each wave and its opposite, of Fourier coefficients p̂_q.
 
-    F_t/A = Σ_q 2(1−ν²)/|q| (q·n) (−Im S(q·v)) |p̂_q|², over the waves of both signs; p̂_q are Fourier coefficients.
+    That is what it dissipates over q·v; zeros that broadcast for an elastic solid without shear.
     """
     if not np.iscomplexobj(transfer):
-        return 0.0  # elastic, without shear
+        return np.zeros((1, 1))
+    twice, found = hermitian_factor(shape[1]) / float(shape[0] * shape[1]) ** 2, np.empty(transfer.shape)
+
+    def lose(found: Array, transfer: ComplexArray, waves: ComplexArray) -> None:
+        found[...] = transfer.imag * (waves.real**2 + waves.imag**2) * twice
+
+    in_parts(lose, found, transfer, pressure_waves)
+    return found
+
+
+def dissipation(losses: Array, shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
+    """Return the friction force per area (2,), along x and y, that dissipates energy: the sum of q times `losses`."""
     qx, qy = (without_nyquist(one, size) for one, size in zip(wave_number(shape, spacing), shape, strict=True))
-    twice = hermitian_factor(shape[1])
-
-    def work(transfer: ComplexArray, waves: ComplexArray, qx: Array) -> float:
-        along = direction[0] * qx + direction[1] * qy
-        return float((along * transfer.imag * (waves.real**2 + waves.imag**2) * twice).sum())
-
-    return sum(in_parts(work, transfer, pressure_waves, qx)) / float(shape[0] * shape[1]) ** 2
+    return np.array([(qx[:, 0] * losses.sum(axis=1)).sum(), (qy[0] * losses.sum(axis=0)).sum()])
