@@ -14,7 +14,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.rheology.superposition.common_curve import Smoother
-from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermOffsets, Offsets, estimated
+from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermOffsets, LeftOut, Offsets, estimated
 from viscofric.rheology.superposition.joined_isotherms import BOTH, Quantities
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, Join, LogSweep, join, parted
 from viscofric.rheology.superposition.shift_problem import (
@@ -162,8 +162,13 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
     levels = spread + np.kron(np.ones((moduli, moduli)), problem.vertical_prior())
     profiles = StepProfiles(problem, search.smoothers, quantities.of(sweeps), levels)
     covariance = profiles.widened(search.parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
+    left_out = None
+    if problem.gauge.trend is not None and len(offsets.covariance) > 1:  # one quantity hardly shows it
+        left_out = LeftOut(offsets.trend, problem.gauge.trend, gain @ np.tile(problem.gauge.trend, moduli))
+        covariance = covariance + np.outer(left_out.errors[0], left_out.errors[0])
     return replace(
-        _result(search, covariance, freedom), offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto)
+        _result(search, covariance, freedom),
+        offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto, left_out),
     )
 
 
@@ -281,5 +286,10 @@ def _offsets(search: _Search, expected: Array | None) -> tuple[Offsets, Array]:
     turned[: len(ways), : ways.shape[1]] = ways
     prior = ways.T @ problem.prior.T @ problem.prior @ ways
     return estimated(
-        turned.T @ information @ turned, turned.T @ score, prior, problem.moduli, tied=problem.gauge.free_vertical
+        turned.T @ information @ turned,
+        turned.T @ score,
+        prior,
+        problem.moduli,
+        tied=problem.gauge.free_vertical,
+        trend=None if problem.gauge.trend is None or problem.moduli == 1 else np.tile(problem.gauge.trend, 2),
     ), gradient

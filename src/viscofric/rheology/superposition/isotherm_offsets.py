@@ -10,12 +10,15 @@ one of the sizes, with the probability of that size.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from viscofric.arrays import Array
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.superposition.shift_problem import Gauge, continued
+from viscofric.units import shown_celsius
 
 #: Where one modulus is shifted, offsets that are probably larger than this in both are no offsets: the other modulus is
 #: wrong.  Sweeps of one sample repeat to 0.02 decades (`consistency.REPRODUCIBILITY`); sizes found scatter by a third.
@@ -39,6 +42,18 @@ NONE_BESIDE_VERTICAL = 0.3
 #: curves are power laws, a shift takes the place of the sum.
 TURNS = {1: np.ones((1, 1)), 2: np.array([[1.0, 1.0], [1.0, -1.0]]) / np.sqrt(2.0)}
 
+#: Parts of log10 T that log10 b may have where no vertical shift was requested.  None is as probable as all others
+#: together; of these four fifths lie between none and the whole, as of rubber elasticity with any expansion …
+TRENDS = np.linspace(-6.0, 6.0, 241)
+#: … and a fifth are normal with this standard deviation, as of fillers that soften.
+ANY_TREND = 1.5
+_ENTROPIC = (TRENDS > 0.0) & (TRENDS <= 1.0)
+_ANY = np.exp(-0.5 * (TRENDS / ANY_TREND) ** 2)
+NO_TREND = 1.0 * (TRENDS == 0.0)
+BEFORE_TREND = 0.5 * NO_TREND + 0.4 * _ENTROPIC / _ENTROPIC.sum() + 0.1 * _ANY / _ANY.sum()
+#: A vertical shift is noted where none has at most this probability.
+CHANCE = 0.05
+
 
 @dataclass(frozen=True, eq=False)
 class OffsetSizes:
@@ -51,6 +66,33 @@ class OffsetSizes:
     def draw(self, random: np.random.Generator, samples: int) -> Array:
         """Return sizes (samples, m), drawn by their probabilities."""
         return self.deviations[random.choice(len(self.probability), samples, p=self.probability)]
+
+
+@dataclass(frozen=True, eq=False)
+class LeftOut:
+    """A vertical shift, log10 b a part of log10 T, that may have been left out of n isotherms."""
+
+    probability: Array  # of each of `TRENDS`
+    log10_b: Array  # (n,), of the whole of it, zero at the reference
+    follow: Array  # (n,), what it adds to log10 α found
+
+    @property
+    def errors(self) -> Array:
+        """Standard errors of log10 α and of log10 b (2, n) from it; they are one error, of one sign or the other."""
+        return np.asarray(np.sqrt(self.probability @ TRENDS**2) * np.stack([self.follow, self.log10_b]))
+
+    def notes(self, coldest: float, warmest: float, remedy: Remedy) -> Iterator[Note]:
+        """Yield a note if the moduli show a vertical shift, between the ends of the temperatures, K."""
+        if self.probability @ NO_TREND > CHANCE:
+            return
+        change = float(self.probability @ TRENDS * np.ptp(self.log10_b))
+        percent = 100.0 * (10.0**change - 1.0)
+        text = (
+            f"The moduli {'rise' if change > 0.0 else 'fall'} with temperature beside α, as by a vertical shift that "
+            f"was left out, by about {abs(percent):.2g} % from {shown_celsius(coldest)} to {shown_celsius(warmest)} °C:"
+            " it moves α, and the errors of α include that."
+        )
+        yield Note("vertical-shift-left-out", text, remedy=remedy, values={"percent": percent})
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +110,7 @@ class IsothermOffsets:
     sizes: OffsetSizes  # which sizes offsets may have; `covariance` is the mean over them
     # (2, m), offsets of log E' and log E'' per offset of each quantity; (1, 1) for step tests.
     onto_moduli: Array = field(default_factory=lambda: np.eye(2))
+    left_out: LeftOut | None = None  # where no vertical shift was requested
 
     def __repr__(self) -> str:
         storage, *loss = self.standard_deviations
@@ -92,7 +135,11 @@ class IsothermOffsets:
         for row in range(2):
             for column in range(moduli):
                 with_shifts[row, :, column, first:last] = continued(own[row, :, column], gauge, first, last)
-        return replace(self, with_shifts=with_shifts.reshape(2 * size, moduli * size))
+        left_out = self.left_out
+        if left_out is not None and gauge.trend is not None:
+            follow = continued(left_out.follow, gauge, first, last)
+            left_out = LeftOut(left_out.probability, gauge.trend, follow)
+        return replace(self, with_shifts=with_shifts.reshape(2 * size, moduli * size), left_out=left_out)
 
     def resized(self, random: np.random.Generator, errors: Array) -> Array:
         """Rescale the offsets of each sample to one size drawn at random, and move its shifts accordingly."""
@@ -116,41 +163,56 @@ class Offsets:
     """Estimated offsets of n isotherms."""
 
     covariance: Array  # (m, m), of the offsets of the quantities of one isotherm, decades²; the mean over `sizes`
-    # (m n,), mean of the offsets of log E', then of log E'', given the measurement and the shifts found; decades
+    # (m n,), mean of the offsets of log E', then of log E'', given the measurement and the shifts found, with those of
+    # the trend; decades
     expected: Array
     sizes: OffsetSizes
+    trend: Array  # probability of each of `TRENDS`
 
 
-def estimated(information: Array, score: Array, prior: Array, moduli: int = 2, *, tied: bool) -> Offsets:
+def estimated(
+    information: Array, score: Array, prior: Array, moduli: int = 2, *, tied: bool, trend: Array | None = None
+) -> Offsets:
     """Estimate the variance of the offsets of the m quantities (`moduli`, 1 or 2) of n isotherms."""
     # `information` (p + m n, p + m n) and `score` (p + m n,), half of the decrease of the objective, are those of p
     # free shifts, of the offsets of log E', and of those of log E'', in units of the scatter of the points, with the
     # curves refitted. `prior` (p, p) is information on the shifts apart from the points. `tied` makes offsets of E' and
     # E'' independent of each other, as they must be where vertical shifts are fitted, which absorb whatever the two
-    # have in common.
+    # have in common. `trend` (m n,) is what a vertical shift that may have been left out adds to the quantities.
     free = len(prior)
     size = (len(score) - free) // moduli
     if moduli == 1 and tied:  # part of the vertical shifts
-        return Offsets(np.zeros((1, 1)), np.zeros(size), OffsetSizes(np.zeros((1, 1)), np.ones(1)))
+        return Offsets(np.zeros((1, 1)), np.zeros(size), OffsetSizes(np.zeros((1, 1)), np.ones(1)), NO_TREND)
     turn = np.kron(TURNS[moduli], np.eye(size))
     gain = np.linalg.solve(information[:free, :free] + prior, information[:free, free:]).T
     left = turn @ (information[free:, free:] - gain @ information[:free, free:]) @ turn.T
     wish = turn @ (score[free:] - gain @ score[:free])
     if moduli == 1:
-        tried, before = SIZES[:, None], _equal(NONE)
-        likelihood = _likelihood_of_sums(left, wish)
+        tried, before, likelihood_of = SIZES[:, None], _equal(NONE), _likelihood_of_sums
     else:
         tried = np.stack(np.meshgrid(SIZES, SIZES, indexing="ij"), axis=-1).reshape(-1, 2)
         before = (np.diag(_equal(NONE_BESIDE_VERTICAL)) if tied else np.outer(BEFORE, BEFORE)).ravel()
-        likelihood = _likelihood(left, wish).ravel()
+        likelihood_of = _likelihood
+    common = np.zeros(moduli * size) if trend is None else trend
+    onto, reach = left @ turn @ common, turn @ common
+    # The likelihood is normal: its logarithm is a parabola of the part that the trend has, given by three of them.
+    less, none, more = (
+        likelihood_of(left, wish - part * onto) + reach @ (part * wish - 0.5 * part**2 * onto)
+        for part in (-1.0, 0.0, 1.0)
+    )
+    likelihood = none[:, None] + np.outer(0.5 * (more - less), TRENDS) + np.outer(0.5 * (more + less) - none, TRENDS**2)
+    before = np.outer(before, NO_TREND if trend is None else BEFORE_TREND)
     weight = before * np.exp(likelihood - likelihood.max())
     weight /= weight.sum()
+    found, weight = weight.sum(axis=0), weight.sum(axis=1)
     variances = weight @ tried**2
     deviations = np.repeat(np.sqrt(variances), size)
     beside = np.eye(moduli * size) + deviations[:, None] * (turn @ information[free:, free:] @ turn.T) * deviations
-    expected = deviations * np.linalg.solve(beside, deviations * (turn @ score[free:]))
+    rest = score[free:] - found @ TRENDS * (information[free:, free:] @ common)
+    expected = deviations * np.linalg.solve(beside, deviations * (turn @ rest))
     small = TURNS[moduli]
-    return Offsets(small.T @ np.diag(variances) @ small, turn.T @ expected, OffsetSizes(tried, weight))
+    expected = turn.T @ expected + found @ TRENDS * common
+    return Offsets(small.T @ np.diag(variances) @ small, expected, OffsetSizes(tried, weight), found)
 
 
 def _equal(none: float) -> Array:
@@ -168,7 +230,7 @@ def _likelihood_of_sums(left: Array, wish: Array) -> Array:
 
 
 def _likelihood(left: Array, wish: Array) -> Array:
-    """Return ln of the likelihood of sizes of sums (rows) and differences (columns) over that of none."""
+    """Return ln of the likelihood of sizes of sums and of differences, all pairs of them, over that of none."""
     size = len(wish) // 2
     variance = SIZES[:, None] ** 2
     known, modes = np.linalg.eigh(left[:size, :size])
@@ -181,4 +243,4 @@ def _likelihood(left: Array, wish: Array) -> Array:
     score = np.einsum("smk,sm->sk", modes, remaining)[:, None]
     found = variance * known[:, None]
     differences = 0.5 * np.sum(variance * score**2 / (1.0 + found) - np.log1p(found), axis=2)
-    return np.asarray(sums[:, None] + differences)
+    return np.asarray(sums[:, None] + differences).ravel()

@@ -22,6 +22,13 @@ class Gauge:
     vertical_weights: Array  # (n,), the same for log10 b
     held: Mapping[int, float]  # log10 α of isotherms by index
     free_vertical: bool = False  # whether vertical shifts are fitted
+    left_out: bool = False  # whether there may be vertical shifts that are neither fitted nor given
+
+    @property
+    def trend(self) -> Array | None:
+        """Log10 b (n,) in proportion to absolute temperature, zero at the reference, where b may have been left out."""
+        trend = -np.log10(self.inverse_temperatures)
+        return np.asarray(trend - self.weights @ trend) if self.left_out else None
 
     def free(self) -> tuple[Array, Array]:
         """Return shifts that meet the fixed ones, and an orthonormal basis of their possible changes."""
@@ -46,7 +53,9 @@ class Gauge:
         if weights.sum() < 1.0 - 1e-9:
             weights = np.eye(last - first)[0 if np.argmax(self.weights) < first else -1]
         held = {place - first: value for place, value in self.held.items()}
-        return Gauge(self.inverse_temperatures[inside], weights, self.vertical_weights[inside], held)
+        return Gauge(
+            self.inverse_temperatures[inside], weights, self.vertical_weights[inside], held, left_out=self.left_out
+        )
 
     def brought_to(self, shifts: Array) -> Array:
         """Return shifts corrected to meet the fixed ones, by a correction that is linear in 1/T between them."""

@@ -445,6 +445,9 @@ def _errors(random: np.random.Generator, fit: Fit, samples: int) -> tuple[Array,
     if fit.cross_covariance is not None and isinstance(vertical, VerticalShiftFactors):
         covariance = np.block([[covariance, fit.cross_covariance], [fit.cross_covariance.T, vertical.covariance]])
     count = len(covariance)
+    left_out = None if fit.offsets is None else fit.offsets.left_out
+    if left_out is not None:  # drawn apart, together with the levels that go with it
+        covariance = covariance - np.outer(left_out.errors[0], left_out.errors[0])
     if fit.offsets is not None:
         shared = fit.offsets.with_shifts[:count]
         covariance = np.block([[covariance, shared], [shared.T, np.kron(fit.offsets.covariance, np.eye(size))]])
@@ -454,6 +457,10 @@ def _errors(random: np.random.Generator, fit: Fit, samples: int) -> tuple[Array,
         errors = fit.offsets.resized(random.spawn(1)[0], errors)
         offsets = fit.offsets.of_moduli(errors[:, count:])
     moved = errors[:, :size]
+    if left_out is not None:
+        shift, level = left_out.errors
+        part = random.standard_normal((samples, 1))
+        moved, offsets = moved + part * shift, offsets + (part * level)[..., None]
     moved = moved - moved @ weights_between(shifts.temperatures, np.array([shifts.reference])).T
     return moved, errors[:, size:count] if count > size else None, offsets
 
