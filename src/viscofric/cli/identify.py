@@ -117,6 +117,9 @@ _shared_options = together(
         click.option(f"--{name.replace('_', '-')}", default=0.0, help=f"Relative standard error {words}.")
         for name, words in _SHARED.items()
     ),
+    quantity(
+        "--temperature-error", "DT", "Standard error of every temperature, each its own, e.g. '1 K'.", default="0 K"
+    ),
     heading="Errors that points have in common",
 )
 
@@ -193,7 +196,7 @@ def command(
     from viscofric.rheology.cards import native, write_card
 
     shape = chosen_indenter(parameters)
-    options = {name: parameters[name] for name in (*_SETTINGS, *_SHARED)}
+    options = {name: parameters[name] for name in (*_SETTINGS, *_SHARED, "temperature_error")}
     options |= _prior(parameters) | chosen_shift(parameters)
     if anchor is not None:
         options["anchor"] = make_anchor(parameters, anchor, shape.indenter.geometry.load_unit)
@@ -241,6 +244,7 @@ def _inputs(parameters: dict[str, Any], options: dict[str, Any], load_unit: str)
     anchor, band = options.get("anchor"), options.get("prior_band")
     return {
         **{name: parameters[name] for name in (*_SETTINGS, *_SHARED, "shift", "prior", "prior_error")},
+        "temperature_error": optional_si(parameters["temperature_error"], "delta_degC"),
         "load": optional_si(parameters["load"], load_unit),
         "reference": optional_si(parameters["reference"], "K"),
         "prior_band": None if band is None else list(band),

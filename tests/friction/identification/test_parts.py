@@ -333,7 +333,9 @@ def test_the_level_of_subtracted_friction_is_an_amount_and_other_errors_in_commo
         coulomb_error=np.zeros(8),
         coulomb_scatter=np.zeros(8),
     )
-    points = SharedErrors(common=0.02, coulomb_level=level).given_to(usable_points(curves, BALL, None, 1e-6), curves)
+    points = SharedErrors(common=0.02, coulomb_level=level).given_to(
+        usable_points(curves, BALL, None, 1e-6), curves, np.zeros(1)
+    )
     assert 0 < np.count_nonzero(points.logarithmic) < 8
     np.testing.assert_allclose(points.missed(np.log(friction), away)[0], 0.0, atol=1e-12)
     for common in (away, np.array([0.03, -40.0])):  # the latter leave less than nothing, as a fit may try
@@ -352,6 +354,18 @@ def test_an_assumed_error_of_either_sign_is_not_shared(senses: tuple[list[float]
     points = usable_points(assuming(curves, 1e-4, *senses), BALL, None, 1e-6)
     assert points.shared.shape == (8, 0)
     np.testing.assert_allclose(points.error, 0.02, rtol=1e-3)
+
+
+def test_an_error_of_temperature_is_one_of_friction_by_its_slope() -> None:
+    """By −0.4 (0.3 + 0.2 x), for 2 K and d ln α/dT = −0.2, where ln μ = 0.3 x + 0.1 x² of x = ln v."""
+    speed = np.tile(np.geomspace(0.02, 0.5, 7), 2)
+    x = np.log(speed)
+    curves = curves_of(speed, np.repeat([300.0, 310.0], 7), np.exp(0.3 * x + 0.1 * x**2), 1e-3, load=LOAD)
+    per_kelvin = Shifts(np.array([300.0, 310.0]), 300.0, np.array([0.0, -2.0]), np.eye(2), True).per_kelvin
+    points = SharedErrors(temperature=2.0).given_to(usable_points(curves, BALL, None, 1e-6), curves, per_kelvin)
+    moved = -0.4 * (0.3 + 0.2 * x)
+    cold = np.repeat([True, False], 7)
+    np.testing.assert_allclose(points.shared.T, [np.where(cold, moved, 0.0), np.where(cold, 0.0, moved)], atol=1e-9)
 
 
 def test_found_shifts_are_expected_where_the_curves_overlap() -> None:

@@ -41,8 +41,9 @@ from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 #: What to do where errors are shared.
 SHARED = Remedy(
-    "; give the shared part as common_error, level_error, drift_error or coulomb_level_error.",
-    "; give the shared part as --common-error, --level-error, --drift-error or --coulomb-level-error.",
+    "; give the shared part as common_error, level_error, drift_error, coulomb_level_error or temperature_error.",
+    "; give the shared part as --common-error, --level-error, --drift-error, --coulomb-level-error or "
+    "--temperature-error.",
     page="; viscofric identify has options for the shared part.",
 )
 #: Residuals this many times as large as the errors, and larger than the limit of identification, indicate a model that

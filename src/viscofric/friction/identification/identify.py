@@ -30,7 +30,7 @@ from viscofric.processes import Workers
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, checked_poisson_ratio, positive, share, shown_celsius
+from viscofric.units import Quantity, checked_poisson_ratio, positive, share, shown_celsius, to_si
 
 #: Usual error of solved contacts, as a part of the requested accuracy.
 SOLVED_ERROR = 0.25
@@ -43,6 +43,8 @@ LEAST_SLOPE = 0.05
 #: about it where nothing is known: for a ball, slopes from 0.06 to 0.4 are within two standard deviations.
 GUESSED_SLOPE = 0.15
 GUESSED_SPREAD = 1.5
+#: Largest relative errors in common: their effect is taken to first order.
+LARGEST_SHARED = 0.2
 
 
 @one_blas_thread
@@ -60,6 +62,7 @@ def identify_material(
     common_error: Quantity = 0.0,
     drift_error: Quantity = 0.0,
     coulomb_level_error: Quantity = 0.0,
+    temperature_error: Quantity = 0.0,
     reference: Quantity | None = None,
     poisson_ratio: Quantity = 0.5,
     modes: int = 30,
@@ -104,6 +107,8 @@ def identify_material(
     coulomb_level_error : float or str
         Relative standard error, shared by all points, of the Coulomb friction of the curves, which was subtracted.
         Without it, the standard error of one that `separate` was told to assume.
+    temperature_error : float, str or pint.Quantity
+        Standard error of every temperature of the rubber in the contact, K, another one at each temperature.
     reference : float, str or pint.Quantity, optional
         Temperature at which the material is described, K if a plain number; without it, that of `shift`, or of the
         shift factors that are found.
@@ -200,6 +205,7 @@ def identify_material(
         common=shared_error(common_error, "common_error"),
         drift=shared_error(drift_error, "drift_error"),
         coulomb_level=shared_error(coulomb_level_error, "coulomb_level_error"),
+        temperature=deviation(temperature_error, "delta_degC", "temperature_error"),
     )
     levels = _checked_levels(levels)
     text(name, "name")
@@ -210,7 +216,8 @@ def identify_material(
     kelvin = None if reference is None else positive(reference, "K", "reference")
     points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
     points = replace(
-        errors.given_to(points, curves), notes=(*points.notes, *synthetic_notes(curves.source, shift, prior))
+        errors.given_to(points, curves, shifts.per_kelvin),
+        notes=(*points.notes, *synthetic_notes(curves.source, shift, prior)),
     )
     shifts = as_shared_errors_allow(points, shifts)
     moduli = [ModulusObservation.of(one) for one in anchors if isinstance(one, ModulusAnchor)]
@@ -249,6 +256,16 @@ def _checked_levels(levels: Sequence[float]) -> tuple[float, ...]:
             "levels", levels, "must be factors of the modulus, such as (0.5, 1.0, 2.0).", "not-a-number"
         )
     return tuple(positive(one, "dimensionless", "levels") for one in levels)
+
+
+def deviation(value: Quantity, unit: str, name: str) -> float:
+    """Return a standard deviation, zero or above."""
+    found = to_si(value, unit, name)
+    if found < 0.0 or (unit == "dimensionless" and found > LARGEST_SHARED):
+        most = f" to {LARGEST_SHARED:g}" if unit == "dimensionless" else " on"
+        words = f"must be a standard deviation from 0{most}."
+        raise wrong_argument(name, value, words, "out-of-range", name)
+    return float(found)
 
 
 def check_counts(modes: int, samples: int, seed: int) -> None:

@@ -12,6 +12,7 @@ from viscofric.contact.indenters.height_map import HeightMap, Profile
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
 from viscofric.friction.curve_checks import (
+    PARABOLA,
     Decades,
     error_freedom,
     scatter_about_parabolas,
@@ -219,15 +220,19 @@ def _without(curves: FrictionCurves, shared: Array) -> FrictionCurves:
 
 
 class SharedErrors(NamedTuple):
-    """Relative standard errors of friction that points have in common; see `identify_material`."""
+    """Relative standard errors of friction that points have in common, and that of temperature, K."""
 
     level: float = 0.0
     common: float = 0.0
     drift: float = 0.0
     coulomb_level: float = 0.0
+    temperature: float = 0.0
 
-    def given_to(self, points: Points, curves: FrictionCurves) -> Points:
-        """Return points of these curves with the errors, each independent one a column of `Points.shared`."""
+    def given_to(self, points: Points, curves: FrictionCurves, per_kelvin: Array) -> Points:
+        """Return points of these curves with the errors, each independent one a column of `Points.shared`.
+
+        `per_kelvin` (t,) is d ln α/dT at the temperatures of the points.
+        """
         measured = curves.select(points.rows)
         found = []
         if self.common > 0.0:
@@ -237,6 +242,10 @@ class SharedErrors(NamedTuple):
             found.append(self.drift * (decades - 0.5 * (decades.min() + decades.max())))
         if self.level > 0.0:
             found += [np.where(points.number == one, self.level, 0.0) for one in np.unique(points.number)]
+        if self.temperature > 0.0:
+            # Another temperature moves the curve along ln v, so that friction changes by its slope.
+            slope = self.temperature * per_kelvin[points.number] * _slopes(points)
+            found += [np.where(points.number == one, slope, 0.0) for one in np.unique(points.number)]
         absolute = [False] * len(found)
         if self.coulomb_level > 0.0:
             if measured.coulomb is None:
@@ -249,3 +258,14 @@ class SharedErrors(NamedTuple):
             found.append(self.coulomb_level * measured.coulomb / size)
             absolute.append(True)
         return points.with_shared(np.array(found).reshape(-1, len(points)).T, np.array(absolute, dtype=bool))
+
+
+def _slopes(points: Points) -> Array:
+    """Return d ln μ/d ln v of the points (n,), from the parabola through those of their temperature."""
+    found = np.zeros(len(points))
+    for one in np.unique(points.number):
+        rows = points.number == one
+        speed = points.log_speed[rows] - points.log_speed[rows].mean()
+        order = min(PARABOLA, np.unique(speed).size) - 1
+        found[rows] = np.polyval(np.polyder(np.polyfit(speed, points.log_scale[rows], order)), speed)
+    return found

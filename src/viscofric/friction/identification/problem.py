@@ -85,6 +85,11 @@ class Shifts:
         covariance = np.linalg.inv(self.whitening.T @ self.whitening) + np.diag(log_alpha_error**2)
         return replace(self, whitening=_whitening(np.asarray(covariance, dtype=np.float64)))
 
+    @property
+    def per_kelvin(self) -> Array:
+        """Expected d ln α/dT at the temperatures (t,); zero for one temperature, of which it is not known."""
+        return np.asarray(np.gradient(self.middle, self.temperatures)) if len(self.middle) > 1 else np.zeros(1)
+
     def row(self, temperature: float) -> Array:
         """Return the weights (t,) in ln α at a temperature, linear in 1/T; InputError clearly outside their range."""
         low, high = self.temperatures[0], self.temperatures[-1]

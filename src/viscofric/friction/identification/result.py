@@ -341,10 +341,12 @@ class IdentifiedMaterial(Identified):
     def _shift_words(self) -> tuple[str, ...]:
         if not self.shift_found or not isinstance(self.shift_factors, ShiftFactors):
             return ()
-        largest = float(self.shift_factors.standard_errors.max())
+        factors = self.shift_factors
+        largest = float(factors.standard_errors.max())
+        steepest = float(np.abs(np.gradient(factors.log10_values, factors.temperatures)).max())
         sentence = (
-            f"α(T) was found from the friction at {len(self.shift_factors.temperatures)} temperatures, each factor to "
-            f"{largest:.2g} decades or better."
+            f"α(T) was found from the friction at {len(factors.temperatures)} temperatures, each factor to "
+            f"{largest:.2g} decades or better; 1 K of temperature (temperature_error) is up to {steepest:.2g} decades."
         )
         return (sentence,)
 

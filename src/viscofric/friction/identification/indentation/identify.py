@@ -11,8 +11,8 @@ from viscofric.arguments import insist_on, text
 from viscofric.arrays import Array
 from viscofric.contact.bodies import indenter_compliance
 from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
-from viscofric.errors import InputError, wrong_argument
-from viscofric.friction.identification.identify import check_counts
+from viscofric.errors import InputError
+from viscofric.friction.identification.identify import check_counts, deviation
 from viscofric.friction.identification.indentation.conclusions import conclude
 from viscofric.friction.identification.indentation.contact import Shared
 from viscofric.friction.identification.indentation.problem import IndentationProblem, fitted_by_springs
@@ -23,14 +23,12 @@ from viscofric.friction.identification.posterior import descend
 from viscofric.motion.springs import is_body_of_revolution
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, checked_poisson_ratio, positive, share, to_si
+from viscofric.units import Quantity, checked_poisson_ratio, positive, share
 
 #: Errors are estimated again from the residuals while they change by more than this, up to this many times.
 SETTLED, PASSES = 0.05, 4
 #: Smallest relative error of a response, from discretisation in time.
 LEAST_ERROR = 1e-4
-#: Largest relative errors in common: their effect is taken to first order.
-LARGEST_SHARED = 0.2
 
 
 @one_blas_thread
@@ -140,9 +138,9 @@ def identify_from_indentation(
     """
     several = _checked(records, indenter, shift)
     shared = Shared(
-        _deviation(radius_error, "dimensionless", "radius_error"),
-        _deviation(load_error, "dimensionless", "load_error"),
-        _deviation(zero_error, "m", "zero_error"),
+        deviation(radius_error, "dimensionless", "radius_error"),
+        deviation(load_error, "dimensionless", "load_error"),
+        deviation(zero_error, "m", "zero_error"),
     )
     ratio = checked_poisson_ratio(poisson_ratio)
     check_counts(modes, samples, seed)
@@ -158,16 +156,6 @@ def identify_from_indentation(
     return conclude(
         usable, fits, scale, shift=shift, poisson_ratio=ratio, name=name, limit=limit, samples=samples, seed=seed
     )
-
-
-def _deviation(value: Quantity, unit: str, name: str) -> float:
-    """Return a standard deviation, zero or above."""
-    found = to_si(value, unit, name)
-    if found < 0.0 or (unit == "dimensionless" and found > LARGEST_SHARED):
-        most = f" to {LARGEST_SHARED:g}" if unit == "dimensionless" else " on"
-        words = f"must be a standard deviation from 0{most}."
-        raise wrong_argument(name, value, words, "out-of-range", name)
-    return float(found)
 
 
 def _checked(records: object, indenter: object, shift: object) -> tuple[Record, ...]:
