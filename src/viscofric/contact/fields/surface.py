@@ -225,8 +225,8 @@ def _influence(modes: _Modes, shape: tuple[int, ...], cell: CellPotential) -> Ar
     """Influence of the unit cell at offsets −(nx−1) … nx−1 and 0 … ny−1."""
     nx, ny = shape
     instant = np.array([modes.glassy])
-    (half,) = memory_influence((nx, ny), modes.compliances[None], modes.lengths, instant=instant, potential=cell)
-    return half
+    found = memory_influence((nx, ny), modes.compliances[None], modes.lengths, instant=instant, potential=cell)
+    return np.asarray(found[0])
 
 
 def _line_influence(modes: _Modes, cells: int) -> Array:
