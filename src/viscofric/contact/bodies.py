@@ -43,29 +43,25 @@ References
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import flag, real
+from viscofric.arrays import Array, ComplexArray
 from viscofric.errors import InputError, brief, wrong_argument
 from viscofric.notes import Note
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 from viscofric.thermal import FILLED_RUBBER
 from viscofric.units import Quantity, checked_poisson_ratio, in_si, number, plain, positive
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, ComplexArray
+if TYPE_CHECKING:  # what the command's help has no need of
     from viscofric.contact.free.grids import Extent
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.showing import Rows
-
 
 MOST_COULOMB = 10.0  # largest friction coefficient that is accepted
 LARGE_COMPRESSION = 0.3  # indentation over thickness beyond which small strain is doubtful

@@ -25,13 +25,12 @@ import functools
 import math
 import operator as operator_module
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.contact.arrays.backend import AnyArray, Backend, Cells
-    from viscofric.contact.extension import Extension
+from viscofric.contact.arrays.backend import AnyArray, Backend, Cells
+from viscofric.contact.extension import Extension
 
 # Reduction of a linear residual while more than the given part of the contact's cells is wrongly classified.
 _REDUCTIONS = ((0.02, 0.3), (0.0003, 0.1), (1e-5, 1e-2), (0.0, 1e-4))

@@ -16,23 +16,19 @@ is reversed.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.bodies import half_space_coupling
-from viscofric.contact.periodic.surface import hermitian_factor, wave_number
+from viscofric.contact.bodies import Layer, half_space_coupling
+from viscofric.contact.periodic.surface import PeriodicSurface, hermitian_factor, wave_number
 from viscofric.notes import Note, Remedy
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from viscofric.contact.bodies import Layer
-    from viscofric.contact.periodic.surface import PeriodicSurface
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-
 
 #: Largest acceptable change, over viscoelastic friction.
 LARGEST = 0.05

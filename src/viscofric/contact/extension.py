@@ -28,18 +28,13 @@ from __future__ import annotations
 import functools
 import math
 import operator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
-from viscofric.contact.arrays.backend import Cells, MaskedCells
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.contact.arrays.backend import AnyArray, Backend
-
+from viscofric.arrays import Array
+from viscofric.contact.arrays.backend import AnyArray, Backend, Cells, MaskedCells
 
 #: Cells along an edge of a block at most.
 BLOCK = 8

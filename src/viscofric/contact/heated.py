@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -10,25 +11,21 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from viscofric.arguments import insist_on
+from viscofric.arrays import Array
 from viscofric.contact.coupling import ShearedContact, coupling_notes, sheared_compliance
+from viscofric.contact.fields.dissipation import Modes
 from viscofric.contact.heated_result import INTERFACE, SHIFT, Heat, Warmed, beyond, described, ends
 from viscofric.errors import InputError
-from viscofric.heat.branches import LEFT, HeatCurve, outermost, settled
+from viscofric.heat.branches import LEFT, HeatCurve, State, outermost, settled
 from viscofric.heat.heating import Heating, ThermalResistances
 from viscofric.heat.interface import END, SlidingInterface, last_known
+from viscofric.heat.result import ContactHeating
+from viscofric.notes import Note
 from viscofric.threads import one_blas_thread
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-    from viscofric.contact.fields.dissipation import Modes
-    from viscofric.heat.branches import State
-    from viscofric.heat.result import ContactHeating
-    from viscofric.notes import Note
     from viscofric.rheology.interface.law import InterfaceLaw
     from viscofric.rheology.material import Material
-
 
 #: Of the contacts among which states are looked for.
 LOOSE = 2e-2

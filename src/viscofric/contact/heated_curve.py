@@ -9,30 +9,22 @@ speeds, the knots, which are solved before the others; of these numbers are enou
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 from functools import cache, cached_property, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscofric.contact.heated import LOOSE, States, enough, sought
+from viscofric.arrays import Array
+from viscofric.contact.heated import LOOSE, States, ThermalContact, enough, sought
 from viscofric.contact.heated_knots import Between, Knot, knots_of
-from viscofric.contact.heated_result import Heat, beyond
-from viscofric.heat.branches import HeatCurve, outermost, settling
+from viscofric.contact.heated_result import Heat, Warmed, beyond
+from viscofric.heat.branches import HeatCurve, State, outermost, settling
+from viscofric.heat.heating import ThermalResistances
 from viscofric.heat.result import OF_CONTACT
-from viscofric.processes import call_all
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.heated import ThermalContact
-    from viscofric.contact.heated_result import Warmed
-    from viscofric.heat.branches import State
-    from viscofric.heat.heating import ThermalResistances
-    from viscofric.notes import Note
-    from viscofric.processes import Workers
-
+from viscofric.notes import Note
+from viscofric.processes import Workers, call_all
 
 #: Rises per decade of α at which states are looked for, and speeds per decade below the slowest one.
 _FINE, _BELOW = 40.0, 2.5

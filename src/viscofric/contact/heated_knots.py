@@ -8,18 +8,15 @@ expected.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.heated import ThermalContact
+from viscofric.contact.heated_result import Heat
 from viscofric.heat.heating import ThermalResistances
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.heated import ThermalContact
-    from viscofric.contact.heated_result import Heat
 
 #: By how much log10 α may differ between the states of two knots for others in between.
 _SHIFTED = 0.4

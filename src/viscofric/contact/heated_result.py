@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from viscofric.errors import InputError
-from viscofric.heat.heating import HeatBalance
+from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
 from viscofric.heat.result import ContactHeating
 from viscofric.notes import Note, Remedy
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from viscofric.heat.heating import Heating, ThermalResistances
-
 
 #: What gives friction at the temperature where the loss is released.
 AT_THE_LOSS = Remedy(

@@ -3,29 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 import scipy.fft
 
-from viscofric.arrays import convolved
-from viscofric.contact.fields.dissipation import dissipation
+from viscofric.arrays import Array, Indices, convolved
+from viscofric.contact.fields.dissipation import Dissipation, Modes, dissipation
 from viscofric.contact.heated import ThermalContact
 from viscofric.contact.heated_result import Heat
-from viscofric.heat.heating import HeatBalance, ThermalResistances
+from viscofric.contact.solution import ContactSolution
+from viscofric.heat.heating import HeatBalance, Heating, ThermalResistances
 from viscofric.heat.influence import Diffusion
 from viscofric.heat.means import disc_mean, strip_mean
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array, Indices
-    from viscofric.contact.fields.dissipation import Dissipation, Modes
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.heat.heating import Heating
-    from viscofric.thermal import ThermalProperties
-
+from viscofric.thermal import ThermalProperties
 
 #: Cells along the contact, and room behind, ahead of and beside it, in half lengths of the contact.
 _CELLS, _MAPPED = 18, 40

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, TypedDict
+from typing import TypedDict
 
 from viscofric.arguments import whole_number
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import Layer, checked_coulomb, half_space_coupling, indenter_compliance, unit_direction
 from viscofric.errors import InputError, brief, wrong_argument
-from viscofric.units import checked_poisson_ratio, number
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, checked_poisson_ratio, number
 
 LEAST_FINEST = 128  # three grids, so that the friction has an error estimate
 TIGHTEST, USUAL = 1e-13, 1e-8  # of the solver's tolerance

@@ -6,17 +6,16 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+from viscofric.arrays import Array
+from viscofric.contact.derivatives.friction import FrictionDerivatives
 from viscofric.datasets import dataset
+from viscofric.heat.result import ContactHeating
 from viscofric.notes import Warned
-from viscofric.showing import Plotted, Shown
+from viscofric.showing import Plotted, Rows, Shown
 
 if TYPE_CHECKING:
     import xarray
 
-    from viscofric.arrays import Array
-    from viscofric.contact.derivatives.friction import FrictionDerivatives
-    from viscofric.heat.result import ContactHeating
-    from viscofric.showing import Rows
 
 #: Unit and long name of a number.
 Meaning: TypeAlias = tuple[str, str]

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import functools
 import math
+from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from viscofric.arguments import exactly_one, flag
+from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import Layer, contact_notes, half_space_coupling
-from viscofric.contact.derivatives.friction import differentiate
+from viscofric.contact.derivatives.friction import FrictionDerivatives, differentiate
 from viscofric.contact.free.assembly import assemble
 from viscofric.contact.free.estimates import friction_estimate
+from viscofric.contact.free.grids import Extent
 from viscofric.contact.free.nested import GivenGrid, find_window, refine
 from viscofric.contact.free.problem import COARSEST, Control, Problem
 from viscofric.contact.free.scale import Scale, ScaledIndenter
+from viscofric.contact.free.stage import Stage
 from viscofric.contact.heated import insist_on_heatable, solve_heated
 from viscofric.contact.heating import FreeThermalContact
 from viscofric.contact.indenters.indenter import (
@@ -28,25 +32,15 @@ from viscofric.contact.indenters.indenter import (
 from viscofric.contact.operators.convolution import SteadyMaterial
 from viscofric.contact.operators.layer import ScaledLayer
 from viscofric.contact.settings import ContactSettings
+from viscofric.contact.solution import ContactSolution
 from viscofric.errors import InputError, brief
 from viscofric.heat.heating import Heating
-from viscofric.notes import Remedy
+from viscofric.notes import Note, Remedy
 from viscofric.rheology.material import Material, insist_on_material
+from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, positive, to_si, velocity
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.contact.arrays.backend import Backend
-    from viscofric.contact.derivatives.friction import FrictionDerivatives
-    from viscofric.contact.free.grids import Extent
-    from viscofric.contact.free.stage import Stage
-    from viscofric.contact.solution import ContactSolution
-    from viscofric.notes import Note
-    from viscofric.rheology.spectra.modulus_table import ModulusTable
-
 
 __all__ = ["SMALL_STRAIN", "solve_steady"]
 

@@ -18,13 +18,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from viscofric.arrays import Array, gauss
+from viscofric.heat.heating import Heating
 from viscofric.heat.means import pair_density
+from viscofric.thermal import ThermalProperties
 
 if TYPE_CHECKING:
     from scipy.interpolate import RectBivariateSpline
-
-    from viscofric.heat.heating import Heating
-    from viscofric.thermal import ThermalProperties
 
 
 #: κt/a² below which nothing has spread, and above which M is a normal distribution; sizes of the table between.

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
-from viscofric.motion.chains import Pair
+from viscofric.motion.chains import Pair, Reached, Track
+from viscofric.motion.free.stored import Basis, Level
+from viscofric.motion.history import History
 from viscofric.motion.memory import Modes
+from viscofric.motion.mover import Mover, Problem
 from viscofric.motion.normal import NormalMotion, SpringState
 from viscofric.motion.springs import both_sides, profile
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.motion.chains import Reached, Track
-    from viscofric.motion.free.stored import Basis, Level
-    from viscofric.motion.history import History
-    from viscofric.motion.mover import Mover, Problem
 
 # Relative difference that is rounding: of values, and of modes that may have been fitted on another machine.
 _ROUNDING, _FITTED = 1e-9, 1e-6

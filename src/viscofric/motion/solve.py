@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import scipy.fft
 
 from viscofric.arguments import insist_on, insist_on_function
+from viscofric.arrays import Array
 from viscofric.contact.bodies import (
     Layer,
     checked_coulomb,
@@ -27,27 +29,20 @@ from viscofric.contact.periodic.solve import beyond_measured, too_fast
 from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation, losses
 from viscofric.errors import InputError, wrong_argument
+from viscofric.heat.heating import Heating
+from viscofric.motion.chains import Moment, Track
+from viscofric.motion.free.stored import Level
 from viscofric.motion.history import History
 from viscofric.motion.march import march
-from viscofric.motion.mover import Problem
+from viscofric.motion.mover import Mover, Problem
 from viscofric.motion.restart import Restart
+from viscofric.motion.schedule import Schedule
 from viscofric.motion.shear import with_coulomb
 from viscofric.motion.solution import TransientErrors, TransientSolution
 from viscofric.notes import Note
 from viscofric.rheology.material import Material, insist_on_material
 from viscofric.threads import one_blas_thread
-from viscofric.units import Quantity, number, plain, to_si_array
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.heat.heating import Heating
-    from viscofric.motion.chains import Moment, Track
-    from viscofric.motion.free.stored import Level
-    from viscofric.motion.mover import Mover
-    from viscofric.motion.schedule import Schedule
-    from viscofric.units import Quantities
+from viscofric.units import Quantities, Quantity, number, plain, to_si_array
 
 TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
 _ROUNDING = 1e-12  # of times, relative to an end of the history

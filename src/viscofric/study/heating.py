@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.heated_result import AT_THE_LOSS, THIN
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
@@ -15,18 +16,15 @@ from viscofric.friction.cases.record import Failure, HistoryRecord
 from viscofric.friction.cases.solving import Task
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.notes import Note
+from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.study.cases.heating import COLUMNS, solve_heated, solve_temperature_map
 from viscofric.study.cases.singles import Singles
+from viscofric.study.cases.sweep import Sweep
 from viscofric.study.results.tree import coordinate, coordinates_of
+from viscofric.study.run_file.heating import HeatingTable
+from viscofric.study.run_file.study import Study
 from viscofric.thermal import BODIES, ThermalProperties
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.rheology.interface.law import InterfaceLaw
-    from viscofric.study.cases.sweep import Sweep
-    from viscofric.study.run_file.heating import HeatingTable
-    from viscofric.study.run_file.study import Study
 
 NO_LAW = Note(
     "no-heating", "Contacts were not heated, as the law of the interface, whose friction would heat them, is not known."

@@ -3,33 +3,31 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.indenters.shapes import Ball
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.agreement import compare
+from viscofric.friction.cases.record import Record
 from viscofric.friction.curve_files import read_friction_curves
+from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.tribometry import separate
+from viscofric.friction.shifting.master_curve import FrictionMasterCurve
 from viscofric.friction.shifting.shift import common_reference, shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
 from viscofric.notes import Note, note_of
 from viscofric.readers.mtm.read import read_mtm
+from viscofric.rheology.material import Material
 from viscofric.study.results.tree import as_measured, measurement_data
+from viscofric.study.run_file.measurement import MeasurementTable
+from viscofric.study.study_rubber import FrictionBands
+from viscofric.traction import TractionRuns
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.indenters.shapes import Ball
-    from viscofric.friction.cases.record import Record
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.friction.shifting.master_curve import FrictionMasterCurve
-    from viscofric.rheology.material import Material
-    from viscofric.study.run_file.measurement import MeasurementTable
-    from viscofric.study.study_rubber import FrictionBands
-    from viscofric.traction import TractionRuns
-
-    Groups = dict[str, Dataset]
+Groups = dict[str, Dataset]
 
 
 def read_measurement(table: MeasurementTable) -> FrictionCurves:

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import importlib
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viscofric.arguments import whole_number
 from viscofric.contact.arrays.transforms import DuccTransforms, ScipyTransforms, Transforms
@@ -22,13 +24,9 @@ from viscofric.errors import InputError, not_imported, wrong_argument
 from viscofric.showing import Shown
 from viscofric.threads import THREADS, in_parts, usable_threads
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
+#: An array of whichever library the backend has.
+AnyArray: TypeAlias = Any
 
-    from numpy.typing import NDArray
-
-    #: An array of whichever library the backend has.
-    AnyArray: TypeAlias = Any
 
 Result = TypeVar("Result")
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viscofric.threads import threads_for
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+AnyArray: TypeAlias = NDArray[Any]
 
-    AnyArray: TypeAlias = NDArray[Any]
 
 Shape: TypeAlias = tuple[int, int]
 

@@ -23,24 +23,19 @@ Everything here is in the units of the problem.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
+from viscofric.arrays import Array, Mask
 from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.free.balance import free_gap, neighbours
 from viscofric.contact.free.estimates import Way, friction_way
+from viscofric.contact.free.stage import Stage
 from viscofric.contact.influence.moments import correlation, memory_moments
-from viscofric.contact.operators.convolution import bent_share, both_halves, is_even, upper_half
+from viscofric.contact.operators.convolution import ConvolutionOperator, bent_share, both_halves, is_even, upper_half
 from viscofric.errors import ConvergenceError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.contact.free.stage import Stage
-    from viscofric.contact.operators.convolution import ConvolutionOperator
-
 
 # Residual of the adjoint problem, relative to its right-hand side, and how often it is computed again.
 _TOLERANCE = 1e-8

@@ -8,21 +8,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.derivatives.adjoint import differentiated
+from viscofric.arrays import Array
+from viscofric.contact.derivatives.adjoint import Gradient, differentiated
 from viscofric.contact.derivatives.moving_cells import Motion, friction_gradient
+from viscofric.contact.free.estimates import Way
+from viscofric.contact.free.scale import Scale
+from viscofric.contact.free.stage import Stage
 from viscofric.datasets import dataset
-from viscofric.showing import Plotted
+from viscofric.showing import Plotted, Rows
 
 if TYPE_CHECKING:
     import xarray
 
-    from viscofric.arrays import Array
-    from viscofric.contact.derivatives.adjoint import Gradient
-    from viscofric.contact.free.estimates import Way
-    from viscofric.contact.free.scale import Scale
-    from viscofric.contact.free.stage import Stage
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
-    from viscofric.showing import Rows
 
 
 # Error as parts of the changes from grid to grid, and of the change by moving cells: with these, all of 111 random

@@ -18,18 +18,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.derivatives.adjoint import friction_adjoint, mean_gradients
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.derivatives.adjoint import Gradient
-    from viscofric.contact.free.estimates import Way
-    from viscofric.contact.free.stage import Stage
-
+from viscofric.arrays import Array
+from viscofric.contact.derivatives.adjoint import Gradient, friction_adjoint, mean_gradients
+from viscofric.contact.free.estimates import Way
+from viscofric.contact.free.stage import Stage
 
 # Part of itself, or of a cell, by which the grid is stretched and shifted: rounding and curvature both cost 1e-5.
 _STEP = 1e-5

@@ -12,17 +12,14 @@ stress is linear between two cells.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import scipy.fft
 
-from viscofric.arrays import gauss, non_negative_fit
+from viscofric.arrays import Array, gauss, non_negative_fit
 from viscofric.contact.fields.stress import rectangle_corners, strip_ends
 from viscofric.contact.fields.subsurface import line_stress, stress_layer
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
 
 #: Depths in contact radii: Gauss's rule for ζ in z = ζ/(1 − ζ).
 _DEPTHS = 6

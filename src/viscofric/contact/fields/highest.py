@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from viscofric.arrays import Array
 from viscofric.contact.fields.stress import pressure_on, spacing
 from viscofric.contact.fields.subsurface import line_stress, stress_layer
 from viscofric.datasets import dataset
@@ -15,9 +17,6 @@ from viscofric.units import in_si
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
 
 
 # Depths at which the highest stress is first looked for, in radii of a circle of the contact's area.

@@ -12,20 +12,15 @@ all depths a wave loses 2(1−ν²)/q (q·v) Im S |p|², the work of friction.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.fft
+from numpy.typing import NDArray
 
-from viscofric.heat.layers import LayeredHeat
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.contact.fields.dissipation import Modes
-    from viscofric.heat.layers import Waves
-
+from viscofric.arrays import Array, ComplexArray
+from viscofric.contact.fields.dissipation import Modes
+from viscofric.heat.layers import LayeredHeat, Waves
 
 #: Waves of pressure that are so much smaller than the largest one are none.
 _ROUNDING = 1e-12

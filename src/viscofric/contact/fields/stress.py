@@ -6,16 +6,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from viscofric.arrays import Array
 from viscofric.datasets import dataset
 from viscofric.errors import InputError, brief
 from viscofric.units import in_si
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,22 +6,16 @@ they do not depend on the modulus, hence (by the correspondence principle) not o
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 import scipy.fft
+from numpy.typing import ArrayLike
 
+from viscofric.arrays import Array
 from viscofric.contact.fields.stress import Stress, on_cells, pressure_on, rectangle_corners, spacing, strip_ends
 from viscofric.errors import InputError
 from viscofric.units import checked_poisson_ratio, in_si, positive, to_si, to_si_array
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-
 
 # Sign of xx, yy, zz, yz, xz, xy on the other side of the loaded cell, along x and along y.
 _PARITY_X = np.array([1.0, 1.0, 1.0, 1.0, -1.0, -1.0])

@@ -7,25 +7,22 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import insist_on
-from viscofric.arrays import convolved
+from viscofric.arrays import Array, Mask, convolved
 from viscofric.contact.bodies import Layer
 from viscofric.contact.fields.stress import on_cells, spacing
 from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
 from viscofric.contact.influence.line import line_memory_influence, strip_potential
 from viscofric.contact.influence.mixtures import memory_influence
-from viscofric.contact.influence.potentials import HalfSpaceCell
+from viscofric.contact.influence.potentials import CellPotential, HalfSpaceCell
 from viscofric.datasets import dataset
 from viscofric.errors import InputError
 from viscofric.units import checked_modes, checked_poisson_ratio, in_si, positive, to_si, velocity
 
 if TYPE_CHECKING:
     import xarray
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.contact.influence.potentials import CellPotential
 
 
 #: Most cells of the window.

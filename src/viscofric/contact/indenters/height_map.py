@@ -8,20 +8,19 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from viscofric.arrays import Array, Indices
 from viscofric.contact.free.geometry import LINE, Geometry
+from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import Indenter, too_steep
 from viscofric.errors import InputError
 from viscofric.notes import Note, Remedy
+from viscofric.showing import Rows
 from viscofric.units import Quantity, in_si, positive, two_lengths
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
     from scipy.interpolate import PPoly, RectBivariateSpline
-
-    from viscofric.arrays import Array, Indices
-    from viscofric.contact.free.grids import Extent
-    from viscofric.showing import Rows
 
 
 _FEWEST = 4  # points that a cubic spline needs

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
+from viscofric.arrays import Array
 from viscofric.contact.free.geometry import POINT, Geometry
+from viscofric.contact.free.grids import Extent
 from viscofric.errors import InputError, wrong_argument
 from viscofric.notes import Note, Remedy
 from viscofric.showing import Shown
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.free.grids import Extent
-
 
 #: Work of adhesion of clean rubber on hard, smooth bodies where it is not known, J/m²; dry rubber on itself has 0.07
 #: (K. L. Johnson, K. Kendall, A. D. Roberts, Proc. R. Soc. A 324 (1971) 301).

@@ -5,21 +5,18 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.free.geometry import LINE, Geometry
+from viscofric.contact.free.grids import Extent
 from viscofric.contact.indenters.indenter import SMALL_STRAIN, Indenter, too_steep
 from viscofric.errors import InputError
 from viscofric.notes import Note
+from viscofric.showing import Rows
 from viscofric.units import Quantity, positive
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.free.grids import Extent
-    from viscofric.showing import Rows
-
 
 #: Slope of representative contacts: so low that none is wider than its indenter.
 LOW_SLOPE = 0.01

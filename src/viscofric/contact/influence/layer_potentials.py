@@ -22,13 +22,14 @@ contact has a far field.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
-from viscofric.arrays import gauss
+from viscofric.arrays import Array, Indices, gauss
 from viscofric.contact.bodies import Layer, half_space_coupling
 from viscofric.contact.influence.line import strip_potential, strip_shear
 from viscofric.contact.influence.potentials import (
@@ -36,12 +37,6 @@ from viscofric.contact.influence.potentials import (
     shear_potential,
     shear_potential_slope,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array, Indices
-
 
 #: Thinnest layer, in cells.  Of a thinner one the cells' own edges would be felt more than the contact.
 THINNEST = 0.25

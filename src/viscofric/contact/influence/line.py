@@ -15,18 +15,15 @@ Under a shear stress of μ times the pressure along x, −ln|x| has μ β (π/2)
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 from scipy.special import exp1, expi
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array
-
+from viscofric.arrays import Array
 
 # From here on twenty terms of the asymptotic series of b F(b) in 1/b (DLMF 6.12.1) are right to the last digit.
 _ASYMPTOTIC = 50.0

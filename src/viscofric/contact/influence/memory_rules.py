@@ -9,19 +9,16 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import eval_legendre
 
-from viscofric.arrays import gauss, lagrange
+from viscofric.arrays import Array, Indices, gauss, lagrange
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+Inexact: TypeAlias = NDArray[Any]  # rates and what follows from them: real or complex
 
-    from viscofric.arrays import Array, Indices
-
-    Inexact: TypeAlias = NDArray[Any]  # rates and what follows from them: real or complex
 
 #: Points of the rule on each panel.
 ORDER = 16

@@ -20,11 +20,10 @@ to cell by K(x) = ∫_0^1 ε e^(−ε s) L(x + s) ds + e^(−ε) K(x + 1).  And 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import scipy.fft
 
+from viscofric.arrays import Array
 from viscofric.contact.influence.memory_rules import ORDER
 from viscofric.contact.influence.parts import (
     FIRST,
@@ -35,12 +34,7 @@ from viscofric.contact.influence.parts import (
     near_cells,
     near_memory,
 )
-from viscofric.contact.influence.potentials import HalfSpaceCell
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.influence.potentials import CellPotential
-
+from viscofric.contact.influence.potentials import CellPotential, HalfSpaceCell
 
 _HALF_SPACE = HalfSpaceCell()
 

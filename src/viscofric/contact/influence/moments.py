@@ -12,19 +12,13 @@ is found by a complex step, without differences (W. Squire, G. Trapp, SIAM Rev. 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import scipy.fft
 
-from viscofric.contact.influence.memory_rules import ORDER, faded
+from viscofric.arrays import Array
+from viscofric.contact.influence.memory_rules import ORDER, Inexact, faded
 from viscofric.contact.influence.parts import ROWS_AT_ONCE, Around, Modes, beyond, near_cells, near_memory
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.influence.memory_rules import Inexact
-    from viscofric.contact.influence.potentials import CellPotential
-
+from viscofric.contact.influence.potentials import CellPotential
 
 # Relative change of the rates, along the imaginary axis: its square is below rounding.
 _STEP = 1e-30

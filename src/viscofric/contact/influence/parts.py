@@ -9,12 +9,13 @@ import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.influence.memory_rules import (
     FADED,
+    Inexact,
     applied,
     faded,
     lattice_interpolation,
@@ -22,11 +23,7 @@ from viscofric.contact.influence.memory_rules import (
     panel_weights,
     product_weights,
 )
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.influence.memory_rules import Inexact
-    from viscofric.contact.influence.potentials import CellPotential
+from viscofric.contact.influence.potentials import CellPotential
 
 # Distance from the loaded cell from which on L is interpolated through 16 points on the lattice.  The error falls as
 # the product of their distances from the middle of the cell, 6.3e7, over the distance's 16th power: below 1e-12 here.

@@ -6,15 +6,13 @@ front of it and rises behind it (K. L. Johnson, Contact Mechanics (1985), Eqs. 3
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array, Mask
+from viscofric.arrays import Array, Mask
 
 
 class CellPotential(Protocol):

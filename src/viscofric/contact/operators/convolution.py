@@ -10,29 +10,21 @@ import copy
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 import scipy.fft
+from numpy.typing import ArrayLike, NDArray
 
-from viscofric.contact.arrays.backend import Backend
+from viscofric.arrays import Array, ComplexArray
+from viscofric.contact.arrays.backend import AnyArray, Backend
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 from viscofric.contact.extension import Extension, lag
+from viscofric.contact.free.grids import Grid
 from viscofric.contact.influence.line import HalfSpaceStrip
 from viscofric.contact.influence.mixtures import memory_influence
-from viscofric.contact.influence.potentials import HalfSpaceCell
+from viscofric.contact.influence.potentials import CellPotential, HalfSpaceCell
 from viscofric.threads import threads_for
-
-if TYPE_CHECKING:
-    from typing import Self
-
-    from numpy.typing import ArrayLike, NDArray
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.contact.arrays.backend import AnyArray
-    from viscofric.contact.free.grids import Grid
-    from viscofric.contact.influence.potentials import CellPotential
-
 
 # Memory length, in cells, from which on a mode's dissipation follows from slopes instead of bends.
 _BEND_MEMORY = 10.0

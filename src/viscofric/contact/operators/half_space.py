@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.influence.line import HalfSpaceStrip, line_memory_influence, shear_memory_influence
 from viscofric.contact.influence.potentials import HalfSpaceCell
 from viscofric.contact.operators.convolution import (
@@ -16,9 +16,6 @@ from viscofric.contact.operators.convolution import (
     bent_share,
     second_difference,
 )
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
 
 
 @dataclass

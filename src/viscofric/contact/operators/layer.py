@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from viscofric.arrays import Array
 from viscofric.contact.bodies import Layer
 from viscofric.contact.free.geometry import LINE, Geometry
 from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, LayerStrip
 from viscofric.contact.operators.convolution import ConvolutionOperator
 from viscofric.errors import ConvergenceError
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
 
 
 @dataclass(frozen=True)

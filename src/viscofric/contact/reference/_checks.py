@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from viscofric.units import checked_poisson_ratio, positive
-
-if TYPE_CHECKING:
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 
 def plane_strain_modulus(modulus: Quantity, poisson_ratio: float, name: str = "modulus") -> float:

@@ -15,24 +15,16 @@ W. D. May, E. L. Morris, D. Atack, J. Appl. Phys. 30 (1959) 1713 (cylinder); D. 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from viscofric.arrays import gauss
+from viscofric.arrays import Array, gauss
 from viscofric.contact.reference._checks import load_and_lengths
 from viscofric.errors import InputError
-from viscofric.units import positive
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-    from viscofric.units import Quantity
-
+from viscofric.units import Quantity, positive
 
 #: Speeds and moduli for which the closed form is computed: vτ over the elastic half-width at M0, and M∞/M0.
 MEMORY_RANGE = (1e-9, 1e9)

@@ -30,23 +30,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.special import i0e, i1e, ive, k0e, k1e
 
-from viscofric.arrays import gauss
+from viscofric.arrays import Array, gauss
 from viscofric.contact.reference._checks import plane_strain_modulus
 from viscofric.contact.reference.hertz import HertzLineContact, hertz_line
 from viscofric.errors import InputError
-from viscofric.units import positive
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-    from viscofric.units import Quantity
-
+from viscofric.units import Quantity, positive
 
 #: Speeds and moduli for which the closed form is computed: vτ/a0 and E∞/E0.
 MEMORY_RANGE = (1e-9, 1e9)

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from viscofric.arrays import Array
 from viscofric.contact.reference._checks import plane_strain_modulus
-from viscofric.units import positive
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, positive
 
 
 @dataclass(frozen=True)

@@ -11,16 +11,11 @@ itself, ∫ p u dA = (4/5) F δ for a paraboloid.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from viscofric.contact.reference.hertz import hertz_ball, hertz_line
 from viscofric.errors import InputError
-from viscofric.units import checked_modes, positive, to_si
-
-if TYPE_CHECKING:
-    from viscofric.units import Quantities, Quantity
+from viscofric.units import Quantities, Quantity, checked_modes, positive, to_si
 
 
 def low_speed_friction(speed: Quantity, radius: Quantity, E0: Quantity, C: Quantities, tau: Quantities) -> float:

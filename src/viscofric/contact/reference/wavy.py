@@ -4,19 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from viscofric.arrays import Array
 from viscofric.contact.reference._checks import plane_strain_modulus
 from viscofric.errors import InputError
-from viscofric.units import checked_poisson_ratio, positive
-
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array
-    from viscofric.units import Quantity
+from viscofric.units import Quantity, checked_poisson_ratio, positive
 
 
 @dataclass(frozen=True)

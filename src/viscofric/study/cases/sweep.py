@@ -5,22 +5,19 @@ from __future__ import annotations
 import functools
 import itertools
 import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from viscofric.contact.bodies import Layer
+from viscofric.contact.solution import Meaning
+from viscofric.friction.cases.case import Case
 from viscofric.units import plain, shown_celsius, shown_speed
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from viscofric.contact.solution import Meaning
-    from viscofric.friction.cases.case import Case
-
-    Values: TypeAlias = tuple[float | str, ...]
+Values: TypeAlias = tuple[float | str, ...]
 
 
 #: Largest number of cases of a study.

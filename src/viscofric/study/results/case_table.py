@@ -3,25 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from viscofric.arrays import Integers, Mask
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
 from viscofric.files import file_path
+from viscofric.friction.curves import FrictionCurves
 from viscofric.study.cases.sweep import shown
 from viscofric.study.results.columns import over_all_dimensions
 from viscofric.study.results.file import OTHER_CASES, PREDICTION, cases_of, open_tree
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Integers, Mask
-    from viscofric.friction.curves import FrictionCurves
-
 
 #: Coordinates that agree to as many digits are the same.
 _DIGITS = 9

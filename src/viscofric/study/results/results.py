@@ -6,16 +6,19 @@ import hashlib
 import json
 import math
 import platform
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib.metadata import version
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 
+from viscofric.arrays import Mask
 from viscofric.contact.free.estimates import beyond_accuracy as is_beyond
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError, brief
+from viscofric.friction.curves import FrictionCurves
 from viscofric.notes import Note, notes_in
 from viscofric.showing import Plotted, Rows
 from viscofric.study.results.case_table import CaseTable, tables_of_file, tables_of_tree
@@ -23,13 +26,6 @@ from viscofric.study.results.compare import ResultsComparison, compare_tables
 from viscofric.study.results.export import Form, export_results
 from viscofric.study.results.file import PREDICTION, cases_of, open_tree, rubbers_of
 from viscofric.units import number
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-    from pathlib import Path
-
-    from viscofric.arrays import Mask
-    from viscofric.friction.curves import FrictionCurves
 
 
 @dataclass(frozen=True, eq=False)

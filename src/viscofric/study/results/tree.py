@@ -7,26 +7,23 @@ spectrum only.
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
+from viscofric.contact.solution import Meaning
 from viscofric.datasets import Dataset, dataset
 from viscofric.friction.cases.record import FIELD_MEANING, MEANING, Failure, Record
 from viscofric.friction.cases.surfaces import MadeSurface
-from viscofric.study.cases.sweep import COORDINATES, shown
+from viscofric.friction.curves import FrictionCurves
+from viscofric.study.cases.sweep import COORDINATES, Axis, Sweep, shown
+from viscofric.study.run_file.contact import AnyIndenterTable
+from viscofric.study.run_file.study import Study
+from viscofric.study.study_rubber import BandColumns, StudyRubber
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+Groups = dict[str, Dataset]
 
-    from viscofric.contact.solution import Meaning
-    from viscofric.friction.curves import FrictionCurves
-    from viscofric.study.cases.sweep import Axis, Sweep
-    from viscofric.study.run_file.contact import AnyIndenterTable
-    from viscofric.study.run_file.study import Study
-    from viscofric.study.study_rubber import BandColumns, StudyRubber
-
-    Groups = dict[str, Dataset]
 
 #: Each group of results, and what it holds.
 GROUPS = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from viscofric.errors import brief
@@ -10,9 +11,8 @@ from viscofric.notes import Note
 from viscofric.study.run_file.tables import VALUE, as_written
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
-
     from pydantic import BaseModel, ValidationError
+
 
 _LONGEST_LIST = 12
 

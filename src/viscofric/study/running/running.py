@@ -5,19 +5,15 @@ from __future__ import annotations
 import contextlib
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from viscofric.errors import DataFileError, InputError
 from viscofric.friction.cases.solving import Task
+from viscofric.study.run_file.settings import ClusterTable
 from viscofric.study.running.executors import Executor, Lost, NoSolver, Outcome, Processes, Waiting
 from viscofric.study.running.store import CaseStore, Damaged
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.study.run_file.settings import ClusterTable
-
 
 #: What is done in each stage of a study.
 STAGES = {
