@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from viscofric.arrays import Array, Indices, Integers
 from viscofric.errors import InputError
@@ -31,10 +33,15 @@ def numbered(values: Array, allowed: Array) -> Integers:
     return labels
 
 
+def parted(values: NDArray[Any], gap: float) -> list[Indices]:
+    """Return the rows of values, ascending, in parts between which neighbours differ by more than a gap."""
+    order = np.argsort(values, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(values[order]) > gap) + 1) if order.size else []
+
+
 def nominal_rows(temperature: Array) -> list[Indices]:
     """Return the rows of each nominal temperature, of temperatures in K, ascending; none of none."""
-    number = numbered(temperature, np.full(temperature.shape, SAME_TEMPERATURE))
-    return [np.flatnonzero(number == one) for one in range(int(number.max(initial=-1)) + 1)]
+    return [np.sort(rows) for rows in parted(temperature, SAME_TEMPERATURE)]
 
 
 def clusters(values: Array, allowed: Array, refusal: Callable[[float, float], str | Note]) -> Integers:

@@ -12,6 +12,7 @@ import numpy as np
 from viscofric.arrays import Array, Integers, Mask
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.datasets import Dataset, DataTree
+from viscofric.nominal import parted
 from viscofric.notes import from_json, notes_in
 
 Found = TypeVar("Found")
@@ -109,12 +110,9 @@ def values(dataset: Dataset, name: str) -> Array:
 
 def nominal_temperatures(*temperatures: Array) -> Array:
     """Return the different temperatures among columns, K, ascending: means of those that are close."""
-    together: Array = np.sort(np.concatenate([np.ravel(column) for column in temperatures]))
+    together: Array = np.concatenate([np.ravel(column) for column in temperatures])
     together = together[np.isfinite(together)]
-    if together.size == 0:
-        return together
-    parts = np.split(together, np.flatnonzero(np.diff(together) > SAME_TEMPERATURE) + 1)
-    return np.array([part.mean() for part in parts])
+    return np.array([together[rows].mean() for rows in parted(together, SAME_TEMPERATURE)])
 
 
 def nearest(nominal: Array, temperature: Array) -> Integers:

@@ -11,7 +11,7 @@ import numpy as np
 
 from viscofric.arrays import Array, Integers, Mask
 from viscofric.errors import InputError
-from viscofric.nominal import LONGEST_CHAIN, SAME_LOAD, clusters
+from viscofric.nominal import LONGEST_CHAIN, SAME_LOAD, clusters, parted
 from viscofric.notes import Note, Remedy, setting
 from viscofric.traction import TractionRuns
 from viscofric.units import shown_celsius, shown_number
@@ -332,9 +332,7 @@ def _jitter(speed: Array, senses: Integers) -> float:
 def equal_rows(keys: Integers) -> list[Integers]:
     """Return the indices of equal keys, numbers (n,) or rows (n, k), in ascending order of the keys."""
     _, number = np.unique(keys, axis=0, return_inverse=True)
-    number = number.reshape(-1)
-    order = np.argsort(number, kind="stable")
-    return np.split(order, np.flatnonzero(np.diff(number[order])) + 1)
+    return parted(number.reshape(-1), 0)
 
 
 def where(some: list[Condition], total: int) -> str:

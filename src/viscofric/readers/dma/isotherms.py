@@ -13,6 +13,7 @@ from viscofric.arrays import Array, Indices
 from viscofric.data import DEFORMATIONS, Deformation, Isotherm, IsothermalSweeps
 from viscofric.errors import DataFileError, InputError, check_choice, short_notes
 from viscofric.files import on_synthetic
+from viscofric.nominal import parted
 from viscofric.notes import Note, note_of
 from viscofric.readers.dma.checks import notes_on, of_one_amplitude, usable
 from viscofric.readers.dma.readings import AS_RAMPS, Points, Readings, Sorted, at, joined, listed
@@ -73,9 +74,7 @@ def _blocks(points: Points, keep: Indices) -> list[Indices]:
     """Separate the points by file and, if known, by step."""
     keys = np.stack([points.file[keep], np.where(points.has_step[keep], points.step[keep], 0)], axis=1)
     _, which = np.unique(keys, axis=0, return_inverse=True)
-    which = np.ravel(which)
-    order = np.argsort(which, kind="stable")
-    return np.split(keep[order], np.flatnonzero(np.diff(which[order])) + 1)
+    return [keep[rows] for rows in parted(np.ravel(which), 0)]
 
 
 def _by_gaps(points: Points, block: Indices) -> list[Indices]:
@@ -83,23 +82,18 @@ def _by_gaps(points: Points, block: Indices) -> list[Indices]:
     kelvin = points.temperature[block]
     if points.has_step[block[0]] and np.ptp(kelvin) <= ONE_STEP:
         return [block]
-    order = np.argsort(kelvin, kind="stable")
-    cuts = np.flatnonzero(np.diff(kelvin[order]) > ISOTHERM_GAP) + 1
-    return [np.sort(block[part]) for part in np.split(order, cuts)]
+    return [np.sort(block[part]) for part in parted(kelvin, ISOTHERM_GAP)]
 
 
 def _by_repeats(points: Points, group: Indices) -> list[Indices]:
     """Separate points at the widest gaps in temperature if each part has all frequencies: programmes step by 1 K."""
     # Repeated sweeps at one temperature have no such gaps and stay together.
-    order = group[np.argsort(points.temperature[group], kind="stable")]
-    kelvin = points.temperature[order]
-    gaps = np.diff(kelvin)
-    cuts = np.flatnonzero(gaps > SAME_TEMPERATURE) + 1
-    if not cuts.size:
-        return [group]
-    parts = [np.sort(part) for part in np.split(order, cuts)]
-    wander = max(float(np.ptp(points.temperature[part])) for part in parts)
-    if gaps[cuts - 1].min() > APART * wander and _are_sweeps(points, parts):
+    kelvin = points.temperature[group]
+    found = parted(kelvin, SAME_TEMPERATURE)
+    parts = [np.sort(group[part]) for part in found]
+    gaps = [kelvin[warmer[0]] - kelvin[colder[-1]] for colder, warmer in pairwise(found)]
+    wander = max(float(np.ptp(kelvin[part])) for part in found)
+    if gaps and min(gaps) > APART * wander and _are_sweeps(points, parts):
         return parts
     return [group]
 
@@ -107,11 +101,11 @@ def _by_repeats(points: Points, group: Indices) -> list[Indices]:
 def _insist_on_one_temperature(points: Points, groups: list[Indices], source: str) -> None:
     """Refuse isotherms with most frequencies measured at temperatures too different to be averaged."""
     for group in groups:
-        order = group[np.argsort(points.angular_frequency[group], kind="stable")]
-        cuts = np.flatnonzero(np.diff(np.round(np.log(points.angular_frequency[order]), 2))) + 1
-        spans = np.array([np.ptp(points.temperature[same]) for same in np.split(order, cuts)])
+        kelvin = points.temperature[group]
+        same = parted(np.round(np.log(points.angular_frequency[group]), 2), 0.0)
+        spans = np.array([np.ptp(kelvin[rows]) for rows in same])
         if 2 * np.count_nonzero(spans > ISOTHERM_GAP) > spans.size:
-            low, high = (shown_celsius(float(f(points.temperature[group]))) for f in (np.min, np.max))
+            low, high = (shown_celsius(float(f(kelvin))) for f in (np.min, np.max))
             problem = (
                 f"each frequency was measured several times between {low} and {high} °C, so that the temperatures "
             )

@@ -12,6 +12,7 @@ from viscofric.arrays import Array, Integers
 from viscofric.data import DEFORMATIONS, Deformation, MasterCurve
 from viscofric.errors import DataFileError, check_choice
 from viscofric.files import on_synthetic, read_bytes
+from viscofric.nominal import parted
 from viscofric.readers.dma.names import DMA, decided, insist_on_one_specimen, temperatures_above
 from viscofric.readers.dma.read import format_of
 from viscofric.readers.dma.readings import AS_SWEEPS
@@ -161,8 +162,7 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
 def _are_sweeps(frequency: Array, storage: Array, temperature: Array) -> bool:
     """Return whether moduli at equal frequencies and different temperatures differ, as those of no master curve."""
     # Neighbouring isotherms of a glass, or of the rubber plateau, hardly differ; the coldest and the warmest one do.
-    order = np.argsort(frequency, kind="stable")
-    groups = np.split(order, np.flatnonzero(np.diff(np.log(frequency[order])) > _SAME_FREQUENCY) + 1)
+    groups = parted(np.log(frequency), _SAME_FREQUENCY)
     several = [rows for rows in groups if np.ptp(temperature[rows]) > _OTHER_TEMPERATURE]
     if 3 * sum(map(len, several)) < 2 * len(frequency):
         return False

@@ -12,6 +12,7 @@ from viscofric.amplitudes import AmplitudeSweep
 from viscofric.arrays import Array, Indices
 from viscofric.data import Deformation
 from viscofric.errors import DataFileError, check_choice, short_notes
+from viscofric.nominal import parted
 from viscofric.notes import Note
 from viscofric.ramps import TemperatureRamp, TemperatureRamps
 from viscofric.readers.dma.checks import HELD_FREQUENCY, SWEPT_AMPLITUDE, usable
@@ -27,10 +28,7 @@ from viscofric.units import Quantity, celsius, to_si
 def by_frequency(points: Points, rows: Indices) -> list[Indices]:
     """Separate points by their frequency, ascending; each in the order of reading."""
     # A frequency that is held scatters as it is measured; frequencies of a test differ by more.
-    logarithm = np.log(points.angular_frequency[rows])
-    order = np.argsort(logarithm, kind="stable")
-    cuts = np.flatnonzero(np.diff(logarithm[order]) > HELD_FREQUENCY) + 1
-    return [np.sort(rows[part]) for part in np.split(order, cuts)]
+    return [np.sort(rows[part]) for part in parted(np.log(points.angular_frequency[rows]), HELD_FREQUENCY)]
 
 
 def legs(values: Array, reversal: float) -> list[slice]:

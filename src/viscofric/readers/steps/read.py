@@ -20,6 +20,7 @@ from viscofric.arrays import Array
 from viscofric.data import DEFORMATIONS, Deformation
 from viscofric.errors import DataFileError, check_choice, wrong_argument
 from viscofric.files import on_synthetic
+from viscofric.nominal import parted
 from viscofric.notes import Note
 from viscofric.readers.dma.checks import doubts
 from viscofric.readers.dma.instruments import trios_text
@@ -266,10 +267,8 @@ def _tests(parts: Sequence[_Part], notes: list[str]) -> list[StepTest]:
         )
         notes.append(Note("points-left-out", said))
     kelvin, time, response, held = kelvin[usable], time[usable], response[usable], held[usable]
-    order = np.argsort(kelvin, kind="stable")
-    breaks = np.flatnonzero(np.diff(kelvin[order]) > (EQUAL if _are_stated(kelvin, time) else ONE_TEST)) + 1
     tests = []
-    for rows in np.split(order, breaks) if len(order) else []:
+    for rows in parted(kelvin, EQUAL if _are_stated(kelvin, time) else ONE_TEST):
         temperature = float(np.mean(kelvin[rows]))
         if np.ptp(kelvin[rows]) > 2.0 * ONE_TEST:
             where = f"in the test at {shown_celsius(temperature)} °C"

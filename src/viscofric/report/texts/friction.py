@@ -6,7 +6,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.friction.curves import FrictionCurves
-from viscofric.nominal import SAME_TEMPERATURE, numbered
+from viscofric.nominal import SAME_TEMPERATURE, parted
 from viscofric.report.texts.numbers import several, spanned
 from viscofric.report.texts.tables import text_table
 from viscofric.traction import TractionRuns
@@ -72,9 +72,7 @@ def runs_lines(runs: TractionRuns) -> list[tuple[str, str]]:
 
 
 def _temperatures(kelvin: Array) -> str:
-    labels = numbered(kelvin, np.full(kelvin.shape, SAME_TEMPERATURE))
-    means = np.bincount(labels, kelvin) / np.bincount(labels)
-    shown = [shown_celsius(float(mean)) for mean in means]
+    shown = [shown_celsius(float(kelvin[rows].mean())) for rows in parted(kelvin, SAME_TEMPERATURE)]
     if len(shown) > _MOST_TEMPERATURES:
         return f"{len(shown)} from {shown[0]} to {shown[-1]} °C"
     return f"{several(shown)} °C"

@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
+from viscofric.nominal import parted
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
@@ -109,9 +110,8 @@ def joined_kinds(alone: Sequence[Part], reference: float) -> JointSuperposition:
 
 def of_all_kinds(temperatures: Sequence[Array]) -> Array:
     """Return the temperatures of all kinds of tests, ascending, K; those closer than `SAME` are one."""
-    kelvin = np.sort(np.concatenate(temperatures))
-    groups = np.concatenate([[0], np.cumsum(np.diff(kelvin) > SAME)])
-    return np.bincount(groups, weights=kelvin) / np.bincount(groups)
+    kelvin = np.concatenate(temperatures)
+    return np.array([kelvin[rows].mean() for rows in parted(kelvin, SAME)])
 
 
 def _agreement(misfit: float, freedom: int) -> list[str]:
