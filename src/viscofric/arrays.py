@@ -23,6 +23,11 @@ def centre_line(y: Array, field: Array) -> Array:
     return np.asarray(field[:, middle].mean(axis=1))
 
 
+def scatter(values: Array) -> float:
+    """Return the scatter of points about a smooth curve from the median of their second differences."""
+    return float(1.4826 * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6.0))
+
+
 def gauss(count: int, edges: ArrayLike = (0.0, 1.0)) -> tuple[Array, Array]:
     """Return nodes and weights of Gauss's rule between all neighbouring edges (m,), ((m − 1) n,) each."""
     node, weight = _gauss_rule(count)

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from viscofric.arrays import Array
+from viscofric.arrays import Array, scatter
 from viscofric.data import DEFORMATIONS, Deformation
 from viscofric.errors import DataFileError, check_choice, wrong_argument
 from viscofric.files import on_synthetic
@@ -347,7 +347,7 @@ class Start:
 def start_of(time: Array, response: Array, kind: StepKind) -> Start:
     """Return where the response of the material begins; `time` (n,) ascends, in s."""
     log_time, log = np.log10(time), np.log10(response)
-    threshold = max(LEAST, SIGMAS * _scatter(log))
+    threshold = max(LEAST, SIGMAS * scatter(log) if len(log) >= 5 else 0.0)
     # A step that still rises: what should fall from the first point on, E(t) or J(t)/t, rises to a maximum.
     falling = log if kind == "relaxation" else log - log_time
     peak = int(np.argmax(falling))
@@ -391,10 +391,3 @@ def _turned(time: Array, log: Array) -> Array:
     """Return how far values lie below the largest one since `AGAIN` times less time."""
     since = np.searchsorted(time, time / AGAIN)
     return np.array([log[first : place + 1].max() - log[place] for place, first in enumerate(since)])
-
-
-def _scatter(log: Array) -> float:
-    """Return the scatter of points about a smooth curve from the median of their second differences."""
-    if len(log) < 5:
-        return 0.0
-    return float(1.4826 * np.median(np.abs(np.diff(log, 2))) / np.sqrt(6.0))

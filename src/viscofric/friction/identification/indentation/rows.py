@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from viscofric.arrays import Array, Integers
+from viscofric.arrays import Array, Integers, scatter
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.friction.identification.indentation.contact import Contact, Points, Trial
 from viscofric.friction.identification.indentation.record import IndentationRecord
@@ -166,11 +166,6 @@ def shrinks(record: IndentationRecord) -> int:
     allowed = max(3.0 * scatter(depth), LEAST_FALL * float(np.max(depth)))
     shrunk = np.flatnonzero((np.maximum.accumulate(depth) - depth > allowed)[begins:])
     return begins + int(shrunk[0]) if len(shrunk) else len(depth)
-
-
-def scatter(values: Array) -> float:
-    """Return the scatter of rows about a smooth curve from the median of their second differences."""
-    return float(1.4826 * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6.0))
 
 
 def _knots(time: Array, values: Array) -> tuple[Array, Array]:
