@@ -324,6 +324,12 @@ def with_error(value: float, error: float) -> str:
     return f"{shown_number(value, f'.{decimals}f')} ± {error:.{decimals}f}"
 
 
+def several(shown: Sequence[str], more: int = 0) -> str:
+    """Join texts in words: a, b and c; with so many more that are not shown: a, b and 3 more."""
+    first, last = (shown, f"{more} more") if more else (shown[:-1], "".join(shown[-1:]))
+    return f"{', '.join(first)} and {last}" if first else last
+
+
 def prefixed(value: float, error: float | None, unit: str, power: int = 1) -> str:
     """Return a number with its error and its unit, in the prefix that suits its size."""
     size = abs(value)

@@ -16,7 +16,8 @@ from viscofric.files import on_synthetic
 from viscofric.nominal import parted
 from viscofric.notes import Note, note_of
 from viscofric.readers.dma.checks import notes_on, of_one_amplitude, usable
-from viscofric.readers.dma.readings import AS_RAMPS, Points, Readings, Sorted, at, joined, listed
+from viscofric.readers.dma.readings import AS_RAMPS, Points, Readings, Sorted, at, joined
+from viscofric.showing import several
 from viscofric.units import Quantities, kelvin_hint, shown_celsius, to_si_array
 
 #: Measured temperatures of one isotherm scatter by some tenths of a kelvin, programmes step by several.
@@ -306,7 +307,7 @@ def _without(sweeps: list[Sorted], temperatures: Array) -> tuple[list[Sorted], l
     if len(out) == len(sweeps):
         raise InputError("leave_out_temperatures: no isotherm is left; name fewer.", code="none-left", values=argument)
     which = sorted(kelvin[place] for place in out)
-    said = f"Left out as requested: isotherms at {listed([f'{shown_celsius(one)} °C' for one in which], 0)}."
+    said = f"Left out as requested: isotherms at {several([f'{shown_celsius(one)} °C' for one in which])}."
     kept = [one for place, one in enumerate(sweeps) if place not in out]
     return kept, [Note("temperatures-left-out", said, values={"temperatures": which})]
 
@@ -326,7 +327,7 @@ def _source(readings: Sequence[Readings]) -> str:
 
 def _names(readings: Sequence[Readings]) -> str:
     names = [Path(one.source).name for one in readings]
-    return listed(names[:3], len(names) - 3) if len(names) > 3 else listed(names)
+    return several(names[:3], max(0, len(names) - 3))
 
 
 def _on_formats(readings: Sequence[Readings]) -> list[Note]:

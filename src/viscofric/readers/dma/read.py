@@ -26,6 +26,7 @@ from viscofric.readers.dma.tables import dma_table, reptate, workbook
 from viscofric.readers.mtm.delimited import AS_RUNS, TRACTION
 from viscofric.readers.source import Source, Test, insist_on_content, sources_of, unit_conversion
 from viscofric.readers.tables import holds_table, no_header
+from viscofric.showing import several
 from viscofric.units import Quantities, Quantity
 
 
@@ -89,8 +90,7 @@ def _refuse_traction(source: Source) -> None:
 
 def known() -> str:
     """Return the names of all formats in one readable list."""
-    names = [one.NAME for one in FORMATS]
-    return f"{', '.join(names[:-1])} and {names[-1]}"
+    return several([one.NAME for one in FORMATS])
 
 
 def read_dma(

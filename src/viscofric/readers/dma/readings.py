@@ -14,6 +14,7 @@ from viscofric.arrays import Array, Indices, Integers, Mask
 from viscofric.data import Deformation, Isotherm
 from viscofric.errors import DataFileError
 from viscofric.notes import Remedy
+from viscofric.showing import several
 from viscofric.units import shown_celsius
 
 #: What to do with a master curve in place of sweeps, and with sweeps in place of a master curve.
@@ -135,8 +136,8 @@ class Points:
         if len(places) > 1 and len(alike) == 1 and all(parts):
             before, what = alike.pop()
             shown = [one["number"] for one in parts if one]
-            return f"{before}{what}s {listed(shown, more)}"
-        return listed(shown, more)
+            return f"{before}{what}s {several(shown, more)}"
+        return several(shown, more)
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,17 +171,10 @@ def joined(readings: Sequence[Readings]) -> Points:
     )
 
 
-def listed(shown: Sequence[str], more: int = 0) -> str:
-    """Join words by commas and a last "and"."""
-    if more:
-        return f"{', '.join(shown)} and {more} more"
-    return f"{', '.join(shown[:-1])} and {shown[-1]}" if len(shown) > 1 else "".join(shown)
-
-
 def at(temperatures: Sequence[float]) -> str:
     """Name temperatures (K) in °C, the first few of many: ``"at 0.0, 10.0, 20.0 °C and 2 more temperatures"``."""
     shown = [shown_celsius(kelvin) for kelvin in temperatures[:_SHOWN]]
     more = len(temperatures) - len(shown)
     if more:
         return f"at {', '.join(shown)} °C and {more} more temperature{'s' if more > 1 else ''}"
-    return f"at {listed(shown)} °C"
+    return f"at {several(shown)} °C"

@@ -8,10 +8,10 @@ from functools import partial
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.showing import ABSENT, prefixed, short, significant, with_error
+from viscofric.showing import ABSENT, prefixed, several, short, significant, with_error
 from viscofric.units import shown_celsius, shown_number, shown_speed
 
-__all__ = ["ABSENT", "prefixed", "short", "significant", "with_error"]  # handed on
+__all__ = ["ABSENT", "prefixed", "several", "short", "significant", "with_error"]  # handed on
 
 _SPACE = "\N{NO-BREAK SPACE}"
 
@@ -62,11 +62,6 @@ def spanned(numbers: Array, digits: int = 3) -> str:
 def unbroken(text: str) -> str:
     """Return a number with its unit so that no line breaks between them."""
     return text.replace(" ", _SPACE)
-
-
-def several(texts: list[str]) -> str:
-    """Join texts in words: a, b and c."""
-    return " and ".join([", ".join(texts[:-1]), texts[-1]]) if len(texts) > 1 else "".join(texts)
 
 
 def degrees(kelvin: float) -> str:
