@@ -375,6 +375,25 @@ def test_minus_signs_and_thousands_of_a_value_of_all_rows(tmp_path, said, kelvin
         assert read_dma(path, columns={"temperature": said}).temperatures == pytest.approx([kelvin])
 
 
+@pytest.mark.parametrize("mark", ["%", "#", "//"])
+@pytest.mark.parametrize("between", [" ", "\t", ", "])
+def test_headings_and_units_may_stand_behind_marks_of_remarks(tmp_path, mark, between):
+    lines = [["T", "f", "E'", "E''"], ["°C", "Hz", "MPa", "MPa"], ["20", "1", "5", "0.5"], ["20", "10", "6", "0.7"]]
+    rows = [between.join(cells) for cells in lines]
+    sweeps = vf.read_dma(write(tmp_path, f"{mark} {rows[0]}", f"{mark} {rows[1]}", *rows[2:]))
+    assert sweeps.isotherms[0].storage_modulus == pytest.approx([5e6, 6e6], rel=1e-12)
+
+
+@pytest.mark.parametrize("head", ["T (°C) f (Hz) E' (MPa) E'' (MPa)", "# T [°C] f [Hz] E'[MPa] E'' [MPa]"])
+def test_single_blanks_part_headings_with_units_in_brackets(tmp_path, head):
+    sweeps = vf.read_dma(write(tmp_path, head, "20 1 5 0.5", "20 10 6 0.7"))
+    assert sweeps.isotherms[0].loss_modulus == pytest.approx([5e5, 7e5], rel=1e-12)
+    with refused("row-length"):
+        vf.read_dma(
+            write(tmp_path, "T (°C) f (Hz) storage modulus (MPa) loss modulus (MPa)", "20 1 5 0.5", "20 10 6 1")
+        )
+
+
 def test_a_header_in_a_remark(tmp_path):
     path = write(tmp_path, "# by numpy.savetxt", "# T_C f_Hz E'_MPa E''_MPa", *[row.replace(",", " ") for row in ROWS])
     assert_is_the_table(read_dma(path))

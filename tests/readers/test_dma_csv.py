@@ -987,3 +987,41 @@ def test_a_column_that_may_be_the_temperature_is_asked_for(tmp_path):
     named = read_dma(path, columns={"temperature": "Upper Temp. [°C]"})
     assert named.temperatures - 273.15 == pytest.approx([60.0])
     assert read_dma(path, temperature="62 degC").temperatures - 273.15 == pytest.approx([62.0])
+
+
+@pytest.mark.parametrize(
+    ("head", "columns"),
+    [
+        (["f (Hz),E' (MPa),f (Hz),E'' (MPa)"], {}),
+        (["E',,E'',", "X,Y,X,Y"], {"frequency": "#1 (Hz)", "storage_modulus": "#2 (MPa)", "loss_modulus": "#4 (MPa)"}),
+    ],
+)
+def test_digitised_curves_of_both_moduli_may_have_their_own_frequencies(tmp_path, head, columns):
+    first, second = np.logspace(-2.0, 2.0, 9), np.logspace(-1.9, 2.1, 17)
+    curves = [[f"{f:.9g},{2.0 * f**0.2:.9g}" for f in first], [f"{f:.9g},{0.7 * f**0.3:.9g}" for f in second]]
+    rows = [f"{curves[0][n] if n < len(first) else ','},{right}" for n, right in enumerate(curves[1])]
+    sweeps = read_dma(write(tmp_path, *head, *rows), temperature="20 degC", columns=columns)
+    assert "curves-interpolated" in codes(sweeps.notes)
+    one = sweeps.isotherms[0]
+    frequency = one.angular_frequency / (2.0 * math.pi)
+    assert frequency == pytest.approx(first[1:], rel=1e-8)  # the first one is below those of E''
+    # Power laws are straight lines between logarithms.
+    assert one.storage_modulus == pytest.approx(2e6 * frequency**0.2, rel=1e-8)
+    assert one.loss_modulus == pytest.approx(7e5 * frequency**0.3, rel=1e-8)
+
+
+def test_points_that_may_part_thousands_are_refused(tmp_path):
+    def lines(mark):
+        return [f"20;{f};{1500 + 400 * f:,};{100 + 300 * f:,}".replace(",", mark) for f in (1, 2, 3, 5, 7)]
+
+    head = "T (°C);f (Hz);E' (kPa);E'' (kPa)"
+    with refused("ambiguous-decimals"):
+        read_dma(write(tmp_path, head, *lines(".")))
+    plain, decided = (read_dma(write(tmp_path, head, *some)) for some in (lines(""), [*lines("."), "20;9;5.000.000;1"]))
+    assert decided.isotherms[0].storage_modulus[:5] == pytest.approx(plain.isotherms[0].storage_modulus, rel=1e-12)
+
+
+@pytest.mark.parametrize("unit", ["MHZ", "mhz"])
+def test_a_unit_of_either_milli_or_mega_is_asked_for(tmp_path, unit):
+    with refused("wrong-unit"):
+        read_dma(write(tmp_path, f"T (°C),f ({unit}),E' (MPa),E'' (MPa)", *ROWS))

@@ -41,6 +41,13 @@ def test_a_matrix_of_heights_is_read_however_its_cells_are_parted(tmp_path, betw
     assert len(found.history) == 1
 
 
+def test_decimal_commas_in_one_column_are_known_by_a_missing_height(tmp_path):
+    found = vf.read_topography(write(tmp_path, "0,123", "0,125", "nan", "-0,1"), unit="um", spacing="1 um")
+    np.testing.assert_allclose(found.heights[:, 0], [1.23e-7, 1.25e-7, np.nan, -1e-7], rtol=1e-12)
+    with refused("ambiguous-decimals"):
+        vf.read_topography(write(tmp_path, "0,123", "0,125"), unit="um", spacing="1 um")
+
+
 def test_lines_of_an_image_may_follow_one_another_along_y(tmp_path):
     found = vf.read_topography(write(tmp_path, matrix_text()), unit="um", spacing="1 um", lines="y")
     np.testing.assert_allclose(found.heights, 1e-6 * HEIGHTS.T, rtol=1e-15)

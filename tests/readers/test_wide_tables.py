@@ -291,7 +291,8 @@ def test_lines_above_a_table_replace_none_of_its_columns(
         ([[SPEED, "µ static 5 N", "µ kinetic 5 N"]], "missing-columns", "'µ static 5 N'"),
         ([[SPEED, "COF 0.2 MPa", "COF 0.4 MPa"]], "missing-columns", "'COF 0.2 MPa'"),
         ([["time (s)", "5 N", "10 N"]], "missing-columns", "'time (s)'"),
-        ([["Load", 5.0, 10.0], [SPEED, "COF", "COF"]], "ambiguous-columns", "'COF'"),
+        ([["Load", 5.0, 10.0], [SPEED, "COF", "COF"]], "number-without-unit", "'5 N'"),
+        ([["", 5.0, 10.0], [SPEED, "COF", "COF"]], "number-without-unit", "'5 N'"),
     ],
 )
 def test_headings_that_may_be_read_in_two_ways_are_refused(tmp_path: Path, header: Rows, code: str, named: str) -> None:

@@ -320,6 +320,8 @@ def to_rad_per_second(unit: str, *, angular: bool) -> float | None:
     if re.fullmatch(r"1/s|s\^?-1|s⁻¹", plain):
         return 1.0 if angular else None
     if re.fullmatch(r"[mkM]?Hz|hertz|Гц|cps|cycles?/s(ec)?", plain, re.IGNORECASE) and not angular:
+        if plain in ("MHZ", "mhz"):  # of either case
+            return None
         return 2.0 * math.pi * (_PREFIXES[plain[0]] if plain[1:].lower() == "hz" else 1.0)
     if re.fullmatch(r"cpm|cyc(les?)?/min", plain, re.IGNORECASE) and not angular:  # of rubber process analysers
         return 2.0 * math.pi / 60.0

@@ -47,6 +47,8 @@ MISSING = frozenset(
 #: A number as printed, with a decimal point or comma.
 NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
 _PLAIN, _NEVER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,2})?", re.ASCII), re.compile(r"(?!)")
+#: A number whose point may part thousands, and how many of them may be decimals with three digits by chance.
+_POINTED, _MOST_BY_CHANCE = re.compile(r"[+-]?[1-9]\d{0,2}\.\d{3}"), 3
 #: Written for MPa; moduli and stresses of solids are not measured in millipascals.
 MILLIPASCAL = "mPa"
 #: Cells of a column of lubricants in tests without one.
@@ -347,6 +349,7 @@ def make_table(
     measured = quantities | numeric | {place for place, column in enumerate(columns) if column.unit}
     if decimals is None:
         read = quantities or measured
+        _insist_on_no_points_of_thousands(path, rows, lines, read)
         printed, beside = (
             [(row[place], line) for row, line in zip(rows, lines, strict=True) for place in some]
             for some in (read, measured - read)
@@ -358,6 +361,23 @@ def make_table(
     table = Table(path, columns, tuple(rows), numbers, empty_rows=empty, vocabulary=vocabulary)
     _insist_on_no_summaries(table)
     return table
+
+
+def _insist_on_no_points_of_thousands(
+    path: str, rows: Sequence[tuple[str, ...]], lines: Sequence[int], places: Collection[int]
+) -> None:
+    """Refuse "1.234" beside "802" in a column where no number of the table shows that points are those of decimals."""
+    held = {place: [row[place].strip() for row in rows] for place in places}
+    pointed = {place: [cell for cell in cells if "." in cell] for place, cells in held.items()}
+    if not all(_POINTED.fullmatch(cell) for cells in pointed.values() for cell in cells):
+        return
+    for place, cells in held.items():
+        whole = [cell for cell in cells if cell.lstrip("+-").isdecimal()]
+        if len(pointed[place]) >= _MOST_BY_CHANCE and any(cell.lstrip("+-") != "0" for cell in whole):
+            number, line = pointed[place][0], lines[cells.index(pointed[place][0])]
+            problem = f"{number!r} may be {number} or {number.replace('.', '')}, as {whole[0]!r} stands in its column; "
+            right = "write decimals also where they are zero, or no mark between thousands."
+            raise DataFileError(path, problem + right, line, code="ambiguous-decimals")
 
 
 def _insist_on_no_summaries(table: Table) -> None:

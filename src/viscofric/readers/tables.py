@@ -158,6 +158,9 @@ def _not_understood(path: str, words: Vocabulary, headings: Sequence[str], sheet
         problem = f"no row has a column {' and '.join(map(repr, absent))}{among}; this file has {shown}"
         problem += "; a value of all rows has '=' before it." if _VALUE.match(absent[0]) else "."
         return DataFileError(path, Note("no-column", problem, values=values))
+    if not missing:
+        problem = f"its headings ({shown}) are not as many as the cells below; separate them by tabs or semicolons."
+        return DataFileError(path, Note("row-length", problem, values=values))
     problem = f"no row names columns for {' or '.join(missing)}{among}; {words.example}, this file has {shown}"
     if not headings:
         return DataFileError(path, Note("missing-columns", f"{problem}.", values=values))
@@ -168,8 +171,9 @@ def _table_under(path: str, found: Found, words: Vocabulary, remarks: Sequence[N
     """Return the table under a header, from all rows that are not blank; remarks state what lines above it do."""
     rows, header = found.rows, found.header
     above, below = ([cells for line, cells in remarks if (line < rows[header][0]) == one] for one in (True, False))
-    _insist_on_text(path, rows[:header], words)
     names = list(rows[header][1])
+    repeated = len({*filter(None, names)}) < len([*filter(None, names)])  # below values of each
+    _insist_on_text(path, rows[: max(0, header - repeated)], words)
     if any(len(cells) != len(names) for _, cells in rows[header + 1 :]):  # else remarks without a heading
         names = _without_end(names)
     columns = words.columns(names)
@@ -233,6 +237,10 @@ def _spread_down(table: Table) -> Table:
     return table
 
 
+#: Of conditions, in examples.
+_UNITS = {"load": "N", "temperature": "°C", "speed": "mm/s", "frequency": "Hz"}
+
+
 def _insist_on_clear_headings(path: str, columns: Sequence[Column], words: Vocabulary) -> None:
     """Refuse headings of measured values with two values of one quantity, or with a number without a unit."""
     held = {column.quantity for column in columns if not column.stated} | {*words.user_columns, *words.constants}
@@ -258,8 +266,7 @@ def _insist_on_clear_headings(path: str, columns: Sequence[Column], words: Vocab
     bare = [column for column in columns if _is_bare(column, words, needed)]
     if len(bare) > 1:
         shown = " and ".join(repr(column.heading) for column in bare[:2])
-        units = {"load": "N", "temperature": "°C", "speed": "mm/s", "frequency": "Hz"}
-        forms = " or ".join(repr(f"{bare[0].name} {units[what]}") for what in lacks)
+        forms = " or ".join(repr(f"{bare[0].name} {_UNITS[what]}") for what in lacks)
         problem = f"the numbers of the headings {shown} have no unit; write {forms}, or name repetitions in a column."
         raise _unclear(path, columns, words, "number-without-unit", problem)
 
@@ -548,6 +555,11 @@ def _by_line_above(table: Table) -> Sets | None:
     ends = [*starts[1:], len(above)]
     titles = [_title(label, above[start:end]) for start, end in zip(starts, ends, strict=True)]
     stated = [_stated_by(title, table) for title in titles]
+    if not any(stated) and all(is_number(title[-1]) for title in titles):
+        lacks = [what for what in table.vocabulary.conditions if not table.has(what)]
+        forms = " or ".join(repr(f"{titles[0][-1]} {_UNITS[what]}") for what in lacks)
+        problem = f"the numbers above its headings, {titles[0][-1]!r} and so on, have no unit; write {forms}."
+        raise table.refused("number-without-unit", problem)
     return (shared, sets, titles, stated) if all(stated) else None
 
 
@@ -716,17 +728,22 @@ def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> 
     found = header_of(_filled(rows), words)
     if found is None:
         return None
-    above = found.rows[: found.header + 1]
     remarked = {number for number, _, is_remark in lines if is_remark}
-    below = [row for row in found.rows[found.header + 1 :] if row[0] not in remarked]
-    return Found([*above, *below], found.header)
+    number, headings = found.rows[found.header]
+    first = found.header + 1
+    if number in remarked and any(_is_row_of_units(words.columns(headings), row) for _, row in found.rows[first:][:1]):
+        first += 1  # units behind the same mark
+    below = [row for row in found.rows[first:] if row[0] not in remarked]
+    return Found([*found.rows[:first], *below], found.header)
 
 
 def lines_of(text: str, *, remarks: bool = False) -> list[tuple[int, str, bool]]:
     """Return the lines that are not blank, with their numbers and whether they are remarks, which may be left out."""
-    found = []
+    found: list[tuple[int, str, bool]] = []
     for number, line in _joined(text.splitlines()):
         said = remark(line)
+        if remarks and said is None and found and found[-1][2] and line.startswith("% "):  # units, as the line above
+            said = line.lstrip("% ")
         if line.strip() and (remarks or said is None) and not _FOR_EXCEL.fullmatch(line):
             found.append((number, line if said is None else said, said is not None))
     return found
@@ -778,9 +795,9 @@ def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
             raise DataFileError(path, problem, number, code="row-length") from None
     if line.lstrip().startswith('"') and line.count('"') % 2 == 0:  # as R writes headings
         return [quoted or bare for quoted, bare in re.findall(r'"([^"]*)"|(\S+)', line)]
-    # two blanks or more, or single ones if no heading has several words
+    # two blanks or more, or single ones if no heading has several words but its unit in brackets
     wide = re.split(r"\s{2,}", line.strip())
-    single = line.split()
+    single = re.split(r"\s++(?![(\[{<])|(?<=[)\]}>])\s++", line.strip())
     return single if len(wide) == 1 or all(map(is_number, single)) else wide
 
 

@@ -99,13 +99,13 @@ def read_master_curve(
     source = Source(str(path), read_bytes(path), None, modulus_unit or "", DMA.checked(columns), checked_sheet(sheet))
     table, stated = _table(source)
     _insist_on_reference(source, stated, kelvin)
-    frequency, storage, loss, temperature = _of_table(table, source, kelvin)
+    notes: list[str] = [*on_synthetic([path])]
+    frequency, storage, loss, temperature = _of_table(table, source, kelvin, notes)
     kind = decided(source.path, dma_table.deformation([table]), deformation)
     factor = 1.0 if kind != "shear" else 2.0 * (1.0 + ratio)
     order = np.argsort(frequency, kind="stable")
-    notes = tuple(on_synthetic([path]))
     return MasterCurve(
-        frequency[order], factor * storage[order], factor * loss[order], temperature[order], kelvin, notes
+        frequency[order], factor * storage[order], factor * loss[order], temperature[order], kelvin, tuple(notes)
     )
 
 
@@ -124,7 +124,7 @@ def _table(source: Source) -> tuple[Table, float]:
     return only_table(source, DMA), _stated_reference(source)
 
 
-def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Array, Array, Array]:
+def _of_table(table: Table, source: Source, reference: float, notes: list[str]) -> tuple[Array, Array, Array, Array]:
     titled = [kelvin for kelvin in temperatures_above(table) if kelvin is not None]
     if table.block is not None and any(abs(kelvin - reference) > _SAME_REFERENCE for kelvin in titled):
         problem = "holds tables with temperatures of their own, no master curve"
@@ -133,6 +133,7 @@ def _of_table(table: Table, source: Source, reference: float) -> tuple[Array, Ar
         problem = "holds several tables below each other; give each a file of its own."
         raise DataFileError(table.path, problem, code="several-tables")
     insist_on_one_specimen(table, np.zeros((len(table.rows), 1)), "reference temperature")
+    table = dma_table.with_one_frequency(table, notes)
     places = dma_table.find_columns(table, master_curve=True)
     doubts: list[str] = []
     frequency = dma_table.angular_frequency(table, places, doubts)

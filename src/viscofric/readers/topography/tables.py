@@ -438,6 +438,9 @@ def _parsed(path: str, text: str, *, are_points: bool) -> _Text:
         raise DataFileError(path, "contains no heights.", code="no-points")
     if all(len(cells) > 1 and not cells[-1] for _, cells in found):  # delimiters that close each row
         found = [(number, cells[:-1]) for number, cells in found]
+    if {len(cells) for _, cells in found} == {1, 2}:  # "0,5" above "nan": one number with a decimal comma
+        lone = all(cells[0].lower() in MISSING for _, cells in found if len(cells) == 1)
+        found = [(number, [",".join(cells)]) for number, cells in found] if lone else found
     wanted = len(found[0][1])
     for number, cells in found:
         if len(cells) != wanted:

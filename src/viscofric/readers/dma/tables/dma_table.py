@@ -85,6 +85,43 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     return places
 
 
+def with_one_frequency(table: Table, notes: list[str]) -> Table:
+    """Return the table with the second of two digitised curves at the frequencies of the first: ``f, E', f, E''``."""
+    columns = table.columns
+    swept = [place for place, one in enumerate(columns) if "frequency" in one.quantity]
+    of = (*MODULI, *COMPLIANCES, "tan delta", "phase angle")
+    curves = [place for place, one in enumerate(columns) if one.quantity in of]
+    if not swept or len(curves) != 2 or swept[0] > curves[0]:
+        return table
+    first, last = swept[0], curves[1]
+    alike = [n for n in range(curves[0] + 1, last) if columns[n].heading == columns[first].heading]
+    temperature = table.place("temperature")
+    if len(alike) != 1 or (temperature is not None and len({row[temperature] for row in table.rows}) > 1):
+        return table
+    single = replace(
+        table, columns=tuple(replace(c, quantity="") if n == alike[0] else c for n, c in enumerate(columns))
+    )
+    at, own, values = (table.numbers_or_missing(place) for place in (first, alike[0], last))
+    known = (own > 0.0) & (values > 0.0)
+    if np.array_equal(at, own, equal_nan=True) or np.count_nonzero(known) < 2:
+        return single
+    order = np.flatnonzero(known)[np.argsort(own[known], kind="stable")]
+    kept = np.flatnonzero((at >= own[order[0]]) & (at <= own[order[-1]]))
+    with np.errstate(all="ignore"):
+        found = np.exp(np.interp(np.log(at), np.log(own[order]), np.log(values[order])))
+    both = f"{columns[last].heading!r} has frequencies of its own: it was interpolated to those of"
+    out = np.count_nonzero(at > 0.0) - len(kept)
+    left = f"; {out} outside its range {'is' if out == 1 else 'are'} left out" if out else ""
+    notes.append(Note("curves-interpolated", f"{both} {columns[curves[0]].heading!r}{left}."))
+    return replace(
+        single,
+        rows=tuple((*table.rows[n][:last], repr(float(found[n])), *table.rows[n][last + 1 :]) for n in kept),
+        columns=tuple(replace(one, base=0.0) if n == last else one for n, one in enumerate(single.columns)),
+        lines=table.lines[kept],
+        block=None if table.block is None else table.block[kept],
+    )
+
+
 def _frequency_place(table: Table, *, master_curve: bool) -> int | None:
     measured, reduced = ["angular frequency", "frequency"], ["reduced angular frequency", "reduced frequency"]
     order = reduced + measured if master_curve else measured + reduced
@@ -280,11 +317,13 @@ def read_points(
     # `where` says. `exported`: by an instrument, which writes no frequency of zero or less; a strain without a unit may
     # be in per cent and is not read; a file may hold many such tables, so that moduli are judged when all points are
     # joined (`checks.usable`). `tools` as for `deformation`.
+    notes: list[str] = []
+    table = with_one_frequency(table, notes)
     places = find_columns(table)
     if is_reduced(table, places):
         problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
         raise DataFileError(table.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
-    notes: list[str] = [*table.heading_notes, *joined_tables(table)]
+    notes += [*table.heading_notes, *joined_tables(table)]
     if table.empty_rows:
         rows = "1 row holds" if table.empty_rows == 1 else f"{table.empty_rows} rows hold"
         notes.append(Note("empty-rows", f"{rows} neither frequency nor modulus; skipped."))
@@ -354,7 +393,12 @@ def _temperature(
     decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
     if found is None or decades > WIDEST_SWEEP:
         raise _no_temperature(table, decades)
-    notes.append(Note("temperature-from-name", f"No column holds a temperature; it was taken from the {named} name."))
+    notes.append(
+        Note(
+            "temperature-from-name",
+            f"No column holds a temperature; it was taken from the {named} name.",
+        )
+    )
     return np.full(len(angular), found)
 
 
