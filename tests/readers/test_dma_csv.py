@@ -1025,3 +1025,23 @@ def test_points_that_may_part_thousands_are_refused(tmp_path):
 def test_a_unit_of_either_milli_or_mega_is_asked_for(tmp_path, unit):
     with refused("wrong-unit"):
         read_dma(write(tmp_path, f"T (°C),f ({unit}),E' (MPa),E'' (MPa)", *ROWS))
+
+
+def test_digitised_curves_of_a_ramp_may_have_their_own_temperatures(tmp_path):
+    kelvin = np.arange(-40.0, 40.0, 2.0)
+    rows = [f"{T},{math.exp(-0.05 * T):.9g},{T + 1},{math.exp(-0.02 * (T + 1)):.9g}" for T in kelvin]
+    path = write(tmp_path, "T (°C),E' (MPa),T (°C),E'' (MPa)", *rows)
+    for named in ({}, {"temperature": "#1"}):
+        ramps = vf.read_ramps(path, columns={"frequency": "= 1 Hz", **named})
+        assert "curves-interpolated" in codes(ramps.notes)
+        ramp = ramps.ramps[0]
+        # Exponentials are straight lines in log E'' over T.
+        assert ramp.loss_modulus == pytest.approx(1e6 * np.exp(-0.02 * (ramp.temperature - 273.15)), rel=1e-8)
+
+
+def test_curves_of_several_temperatures_with_frequencies_of_their_own_are_refused(tmp_path):
+    rows = [f"{T},{f},5,{1.5 * f},0.5" for T in (20, 40) for f in (1, 10, 100)]
+    path = write(tmp_path, "T (°C),f (Hz),E' (MPa),f (Hz),E'' (MPa)", *rows)
+    for columns in (None, {"frequency": "#2"}):
+        with refused("ambiguous-columns", None, '"E\' (MPa)" and "E\'\' (MPa)"'):
+            read_dma(path, columns=columns)

@@ -133,7 +133,7 @@ def _of_table(table: Table, source: Source, reference: float, notes: list[str]) 
         problem = "holds several tables below each other; give each a file of its own."
         raise DataFileError(table.path, problem, code="several-tables")
     insist_on_one_specimen(table, np.zeros((len(table.rows), 1)), "reference temperature")
-    table = dma_table.with_one_frequency(table, notes)
+    table = dma_table.with_one_abscissa(table, "frequency", notes)
     places = dma_table.find_columns(table, master_curve=True)
     doubts: list[str] = []
     frequency = dma_table.angular_frequency(table, places, doubts)

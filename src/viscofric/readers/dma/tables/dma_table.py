@@ -27,7 +27,7 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
-from viscofric.readers.source import PRINTED_FREQUENCY, Source, converted, fraction_of, to_rad_per_second
+from viscofric.readers.source import PRINTED_FREQUENCY, Source, Test, converted, fraction_of, to_rad_per_second
 from viscofric.readers.table import MISSING, Table, or_name_it
 from viscofric.readers.tables import find_tables, holds_table
 
@@ -42,6 +42,8 @@ _DOUBLE = re.compile(r"\bdouble\s+(strain|amplitude)|\bDSA\b|\bp-?p\b|\bpeak[ -]
 _LARGEST_FRACTION = 2.0
 #: Half of the tan δ of a rubber are never above this; numbers without a unit that are may be in per cent.
 _LARGEST_TANGENT = 3.0
+#: What a test sweeps, in the names of quantities.
+_SWEPT: dict[Test, str] = {"frequency": "frequency", "temperature": "temperature", "amplitude": "strain amplitude"}
 #: Segment and number of a point, as HAAKE RheoWin prints them.
 _SEGMENT = re.compile(r"\d{1,6}\|\d{1,6}")
 _HINT = ", or give it by " + setting("material.modulus_unit", "Unit of the moduli", "'MPa'")
@@ -85,41 +87,37 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
     return places
 
 
-def with_one_frequency(table: Table, notes: list[str]) -> Table:
-    """Return the table with the second of two digitised curves at the frequencies of the first: ``f, E', f, E''``."""
-    columns = table.columns
-    swept = [place for place, one in enumerate(columns) if "frequency" in one.quantity]
-    of = (*MODULI, *COMPLIANCES, "tan delta", "phase angle")
-    curves = [place for place, one in enumerate(columns) if one.quantity in of]
-    if not swept or len(curves) != 2 or swept[0] > curves[0]:
+def with_one_abscissa(table: Table, test: Test, notes: list[str]) -> Table:
+    """Return the table with the second of two digitised curves at the abscissas of the first: ``f, E', f, E''``."""
+    columns, of = table.columns, (*MODULI, *COMPLIANCES, "tan delta", "phase angle")
+    first = next((place for place, one in enumerate(columns) if _SWEPT[test] in one.quantity), len(columns))
+    curves = [place for place, one in enumerate(columns) if one.quantity in of and place > first]
+    own = [n for n in range(*curves) if columns[n].heading == columns[first].heading] if len(curves) == 2 else []
+    if len(own) != 1:
         return table
-    first, last = swept[0], curves[1]
-    alike = [n for n in range(curves[0] + 1, last) if columns[n].heading == columns[first].heading]
-    temperature = table.place("temperature")
-    if len(alike) != 1 or (temperature is not None and len({row[temperature] for row in table.rows}) > 1):
+    kept = tuple(replace(one, quantity="") if n == own[0] else one for n, one in enumerate(columns))
+    table, names, last = replace(table, columns=kept), [repr(columns[place].heading) for place in curves], curves[1]
+    x, at, y = (table.numbers_or_missing(place) for place in (own[0], first, last))
+    if np.array_equal(x, at, equal_nan=True):
         return table
-    single = replace(
-        table, columns=tuple(replace(c, quantity="") if n == alike[0] else c for n, c in enumerate(columns))
-    )
-    at, own, values = (table.numbers_or_missing(place) for place in (first, alike[0], last))
-    known = (own > 0.0) & (values > 0.0)
-    if np.array_equal(at, own, equal_nan=True) or np.count_nonzero(known) < 2:
-        return single
-    order = np.flatnonzero(known)[np.argsort(own[known], kind="stable")]
-    kept = np.flatnonzero((at >= own[order[0]]) & (at <= own[order[-1]]))
     with np.errstate(all="ignore"):
-        found = np.exp(np.interp(np.log(at), np.log(own[order]), np.log(values[order])))
-    both = f"{columns[last].heading!r} has frequencies of its own: it was interpolated to those of"
-    out = np.count_nonzero(at > 0.0) - len(kept)
-    left = f"; {out} outside its range {'is' if out == 1 else 'are'} left out" if out else ""
-    notes.append(Note("curves-interpolated", f"{both} {columns[curves[0]].heading!r}{left}."))
-    return replace(
-        single,
-        rows=tuple((*table.rows[n][:last], repr(float(found[n])), *table.rows[n][last + 1 :]) for n in kept),
-        columns=tuple(replace(one, base=0.0) if n == last else one for n, one in enumerate(single.columns)),
-        lines=table.lines[kept],
-        block=None if table.block is None else table.block[kept],
-    )
+        x, at, y = (one if test == "temperature" and one is not y else np.log(one) for one in (x, at, y))
+    known = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
+    others = [n for n, one in enumerate(kept) if n != first and any(what in one.quantity for what in _SWEPT.values())]
+    steps, varied = np.diff(x[known]), any(len({row[n] for row in table.rows}) > 1 for n in others)
+    if varied or known.size < 2 or len({*np.sign(steps)}) > 1:
+        problem = f"{columns[first].heading!r} is not the same for {' and '.join(names)}; give both in the same rows."
+        raise table.refused("ambiguous-columns", problem)
+    order = known if steps[0] > 0.0 else known[::-1]
+    within = np.flatnonzero((at >= x[order[0]]) & (at <= x[order[-1]]))
+    found = np.exp(np.interp(at[within], x[order], y[order])).tolist()
+    out = np.count_nonzero(np.isfinite(at)) - len(within)
+    said = f"{names[1]} was interpolated to the {_SWEPT[test]} of {names[0]}"
+    notes.append(Note("curves-interpolated", f"{said}; left out beyond: {out}." if out else f"{said}."))
+    rows = [(*(row := table.rows[n])[:last], repr(one), *row[last + 1 :]) for n, one in zip(within, found, strict=True)]
+    columns = tuple(replace(one, base=0.0) if n == last else one for n, one in enumerate(kept))
+    block = None if table.block is None else table.block[within]
+    return replace(table, rows=tuple(rows), columns=columns, lines=table.lines[within], block=block)
 
 
 def _frequency_place(table: Table, *, master_curve: bool) -> int | None:
@@ -318,7 +316,7 @@ def read_points(
     # be in per cent and is not read; a file may hold many such tables, so that moduli are judged when all points are
     # joined (`checks.usable`). `tools` as for `deformation`.
     notes: list[str] = []
-    table = with_one_frequency(table, notes)
+    table = with_one_abscissa(table, source.test, notes)
     places = find_columns(table)
     if is_reduced(table, places):
         problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
