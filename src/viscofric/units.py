@@ -461,6 +461,11 @@ def plain(number: float, digits: int = 4) -> str:
     return shown_number(rounded, ".0f" if 10**digits <= abs(rounded) < 1e6 else f".{digits}g")
 
 
+def shown_place(kelvin: float, speed: float) -> str:
+    """Return temperature and speed (m/s) of a contact with their units."""
+    return f"{shown_celsius(kelvin, 'z.4g')} °C, {shown_speed(speed)}"
+
+
 def shown_speed(speed: float, digits: int = 4) -> str:
     """Return a speed (m/s) with its unit: mm/s, or m/s from 1 m/s on."""
     return f"{plain(speed, digits)} m/s" if speed >= 0.99995 else f"{plain(1e3 * speed, digits)} mm/s"

@@ -51,6 +51,14 @@ def test_a_contact_beyond_the_frequencies_of_the_rubber_is_reported(tmp_path: Pa
     assert "Warning: " in call(*contact, "--speed", "10 m/s").stderr
 
 
+def test_a_rubber_without_shift_factors_is_taken_to_be_that_of_the_temperature() -> None:
+    found = record(*RUBBER, *BALL, "--temperature", "40 degC", "--accuracy", "0.1", "--derivatives")
+    assert "temperature-assumed" in {one["code"] for one in found["warning_records"]}
+    assert found["inputs"]["temperature"] == pytest.approx(313.15)
+    assert found["results"]["friction_coefficient"] == expected(accuracy=0.1).friction_coefficient
+    assert "temperature-assumed" not in json.dumps(record(*RUBBER, *BALL, "--accuracy", "0.1"))
+
+
 def test_what_the_fit_of_a_material_file_assumed_is_noted_with_its_contacts(tmp_path: Path) -> None:
     solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
     fit = SpectrumFit(None, None, True, True, (1.0, 1e6), ("α(T) was assumed.",))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from viscofric.contact.solution import ContactSolution
+    from viscofric.notes import Note
 
 _INFINITE = ("inf", "infinite", "infinity", "∞")
 #: Options that are settings of `solve_steady` as they stand.
@@ -81,6 +83,7 @@ def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
     if (parameters["load"] is None) == (parameters["indentation"] is None):
         raise click.UsageError("give either --load or --indentation, one of them.")
     from viscofric.contact.steady import solve_steady
+    from viscofric.rheology.material import known_at
 
     contact = Contact(parameters, picture, out)
     material, indenter = contact.rubber.material, contact.body.indenter
@@ -89,8 +92,13 @@ def command(picture: Path | None, out: Path | None, **parameters: Any) -> None:
     settings["window"] = parameters["window"] and list_of(parameters["window"])
     if contact.heating is not None and parameters["temperature"] is None:
         settings["temperature"] = material.reference
+    assumed: tuple[Note, ...] = ()
+    if settings["temperature"] is not None:
+        material, _, assumed = known_at(material, settings["temperature"])
+        contact.rubber = contact.rubber._replace(material=material)
     began = time.perf_counter()
     solution = solve_steady(material, indenter, speed=_speed(parameters["speed"]), **settings)
+    solution = replace(solution, warnings=(*assumed, *solution.warnings))
     seconds = time.perf_counter() - began
 
     def record() -> dict[str, Any]:

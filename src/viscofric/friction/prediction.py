@@ -31,7 +31,7 @@ from viscofric.rheology.interface.friction import check_interface_heat
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.material import Material, insist_on_material, known_at
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
-from viscofric.units import Quantities, Quantity, number, positive, shown_celsius, shown_number, to_si_array
+from viscofric.units import Quantities, Quantity, number, positive, shown_number, shown_place, to_si_array
 
 
 def predict_friction(
@@ -241,7 +241,7 @@ def _failure(parts: list[list[dict[str, Any]]], outcomes: list[Record | Viscofri
     if not here.any():
         raise error
     unit = contact["indenter"].geometry.load_unit
-    where = [f"{shown_celsius(contact['temperature'])} °C, {shown_number(1e3 * contact['speed'], '.4g')} mm/s"]
+    where = [shown_place(contact["temperature"], contact["speed"])]
     where += [f"{shown_number(contact['load'], '.4g')} {unit}"] if len(parts) > 1 else []
     return error.at(", ".join(where))
 

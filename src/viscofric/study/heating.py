@@ -19,7 +19,7 @@ from viscofric.notes import Note
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.study.cases.heating import COLUMNS, solve_heated, solve_temperature_map
 from viscofric.study.cases.singles import Singles
-from viscofric.study.cases.sweep import Sweep
+from viscofric.study.cases.sweep import OF_OTHERS, Sweep
 from viscofric.study.results.tree import coordinate, coordinates_of
 from viscofric.study.run_file.heating import HeatingTable
 from viscofric.study.run_file.study import Study
@@ -30,7 +30,6 @@ NO_LAW = Note(
     "no-heating", "Contacts were not heated, as the law of the interface, whose friction would heat them, is not known."
 )
 _GROUP, _MAP = "/heating", "/temperature_map"
-_SLIP = {"units": "m/s", "long_name": "sliding velocity between both surfaces"}
 COULOMB = {"units": "1", "long_name": "Coulomb friction coefficient, given"}
 _TOTAL = {"units": "1", "long_name": "friction coefficient of hysteresis and interface together, with heating"}
 
@@ -106,7 +105,7 @@ class Heatings(Singles):
         if self._interface is None:
             coordinates["coulomb"] = coordinate("coulomb", table.coulomb, COULOMB)
         if self._slips[0] is not None:
-            coordinates["slip"] = coordinate("slip", self._slips, _SLIP)
+            coordinates["slip"] = coordinate("slip", self._slips, OF_OTHERS["slip"].attributes)
         attributes = {
             "counterface": _words(table.counterface),
             "rubber": _words(table.rubber),

@@ -23,7 +23,7 @@ from viscofric.readers.one_table import history_columns
 from viscofric.rheology.material import Material
 from viscofric.study.cases.history import solve_history, solve_hit
 from viscofric.study.cases.singles import Singles
-from viscofric.study.cases.sweep import Sweep, shown
+from viscofric.study.cases.sweep import OF_OTHERS, Sweep, shown
 from viscofric.study.heating import COULOMB
 from viscofric.study.results.tree import coordinate, coordinates_of
 from viscofric.study.run_file.history import HistoryTable
@@ -59,8 +59,7 @@ class Histories(Singles):
                     tasks.append(Failure.of(error, label))
         coordinates = coordinates_of(sweep.axes, sweep.geometry)
         if table.file is None:
-            about = {"units": "s", "long_name": "time at rest under the load before the sliding"}
-            coordinates["dwell"] = coordinate("dwell", table.dwell, about)
+            coordinates["dwell"] = coordinate("dwell", table.dwell, OF_OTHERS["dwell"].attributes)
         if coulomb:
             coordinates["coulomb"] = coordinate("coulomb", coulomb, COULOMB)
         sizes = {axis.name: len(axis) for axis in sweep.axes} | {"dwell": len(table.dwell), "coulomb": len(coulomb)}
@@ -188,7 +187,7 @@ class Impacts(Singles):
                     tasks.append(Failure.of(error, label))
         axes = [axis for axis in sweep.axes if not set(axis.columns) <= _OTHERS]
         dimensions = {axis.name: len(axis) for axis in axes if len(axis) > 1} | {"impact_speed": len(table.speed)}
-        about = {"units": "m/s", "long_name": "speed of the impact"}
+        about = OF_OTHERS["impact_speed"].attributes
         coordinates = coordinates_of(axes, "point") | {"impact_speed": ("impact_speed", list(table.speed), about)}
         return cls(tasks, dimensions, coordinates, {"mass": table.mass, "gravity": table.gravity or 0.0})
 

@@ -97,6 +97,6 @@ def test_an_error_of_some_contacts_names_its_conditions_and_has_the_curve_of_the
     np.testing.assert_allclose(solved.load, [200.0] * 3 + [250.0] * 3)
     first = vf.predict_friction(RUBBER, narrow, load="200 N/m", speeds=speeds[2:], **wanted)
     np.testing.assert_array_equal(solved.viscoelastic[:3], first.viscoelastic)
-    assert info.value.note.where == "60.0 °C, 1 mm/s, 200 N/m"
+    assert info.value.note.where == "60 °C, 1 mm/s, 200 N/m"
     assert "unsolved" in codes(solved.notes)
     assert np.all(solved.viscoelastic_error > 0.0)

@@ -21,7 +21,7 @@ from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import Task
 from viscofric.rheology.material import Material, alpha_and_b
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
-from viscofric.units import shown_celsius, shown_number
+from viscofric.units import shown_place
 
 Made = TypeVar("Made")
 
@@ -76,10 +76,7 @@ class Case(ABC):
     def label(self) -> str:
         """The case in words."""
         sample = "" if self.sample is None else f", sample {self.sample}"
-        return (
-            f"{shown_celsius(self.temperature, 'z.4g')} °C, {shown_number(1e3 * self.speed, '.4g')} "
-            f"mm/s{self.body_label}{sample}"
-        )
+        return f"{shown_place(self.temperature, self.speed)}{self.body_label}{sample}"
 
     @property
     def body_label(self) -> str:

@@ -37,6 +37,8 @@ HALVINGS = 4
 DOUBTFUL = 3.0
 
 
+#: What to do where a fit does not settle.
+CONTRADICTING = "check whether given moduli contradict the measurement, or give an anchor or a prior if there is none"
 AnyProblem = TypeVar("AnyProblem", bound=SpectrumProblem)
 #: Returns a problem with its contacts solved for unknowns (p,), from the number of the step, for progress,
 #: and the relative error of the solved contacts that is aimed at.
@@ -64,9 +66,7 @@ def weighed(problem: AnyProblem, start: Array) -> list[Weighed[AnyProblem]]:
             place = minimum.place
     settled = [found[number] for number in sorted(found) if found[number].minimum.settled]
     if not settled:
-        raise ConvergenceError(
-            "the fit of the spectrum does not settle; give an anchor or a prior.", code="not-converged"
-        )
+        raise ConvergenceError(f"the fit of the spectrum does not settle; {CONTRADICTING}.", code="not-converged")
     return settled
 
 
@@ -137,8 +137,7 @@ def identify(
         if moved is None:
             raise ConvergenceError(
                 f"the identification did not settle with contacts solved for {number} rubbers: the fit should still "
-                f"change by {100.0 * float(np.sqrt(np.mean(change**2))):.2g} %; give an anchor, a prior or fewer "
-                "modes.",
+                f"change by {100.0 * float(np.sqrt(np.mean(change**2))):.2g} %; {CONTRADICTING}, or fewer modes.",
                 code="not-converged",
             )
         here = moved._replace(problem=moved.problem.with_errors(errors))

@@ -15,7 +15,7 @@ import numpy as np
 from viscofric.contact.bodies import Layer
 from viscofric.contact.solution import Meaning
 from viscofric.friction.cases.case import Case
-from viscofric.units import plain, shown_celsius, shown_speed
+from viscofric.units import plain, shown_celsius, shown_place, shown_speed
 
 Values: TypeAlias = tuple[float | str, ...]
 
@@ -40,6 +40,11 @@ class Coordinate(NamedTuple):
         """Unit and long name."""
         return self.si, self.words
 
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Unit and long name as attributes of a data set."""
+        return {"units": self.si, "long_name": self.words}
+
 
 #: All coordinates of cases, in the order in which they are listed.
 COORDINATES: dict[str, Coordinate] = {
@@ -57,11 +62,11 @@ COORDINATES: dict[str, Coordinate] = {
     "temperature": Coordinate("K", "temperature", "°C"),
     "speed": Coordinate("m/s", "speed at which the rubber is deformed", "mm/s", 1e-3, "$v$"),
 }
-#: Units of those that only cases with heat, over time, or of impacts have.
-_OF_OTHERS = {
-    "slip": Coordinate("m/s", "sliding velocity", "mm/s", 1e-3),
-    "dwell": Coordinate("s", "time at rest", "s"),
-    "impact_speed": Coordinate("m/s", "speed at the first touch", "m/s"),
+#: Those that only cases with heat, over time, or of impacts have.
+OF_OTHERS = {
+    "slip": Coordinate("m/s", "sliding velocity between both surfaces", "mm/s", 1e-3),
+    "dwell": Coordinate("s", "time at rest under the load before the sliding", "s"),
+    "impact_speed": Coordinate("m/s", "speed of the impact", "m/s"),
 }
 #: Those that vary along no curve of friction.
 VARIED = tuple(name for name in COORDINATES if name not in ("temperature", "speed"))
@@ -183,7 +188,7 @@ def shown(name: str, value: float | str, line: bool = False, digits: int = 4) ->
         return shown_speed(value, digits)
     if name == "load" and line:
         return f"{plain(value / 1e3, digits)} N/mm"
-    about = COORDINATES.get(name) or _OF_OTHERS.get(name) or Coordinate("1", name)
+    about = COORDINATES.get(name) or OF_OTHERS.get(name) or Coordinate("1", name)
     if not about.unit:
         return f"{value:.{max(digits, 6)}g}"
     return f"{plain(value / about.scale, digits)}{'' if about.unit == '°' else ' '}{about.unit}"
@@ -191,7 +196,7 @@ def shown(name: str, value: float | str, line: bool = False, digits: int = 4) ->
 
 def place(case: Case) -> str:
     """Return temperature and speed of a case in words."""
-    return f"{shown_celsius(case.temperature, 'z.4g')} °C, {shown_speed(case.speed)}"
+    return shown_place(case.temperature, case.speed)
 
 
 def place_in(sweep: Sweep, number: int) -> str:

@@ -41,7 +41,7 @@ class SweepTable(Table):
 class SolverTable(Table):
     """[solver]: accuracy of friction, and how the cases are solved."""
 
-    accuracy: Number = Field(1e-3, ge=1e-4, le=0.1, description="Relative numerical error of friction.")
+    accuracy: Number = Field(1e-3, ge=1e-10, le=0.1, description="Relative numerical error of friction.")
     cases: Literal["curves", "each"] = Field(
         "curves",
         description="Solve similar cases as one curve and interpolate within the accuracy, or solve each case.",

@@ -263,7 +263,7 @@ HISTORY = when(
     number("history.points", "Stored times", min=2, step=1, placeholder="200"),
 )
 SOLVING = [
-    number("solver.accuracy", "Accuracy of friction", min=1e-4, max=0.1, placeholder="0.001"),
+    number("solver.accuracy", "Accuracy of friction", min=1e-10, max=0.1, placeholder="0.001"),
     number("uncertainty.draws", "Bootstrap samples", min=0, step=1, placeholder="200"),
     choice("outputs.fields", "Stored pressure maps", "few: of a few cases; all: of all cases; none", "few"),
     number("@export.workers", "Processes", min=1, max=os.cpu_count() or 1, step=1, placeholder="1"),
