@@ -250,11 +250,6 @@ _SAME_TEMPERATURE = 0.01  # K
 _AS_PRINTED = {"C": "°C", "DEGC": "°C", "K": "K"}
 
 
-def quantity(name: str) -> str | None:
-    """Return the quantity of `DMA` that a heading without its unit names, or None."""
-    return DMA.quantity(name) or None
-
-
 def temperature_in_name(name: str) -> float | None:
     """Return the temperature in the name of a file or sheet, such as ``"foam_dma_-25C"``, K, or None."""
     # A minus sign must follow a space or an underscore: in ``"foam-25C"`` it may be a dash, and ``"foam - 25C"`` has

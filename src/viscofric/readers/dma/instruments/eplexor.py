@@ -19,7 +19,7 @@ import numpy as np
 from viscofric.arrays import Array, Indices, Mask
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma.names import DMA, quantity
+from viscofric.readers.dma.names import DMA
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
 from viscofric.readers.headings import heading
@@ -307,7 +307,7 @@ def _table(path: str, rows: Rows) -> Table:
     known = {"f", "T", f"{letter}'", f"{letter}''", f"|{letter}*|", "tan delta", "Strain dyn"}
     units = [str(cell).strip() for cell in rows[1]] if len(rows) > 1 else []
     columns = [
-        (name, unit, quantity(name) or "" if name in known and place == names.index(name) else "")
+        (name, unit, DMA.quantity(name) if name in known and place == names.index(name) else "")
         for place, (name, unit) in enumerate(zip(names, [*units, *[""] * len(names)], strict=False))
     ]
     shown = f"{path}, sheet {DATA!r}"

@@ -23,7 +23,6 @@ import numpy as np
 
 from viscofric.errors import DataFileError
 from viscofric.notes import Note
-from viscofric.readers.dma import names
 from viscofric.readers.dma.names import DMA, tools_in
 from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
@@ -59,10 +58,10 @@ class Interval:
 
     @cached_property
     def places(self) -> dict[str, int]:
-        """Columns by what they hold, in the words of `names.QUANTITIES`; the first of several."""
+        """Columns by what they hold, in the words of `DMA`; the first of several."""
         found: dict[str, int] = {}
         for place, column in enumerate(self.columns[1:], start=1):
-            if (what := names.quantity(column)) is not None:
+            if what := DMA.quantity(column):
                 found.setdefault(what, place)
         return found
 

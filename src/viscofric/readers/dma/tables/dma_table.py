@@ -16,12 +16,12 @@ from viscofric.readers.dma import names
 from viscofric.readers.dma.checks import HELD_FREQUENCY, PRINTED, doubts, insist_on_agreement
 from viscofric.readers.dma.names import (
     COMPLIANCES,
+    DMA,
     MODULI,
     Said,
     deformation_of,
     joined_tables,
     known_temperatures,
-    quantity,
     said_by_columns,
     temperature_in_name,
 )
@@ -453,7 +453,7 @@ def _note_unread(table: Table, notes: list[str]) -> None:
             text = f"Column {column.heading!r} holds {shown} and is not read; are all rows of one specimen?"
             notes.append(Note("unused-columns", text))
     others = (column for column in table.columns if not column.quantity)
-    numbered = [repr(column.heading) for column in others if quantity(column.unnumbered)]
+    numbered = [repr(column.heading) for column in others if DMA.quantity(column.unnumbered)]
     if numbered:
         text = f"Numbered columns that are not read: {', '.join(numbered)}; give each sweep a table of its own."
         notes.append(Note("unused-columns", text))

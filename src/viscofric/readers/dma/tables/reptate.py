@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscofric.errors import DataFileError
-from viscofric.readers.dma.names import DMA, quantity
+from viscofric.readers.dma.names import DMA
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings
 from viscofric.readers.dma.tables.dma_table import read_points
 from viscofric.readers.header_rows import is_number
@@ -112,8 +112,7 @@ def _places(source: Source, names: list[str]) -> dict[str, int]:
         return {"frequency": 0, "storage modulus": 1, "loss modulus": 2}
     places: dict[str, int] = {}
     for place, name in enumerate(names):
-        what = quantity(heading(name).name)
-        if what is not None:
+        if what := DMA.quantity(heading(name).name):
             places.setdefault("frequency" if what == "angular frequency" else what, place)
     missing = [what for what in ("frequency", *_MODULI) if what not in places]
     if missing:

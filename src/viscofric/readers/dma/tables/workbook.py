@@ -24,9 +24,7 @@ NAME = "Excel workbook"
 SAME_FREQUENCY = 1.05
 
 
-def recognises(source: Source) -> bool:
-    """Return whether the file begins as an Excel workbook does."""
-    return is_workbook(source)
+recognises = is_workbook
 
 
 def read(source: Source) -> Readings:
