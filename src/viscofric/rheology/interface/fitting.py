@@ -33,7 +33,7 @@ from viscofric.rheology.shifts.law_fitting import (
     undetermined,
 )
 from viscofric.rheology.shifts.laws import Arrhenius
-from viscofric.rheology.shifts.parametric_law import LEVEL_95
+from viscofric.rheology.shifts.parametric_law import student_factor
 from viscofric.rheology.shifts.shift_law import ShiftLaw
 
 #: Kinds of law as `ShearStress.law` takes them, those of fewest constants first.
@@ -260,7 +260,8 @@ def _fitted(kind: str, table: StressTable, shift: ShiftLaw | None, reference: fl
     if level > 0.0:
         found, _, scatter = solved(family, table.levelled(student * level), otherwise)
     aic = criterion_of(family, table.levelled(level), found.parameters) + (2.0 if level > 0.0 else 0.0)
-    law = family.law(found.parameters, _wider(found, scatter, freedom))
+    wider = student_factor(freedom) if scatter > 0.0 else 1.0
+    law = family.law(found.parameters, wider**2 * found.covariance)
     notes = [*_misfit(level, scatter)]
     if family.positive:
         notes += undetermined(law, found.parameters, law.covariance)
@@ -275,7 +276,6 @@ def _level(family: _Family, table: StressTable, first: Array, chi2: float) -> tu
     without such an error.
     """
     from scipy.optimize import minimize_scalar
-    from scipy.special import stdtrit
 
     # Differences of temperatures that the law, with its activation energy, does not describe.
     freedom = np.unique(table.kelvin).size - 1 - (family.y is not None)
@@ -300,7 +300,7 @@ def _level(family: _Family, table: StressTable, first: Array, chi2: float) -> tu
         about = _About.of(family, table, least_squares(family, table.levelled(level), first, scatter**2).parameters)
     if about.likelihood(level)[0] < without + _SEEN:
         return 0.0, 1.0
-    return level, float(stdtrit(freedom, 0.975)) / LEVEL_95
+    return level, student_factor(freedom)
 
 
 class _About(NamedTuple):
@@ -333,15 +333,6 @@ class _About(NamedTuple):
             found, scatter = plausible(fit, found, freedom)
         spread = float(np.linalg.slogdet(found.covariance)[1])
         return 0.5 * (spread - found.chi2 - levelled.whitening(scatter**2).log_det), scatter
-
-
-def _wider(found: Solution, scatter: float, freedom: int) -> Array:
-    """Return the covariance with which normal 95 % intervals are those of Student's t, where scatter was found."""
-    from scipy.special import stdtrit
-
-    if scatter == 0.0:
-        return found.covariance
-    return found.covariance * (float(stdtrit(freedom, 0.975)) / LEVEL_95) ** 2
 
 
 def _not_described(kind: str) -> InputError:

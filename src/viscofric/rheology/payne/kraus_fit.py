@@ -15,7 +15,7 @@ from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.payne.kraus import CONSTANTS, KrausLaw, kraus_moduli
 from viscofric.rheology.ramps.common_law import EQUALLY_LIKELY, CorrelatedSmoother, correlation, whitened
-from viscofric.rheology.shifts.parametric_law import LEVEL_95
+from viscofric.rheology.shifts.parametric_law import student_factor
 from viscofric.showing import Plotted, Rows, Shown
 from viscofric.threads import one_blas_thread
 
@@ -238,7 +238,6 @@ def _doubts(sweep: AmplitudeSweep, law: KrausLaw, scatter: Array) -> list[Note]:
 def _fitted(sweep: AmplitudeSweep) -> tuple[Array, Array, Array]:
     """Return the logarithms of the constants, the scatter of both moduli (decades), and the covariance."""
     from scipy.optimize import least_squares
-    from scipy.special import stdtrit
 
     strain = sweep.strain_amplitude
     measured = np.log(np.stack([sweep.storage_modulus, sweep.loss_modulus]))
@@ -271,7 +270,7 @@ def _fitted(sweep: AmplitudeSweep) -> tuple[Array, Array, Array]:
     slope = np.asarray(best.jac)
     inverse = np.linalg.pinv(slope.T @ slope, rcond=1e-12)
     # So that normal 95 % intervals are those of Student's t, by the freedom of the modulus that has less.
-    wider = float(stdtrit(_freedom(slope).min(), 0.975)) / LEVEL_95
+    wider = student_factor(float(_freedom(slope).min()))
     return best.x, scatter / math.log(10.0), wider**2 * inverse
 
 

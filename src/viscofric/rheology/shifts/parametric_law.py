@@ -303,6 +303,13 @@ class ParametricLaw(ShiftLaw):
         return "measure isotherms there, or lift the limit with unbounded() of the law, in Python"
 
 
+def student_factor(freedom: float) -> float:
+    """Return the factor on standard errors with which normal 95 % intervals are those of Student's t."""
+    from scipy.special import stdtrit
+
+    return float(stdtrit(freedom, 0.975)) / LEVEL_95
+
+
 def shown_constant(constant: Constant, value: float, error: float) -> str:
     """Return a constant as text, its standard error to two digits: ``C2 = 126.6 ± 1.2 K``; an error of 0 is unknown."""
     symbol, unit = constant.symbol, f" {constant.shown}" if constant.shown else ""
