@@ -206,17 +206,15 @@ def _of_contacts(tree: DataTree) -> str:
     shown = shown_contacts(tree)
     if not shown:
         return ""
+    is_line = shown[0].contact.is_line
     if is_rough(tree):
-        return _of_rough_contacts(shown[0].contact.is_line)
-    above = "" if shown[0].contact.is_line else "Contact pressure seen from above, and on the centre line below. "
-    if shown[0].contact.is_line:
-        above = "Contact pressure along the motion. "
-    elif len(shown) == 1:
-        above = "Contact pressure seen from above, and on the centre line. "
-    marks = "" if shown[0].contact.is_line else " (cross: the axis; dot: the centre of pressure)"
+        return _of_rough_contacts(is_line)
+    seen = f"seen from above, and on the centre line{' below' if len(shown) > 1 else ''}"
+    marks = "" if is_line else " (cross: the axis; dot: the centre of pressure)"
     return (
-        f"{above}The indenter moves to the right{marks}. The pressure is higher at the leading edge: its centre lies "
-        "ahead of the indenter's axis, which causes the friction. Dotted: the profile's mirror image."
+        f"Contact pressure {'along the motion' if is_line else seen}. The indenter moves to the right{marks}. The "
+        "pressure is higher at the leading edge: its centre lies ahead of the indenter's axis, which causes the "
+        "friction. Dotted: the profile's mirror image."
     )
 
 
