@@ -1045,3 +1045,20 @@ def test_curves_of_several_temperatures_with_frequencies_of_their_own_are_refuse
     for columns in (None, {"frequency": "#2"}):
         with refused("ambiguous-columns", None, '"E\' (MPa)" and "E\'\' (MPa)"'):
             read_dma(path, columns=columns)
+
+
+def test_moduli_in_different_units_by_mistake_are_noted(tmp_path):
+    sweeps = read_dma(write(tmp_path, "T (°C),f (Hz),E' (MPa),E'' (Pa)", *ROWS))
+    assert "implausible-loss" in codes(sweeps.notes)
+
+
+def test_a_second_column_of_a_modulus_that_is_not_read_is_noted(tmp_path):
+    rows = [f"{row},7,300" for row in ROWS]
+    sweeps = read_dma(write(tmp_path, f"{HEADER},storage modulus corrected (MPa),stress (kPa)", *rows))
+    assert_is_the_table(sweeps)
+    assert noted(sweeps.notes, "unused-columns", "'storage modulus corrected (MPa)';")
+
+
+def test_measured_temperatures_count_before_those_of_the_programme(tmp_path):
+    lines = ["Target temperature (°C),Measured temperature (°C),f (Hz),E' (MPa),E'' (MPa)"]
+    assert_is_the_table(read_dma(write(tmp_path, *lines, *(f"99,{row}" for row in ROWS))))

@@ -198,8 +198,8 @@ SIGMAS = 8.0
 LEAST_OUTLIER = 0.04  # decades
 #: Logarithms (to base 10) of moduli of rubbers in Pa lie within this; no solid is as soft.
 LIKE_LOGARITHMS = (3.0, 12.0)  # Pa
-#: Even in the glass transition no rubber has a tan δ as large.
-LARGEST_LOSS = 10.0
+#: Even in the glass transition no rubber has a tan δ as large, and no polymer one as small.
+LARGEST_LOSS, SMALLEST_LOSS = 10.0, 3e-4
 #: A storage modulus never falls with frequency; the loss modulus does beyond its peak, by more than noise or drift.
 FALLS = 0.9
 
@@ -357,6 +357,9 @@ def _on_sense(sweeps: Sequence[Sorted]) -> list[Note]:
         said = f"All storage moduli lie between {span} Pa and look like logarithms; they were read as moduli."
         notes.append(Note("logarithms", said))
     lossy = float(np.median(loss / storage))
+    if lossy < SMALLEST_LOSS:
+        said = f"Half of all tan δ are below {lossy:.3g}, as of no polymer; are the units of both moduli right?"
+        notes.append(Note("implausible-loss", said))
     falls = any(_falls(one.isotherm.storage_modulus, one.isotherm.loss_modulus) for one in sweeps)
     if lossy > (1.0 if falls else LARGEST_LOSS):
         why = "and a storage modulus falls with frequency" if falls else "as of a liquid"

@@ -34,11 +34,13 @@ TEMPERATURE = frozenset(
     {"T", "temp", "temp.", "temperature", "sample temperature", "sample temp."}
     | {"temperatur", "probentemperatur", "messtemperatur", "température", "temperatura", "temperatuur", "teplota"}
     | {"lämpötila", "hőmérséklet", "température échantillon", "температура", "温度", "온도"}
+    | {"measured temperature", "actual temperature", "specimen temperature", "isttemperatur", "température mesurée"}
     | {"température de l'échantillon", "test temperature", "sıcaklık", "样品温度", "試料温度", "測定温度"}
 )
 #: Of the programme, read only without a measured temperature.
 SET_TEMPERATURE = frozenset(
     {"set temperature", "set temp.", "programme temperature", "program temperature", "nominal temperature"}
+    | {"target temperature", "temperature set", "temperature setpoint", "setpoint temperature"}
     | {"solltemperatur", "température de consigne", "temperatura programada", "temperatura impostata"}
 )
 FREQUENCY = frozenset(

@@ -92,8 +92,10 @@ def with_one_abscissa(table: Table, test: Test, notes: list[str]) -> Table:
     columns, of = table.columns, (*MODULI, *COMPLIANCES, "tan delta", "phase angle")
     first = next((place for place, one in enumerate(columns) if _SWEPT[test] in one.quantity), len(columns))
     curves = [place for place, one in enumerate(columns) if one.quantity in of and place > first]
-    own = [n for n in range(*curves) if columns[n].heading == columns[first].heading] if len(curves) == 2 else []
-    if len(own) != 1:
+    own = [
+        n for n, one in enumerate(columns) if curves[:1] < [n] < curves[-1:] and one.heading == columns[first].heading
+    ]
+    if len(curves) != 2 or len(own) != 1:
         return table
     kept = tuple(replace(one, quantity="") if n == own[0] else one for n, one in enumerate(columns))
     table, names, last = replace(table, columns=kept), [repr(columns[place].heading) for place in curves], curves[1]
@@ -453,10 +455,16 @@ def _note_unread(table: Table, notes: list[str]) -> None:
             text = f"Column {column.heading!r} holds {shown} and is not read; are all rows of one specimen?"
             notes.append(Note("unused-columns", text))
     others = (column for column in table.columns if not column.quantity)
-    numbered = [repr(column.heading) for column in others if DMA.quantity(column.unnumbered)]
-    if numbered:
-        text = f"Numbered columns that are not read: {', '.join(numbered)}; give each sweep a table of its own."
+    alike = [repr(one.heading) for one in others if DMA.quantity(one.unnumbered) or _begins_as_modulus(one.name)]
+    if alike:
+        text = f"Not read, though named like columns that are: {', '.join(alike)}; give each sweep a table of its own."
         notes.append(Note("unused-columns", text))
+
+
+def _begins_as_modulus(name: str) -> bool:
+    """Return whether the first words of a name are those of a modulus: ``E' corrected``."""
+    words = name.split(" ")
+    return any(DMA.quantity(" ".join(words[:count])) in MODULI for count in range(1, len(words)))
 
 
 def _strain_amplitude(table: Table, notes: list[str], without_unit: str) -> Array | None:
