@@ -13,7 +13,7 @@ from refusals import refused
 from rheology.planted import synthetic_polymer, synthetic_soft_rubber
 from rheology.planted_ramps import planted_ramps
 from viscofric.errors import SuperpositionError
-from viscofric.notes import codes
+from viscofric.notes import codes, note_of
 from viscofric.rheology.ramps.common_law import CorrelatedSmoother
 
 POLYMER = synthetic_polymer()
@@ -72,6 +72,23 @@ def test_errors_include_offsets_of_whole_ramps_where_they_are_shown(fit):
     assert np.all(away < 3.0 * found.shift.standard_error(kelvin))
     assert "ramp-offsets" in codes(found.notes)
     assert "ramp-offsets" not in codes(fit.notes)
+
+
+def test_errors_include_a_vertical_shift_that_was_left_out_and_a_note_names_it(fit):
+    """Before, this was taken for offsets of the ramps."""
+    b = vf.rheology.DensityShift(REFERENCE)
+    ramps = planted_ramps(2, hertz=(0.3, 1.0, 3.0, 10.0), celsius=np.arange(-20.0, 101.0, 2.0))
+    raised = [b(one.temperature) for one in ramps.ramps]
+    found = vf.superpose_ramps(off(ramps, raised), REFERENCE)
+    kelvin = np.array([270.0, 280.0, 320.0, 350.0])
+    away = np.abs(found.shift.log10(kelvin) - TRUTH.log10(kelvin))
+    assert np.all(away < 1.96 * found.shift.standard_error(kelvin))
+    [note] = [one for one in map(note_of, found.notes) if one.code == "vertical-shift-left-out"]
+    true = 100.0 * (b("100 degC") / b("-20 degC") - 1.0)  # 36 %
+    assert note.values["percent"] == pytest.approx(true, rel=0.25)
+    assert "ramp-offsets" not in codes(found.notes)
+    known = vf.superpose_ramps(off(ramps, raised), REFERENCE, vertical="density")
+    assert "vertical-shift-left-out" not in codes((*known.notes, *fit.notes))
 
 
 @pytest.mark.apart

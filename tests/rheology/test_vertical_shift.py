@@ -153,10 +153,12 @@ def test_on_a_power_law_the_vertical_shift_is_not_identified():
     # An error of b is one of α over the slope, 0.3.
     ratio = fit.shift_factors.standard_errors[[0, 2, 3]] / fit.vertical_shift.standard_errors[[0, 2, 3]]
     assert ratio == pytest.approx(1 / 0.3, rel=0.1)
-    plain = vf.superpose(sweeps, "30 degC")
+    plain = vf.superpose(sweeps, "30 degC", vertical=DensityShift("30 degC"))
     # Nor do power laws show offsets of isotherms, of which those of the usual size remain.
     assert plain.shift_factors.standard_errors.max() < 0.7 * fit.shift_factors.standard_errors.max()
-    assert plain.vertical_shift is None
+    # Left out, it is in the errors: 0.6 of log10 T/T0 over the slope, beside 0.089 decades.
+    left_out = vf.superpose(sweeps, "30 degC").shift_factors.standard_errors
+    assert left_out.max() > 1.1 * plain.shift_factors.standard_errors.max()
 
 
 def test_only_the_three_ways_of_vertical_shift_are_known():

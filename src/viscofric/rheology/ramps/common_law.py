@@ -31,7 +31,7 @@ from viscofric.rheology.superposition.common_curve import (
     Smoother,
     restricted_likelihood,
 )
-from viscofric.rheology.superposition.isotherm_offsets import BEFORE, Offsets, estimated
+from viscofric.rheology.superposition.isotherm_offsets import BEFORE, TRENDS, LeftOut, Offsets, estimated
 from viscofric.rheology.superposition.shift_problem import inverse_curvature
 
 #: Points per knot.  Near the pole of a law neighbouring points of a ramp are up to a decade apart: with five points per
@@ -138,6 +138,8 @@ FALL = 1e-12
 OFFSET_PASSES = 4
 #: Offsets are shown where the probability of none falls to this part of what it was before the ramps were seen.
 SHOWN = 0.05
+#: Smallest part of a vertical shift for differences.
+PART = 0.1
 #: Step of the logarithm of a constant for differences of the gradient.
 DIFFERENCE = 1e-4
 
@@ -178,6 +180,7 @@ class CommonLaw:
     residual: Array  # (n, 2), decades
     scatter: Array  # (2,), standard deviation of log E' and log E'' about the curves, decades
     offsets: Array  # (2,), standard deviation of offsets of log E' and log E'' of ramps; zero where none are shown
+    left_out: LeftOut | None  # a vertical shift at the points, where none was requested
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,11 +194,14 @@ class _State:
     freedom: float
 
 
-def common_law(points: RampPoints, kind: str, reference: float) -> CommonLaw:
-    """Find the constants of a law of a kind ("wlf", "arrhenius" or "wlf+arrhenius") about a reference (K)."""
+def common_law(points: RampPoints, kind: str, reference: float, *, left_out: bool) -> CommonLaw:
+    """Find the constants of a law of a kind ("wlf", "arrhenius" or "wlf+arrhenius") about a reference (K).
+
+    With `left_out` there may be a vertical shift, in proportion to temperature, that was not taken off.
+    """
     order = np.argsort(points.temperature, kind="stable")
     family = family_of(kind, points.temperature[order], reference)
-    problem = _Problem(points, family, np.argsort(order, kind="stable"))
+    problem = _Problem(points, family, np.argsort(order, kind="stable"), left_out)
     logs = problem.start(kind)
     for _ in range(PASSES):
         before = logs
@@ -214,16 +220,22 @@ def common_law(points: RampPoints, kind: str, reference: float) -> CommonLaw:
         )
     offsets = problem.offsets(logs)
     constants = np.exp(logs)
-    spread = constants[:, None] * _covariance(problem, logs, smoother, state, offsets) * constants
+    covariance, vertical = _covariance(problem, logs, smoother, state, offsets), None
+    if left_out:
+        follow = problem.follow(logs, offsets)
+        vertical = LeftOut(offsets.trend, problem.trend, follow)
+        covariance = covariance + vertical.size**2 * np.outer(follow, follow)
+    spread = constants[:, None] * covariance * constants
     sizes = np.sqrt(np.diag(offsets.covariance))
-    return CommonLaw(family.law(constants, spread), state.residual, smoother.scatter, sizes)
+    return CommonLaw(family.law(constants, spread), state.residual, smoother.scatter, sizes, vertical)
 
 
 class _Problem:
     """What constants of a law are judged by: the curves through points moved by it."""
 
-    def __init__(self, points: RampPoints, family: Family, back: Indices) -> None:
-        self.points, self.family, self.back = points, family, back
+    def __init__(self, points: RampPoints, family: Family, back: Indices, left_out: bool = False) -> None:
+        self.points, self.family, self.back, self.left_out = points, family, back, left_out
+        self.trend = np.log10(points.temperature / family.reference)  # of a vertical shift
 
     def reduced(self, logs: Array) -> Array:
         """Return log10 of the reduced frequencies; their mean does not depend on the law."""
@@ -278,14 +290,29 @@ class _Problem:
         """Number of ramps."""
         return int(self.points.ramp[-1]) + 1
 
+    @property
+    def levels(self) -> Array:
+        """Columns (n, r + 1) of levels of the ramps, and of a vertical shift."""
+        return np.column_stack([np.eye(self.ramps)[self.points.ramp], self.trend])
+
+    def _onto_levels(self, count: int) -> Array:
+        """Return rows for constants, levels of E', levels of E'', and a vertical shift of both, if there may be one."""
+        every = np.eye(count + 2 * self.ramps + 2)
+        first, second = count + self.ramps, count + 2 * self.ramps + 1  # of the vertical shift
+        rows = np.delete(every, [first, second], axis=0)
+        return np.vstack([rows, every[first] + every[second]]) if self.left_out else rows
+
     def offsets(self, logs: Array) -> Offsets:
         """Return offsets of the ramps, of variance zero where none are shown."""
         count = len(logs)
         smoother = replace(self.smoother(logs), alike=np.zeros(2))  # else correlation hides the offsets at once
+        onto = self._onto_levels(count)
         for _ in range(OFFSET_PASSES):
-            state = self.state(logs, smoother, np.eye(self.ramps)[self.points.ramp])
-            found = estimated(state.normal, state.gradient, np.zeros((count, count)), tied=False)
+            state = self.state(logs, smoother, self.levels)
+            information, score = onto @ state.normal @ onto.T, onto @ state.gradient
+            found = estimated(information, score, np.zeros((count, count)), tied=False, trend=self.left_out)
             expected = found.expected.reshape(2, self.ramps).T[self.points.ramp]
+            expected = expected + found.trend @ TRENDS * self.trend[:, None]
             less = _Problem(replace(self.points, moduli=self.points.moduli - expected), self.family, self.back)
             # Constants that have followed offsets leave residuals that look correlated.
             logs = less.descend(logs, replace(smoother, alike=np.zeros(2)))
@@ -293,6 +320,19 @@ class _Problem:
         if found.sizes.probability[0] > SHOWN * (BEFORE[0] / BEFORE.sum()) ** 2:
             found = replace(found, covariance=np.zeros((2, 2)))
         return found
+
+    def follow(self, logs: Array, offsets: Offsets) -> Array:
+        """Return what a vertical shift that was left out adds to the logarithms of the constants found, per part."""
+        # By differences, not by the information: as far as there is one, points looked correlated when it was left out.
+        part = float(offsets.trend @ TRENDS)
+        part = part if abs(part) > PART else PART
+        less = _Problem(
+            replace(self.points, moduli=self.points.moduli - part * self.trend[:, None]), self.family, self.back
+        )
+        found = logs
+        for _ in range(2):
+            found = less.descend(found, less.smoother(found))
+        return np.asarray((logs - found) / part)
 
     def state(self, logs: Array, smoother: CorrelatedSmoother, levels: Array | None = None) -> _State:
         """Draw the curves at these constants and differentiate; both derivatives are those of variable projection.

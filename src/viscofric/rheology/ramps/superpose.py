@@ -163,9 +163,10 @@ def superpose_ramps(
     follows from the scatter of the points about the curves; neighbours that are alike count for fewer.  Moduli of whole
     ramps that are off by a factor each, as after clamping anew, are included where the ramps show it, with a note.
     Four ramps show offsets of 2 %, two ramps in half of the cases only: their intervals then held 69 % of α(T).  95 %
-    intervals of planted constants and of α(T) hold 95 % (`benchmarks/rheology/ramps.py`).  Three things are not in
-    them: that α(T) may follow another law (`check`; compare a second one), errors of the temperature, and a vertical
-    shift that is left out: what follows ρT moved log10 α by up to 0.24 at the ends (compare ``vertical="density"``).
+    intervals of planted constants and of α(T) hold 95 % (`benchmarks/rheology/ramps.py`).  Two things are not in
+    them: that α(T) may follow another law (`check`; compare a second one), and errors of the temperature.  Without a
+    requested vertical shift they include one in proportion to temperature, as in `superpose`, with a note where the
+    ramps show it (`vertical-shift-left-out`): with ρT it moved log10 α by up to 0.24 at the ends.
 
     At one frequency the master curve is the ramp itself, drawn over α(T) ω: no data contradict a wrong α(T), except
     that E' and E'' must belong to each other (Kramers and Kronig).  An activation energy that is too high by a factor
@@ -217,12 +218,14 @@ def superpose_ramps(
     if assumed is None:
         _insist_on_several(tensile)
         points = _points(tensile, b)
-        found = common_law(points, "wlf" if law == "vft" else law, kelvin)
+        found = common_law(points, "wlf" if law == "vft" else law, kelvin, left_out=vertical is None)
         shift: ShiftLaw = found.law.to_vft() if law == "vft" and isinstance(found.law, WLF) else found.law
         assumption, check = "", _check(points, found)
         notes += _on_fit(tensile, shift, check)
         notes += undetermined(found.law, found.law.parameters, found.law.covariance)
         notes += _on_offsets(found)
+        if found.left_out is not None:
+            notes += found.left_out.notes(low, high, DENSITY)
     else:
         shift, assumption, tensile, on_law = assumed_law(assumed, tensile, peaks, kelvin)
         notes += on_law
@@ -322,6 +325,12 @@ def _on_offsets(found: CommonLaw) -> Iterator[Note]:
         )
 
 
+DENSITY = Remedy(
+    ' Compare vertical="density".',
+    " Compare --vertical-shift density.",
+    ' Compare vertical_shift = "density" under [material].',
+    " Compare “Vertical shift b(T)” as “density”.",
+)
 #: A pole so close below the coldest point follows from that point.
 NEAR_POLE = 5.0  # K
 

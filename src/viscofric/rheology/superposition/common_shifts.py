@@ -14,7 +14,14 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.rheology.superposition.common_curve import Smoother
-from viscofric.rheology.superposition.isotherm_offsets import LARGEST, IsothermOffsets, LeftOut, Offsets, estimated
+from viscofric.rheology.superposition.isotherm_offsets import (
+    LARGEST,
+    TRENDS,
+    IsothermOffsets,
+    LeftOut,
+    Offsets,
+    estimated,
+)
 from viscofric.rheology.superposition.joined_isotherms import BOTH, Quantities
 from viscofric.rheology.superposition.overlap import PAIR_UNCERTAINTY, SMALLEST_NOISE, Join, LogSweep, join, parted
 from viscofric.rheology.superposition.shift_problem import (
@@ -280,16 +287,21 @@ def _covariance(search: _Search, expected: Array | None = None) -> tuple[Array, 
 
 def _offsets(search: _Search, expected: Array | None) -> tuple[Offsets, Array]:
     """Return the variance of offsets of whole isotherms, and the effect of each on the gradient by the shifts."""
-    problem, ways = search.problem, search.problem.ways
+    problem, ways, trend = search.problem, search.problem.ways, search.problem.trend
     information, score, gradient = problem.with_offsets(search.parameters, search.smoothers, expected)
     turned = np.eye(len(score))[:, len(ways) - ways.shape[1] :]
     turned[: len(ways), : ways.shape[1]] = ways
+    if trend is not None:
+        turned = np.column_stack([turned, np.append(np.zeros(len(ways)), trend)])
     prior = ways.T @ problem.prior.T @ problem.prior @ ways
-    return estimated(
+    found = estimated(
         turned.T @ information @ turned,
         turned.T @ score,
         prior,
         problem.moduli,
         tied=problem.gauge.free_vertical,
-        trend=None if problem.gauge.trend is None or problem.moduli == 1 else np.tile(problem.gauge.trend, 2),
-    ), gradient
+        trend=trend is not None,
+    )
+    if trend is not None:
+        found = replace(found, expected=found.expected + found.trend @ TRENDS * trend)
+    return found, gradient

@@ -10,7 +10,7 @@ one of the sizes, with the probability of that size.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -70,16 +70,21 @@ class OffsetSizes:
 
 @dataclass(frozen=True, eq=False)
 class LeftOut:
-    """A vertical shift, log10 b a part of log10 T, that may have been left out of n isotherms."""
+    """A vertical shift, log10 b a part of log10 T, that may have been left out of n isotherms, or points of ramps."""
 
     probability: Array  # of each of `TRENDS`
     log10_b: Array  # (n,), of the whole of it, zero at the reference
-    follow: Array  # (n,), what it adds to log10 α found
+    follow: Array  # (n,), what it adds to log10 α found; of ramps (k,), to the logarithms of the constants of the law
+
+    @property
+    def size(self) -> float:
+        """Root mean square of its part."""
+        return float(np.sqrt(self.probability @ TRENDS**2))
 
     @property
     def errors(self) -> Array:
         """Standard errors of log10 α and of log10 b (2, n) from it; they are one error, of one sign or the other."""
-        return np.asarray(np.sqrt(self.probability @ TRENDS**2) * np.stack([self.follow, self.log10_b]))
+        return np.asarray(self.size * np.stack([self.follow, self.log10_b]))
 
     def notes(self, coldest: float, warmest: float, remedy: Remedy) -> Iterator[Note]:
         """Yield a note if the moduli show a vertical shift, between the ends of the temperatures, K."""
@@ -163,56 +168,68 @@ class Offsets:
     """Estimated offsets of n isotherms."""
 
     covariance: Array  # (m, m), of the offsets of the quantities of one isotherm, decades²; the mean over `sizes`
-    # (m n,), mean of the offsets of log E', then of log E'', given the measurement and the shifts found, with those of
-    # the trend; decades
+    # (m n,), mean of the offsets of log E', then of log E'', given the measurement and the shifts found; decades
     expected: Array
     sizes: OffsetSizes
-    trend: Array  # probability of each of `TRENDS`
+    trend: Array  # (t,), probability of each of `TRENDS`
 
 
 def estimated(
-    information: Array, score: Array, prior: Array, moduli: int = 2, *, tied: bool, trend: Array | None = None
+    information: Array, score: Array, prior: Array, moduli: int = 2, *, tied: bool, trend: bool = False
 ) -> Offsets:
     """Estimate the variance of the offsets of the m quantities (`moduli`, 1 or 2) of n isotherms."""
     # `information` (p + m n, p + m n) and `score` (p + m n,), half of the decrease of the objective, are those of p
     # free shifts, of the offsets of log E', and of those of log E'', in units of the scatter of the points, with the
     # curves refitted. `prior` (p, p) is information on the shifts apart from the points. `tied` makes offsets of E' and
     # E'' independent of each other, as they must be where vertical shifts are fitted, which absorb whatever the two
-    # have in common. `trend` (m n,) is what a vertical shift that may have been left out adds to the quantities.
-    free = len(prior)
-    size = (len(score) - free) // moduli
+    # have in common. With `trend`, the last row is that of a vertical shift that may have been left out, as a part of
+    # log10 T.
+    free, levels = len(prior), slice(len(prior), len(score) - trend)
+    size = (len(score) - free - trend) // moduli
     if moduli == 1 and tied:  # part of the vertical shifts
         return Offsets(np.zeros((1, 1)), np.zeros(size), OffsetSizes(np.zeros((1, 1)), np.ones(1)), NO_TREND)
-    turn = np.kron(TURNS[moduli], np.eye(size))
+    turn = np.eye(len(score))[free:, free:]
+    turn[: moduli * size, : moduli * size] = np.kron(TURNS[moduli], np.eye(size))
     gain = np.linalg.solve(information[:free, :free] + prior, information[:free, free:]).T
     left = turn @ (information[free:, free:] - gain @ information[:free, free:]) @ turn.T
     wish = turn @ (score[free:] - gain @ score[:free])
+    turn = turn[: moduli * size, : moduli * size]
     if moduli == 1:
         tried, before, likelihood_of = SIZES[:, None], _equal(NONE), _likelihood_of_sums
     else:
         tried = np.stack(np.meshgrid(SIZES, SIZES, indexing="ij"), axis=-1).reshape(-1, 2)
         before = (np.diag(_equal(NONE_BESIDE_VERTICAL)) if tied else np.outer(BEFORE, BEFORE)).ravel()
         likelihood_of = _likelihood
-    common = np.zeros(moduli * size) if trend is None else trend
-    onto, reach = left @ turn @ common, turn @ common
-    # The likelihood is normal: its logarithm is a parabola of the part that the trend has, given by three of them.
-    less, none, more = (
-        likelihood_of(left, wish - part * onto) + reach @ (part * wish - 0.5 * part**2 * onto)
-        for part in (-1.0, 0.0, 1.0)
-    )
-    likelihood = none[:, None] + np.outer(0.5 * (more - less), TRENDS) + np.outer(0.5 * (more + less) - none, TRENDS**2)
-    before = np.outer(before, NO_TREND if trend is None else BEFORE_TREND)
-    weight = before * np.exp(likelihood - likelihood.max())
-    weight /= weight.sum()
-    found, weight = weight.sum(axis=0), weight.sum(axis=1)
+    probability = _beside_trends(likelihood_of, left, wish, before, trend)
+    found, weight = probability.sum(axis=0), probability.sum(axis=1)
     variances = weight @ tried**2
     deviations = np.repeat(np.sqrt(variances), size)
-    beside = np.eye(moduli * size) + deviations[:, None] * (turn @ information[free:, free:] @ turn.T) * deviations
-    rest = score[free:] - found @ TRENDS * (information[free:, free:] @ common)
+    beside = np.eye(moduli * size) + deviations[:, None] * (turn @ information[levels, levels] @ turn.T) * deviations
+    rest = score[levels]
+    if trend:
+        rest = rest - found @ TRENDS * information[levels, -1]
     expected = deviations * np.linalg.solve(beside, deviations * (turn @ rest))
     small = TURNS[moduli]
-    expected = turn.T @ expected + found @ TRENDS * common
-    return Offsets(small.T @ np.diag(variances) @ small, expected, OffsetSizes(tried, weight), found)
+    return Offsets(small.T @ np.diag(variances) @ small, turn.T @ expected, OffsetSizes(tried, weight), found)
+
+
+def _beside_trends(
+    likelihood_of: Callable[[Array, Array], Array], left: Array, wish: Array, before: Array, trend: bool
+) -> Array:
+    """Return the probabilities of k sizes of offsets and of trends, (k, t), with probabilities (k,) of sizes before."""
+    if not trend:
+        likelihood, parts = likelihood_of(left, wish)[:, None], NO_TREND
+    else:  # it is normal: its logarithm is a parabola of the trend, given by three of them
+        less, none, more = (
+            likelihood_of(left[:-1, :-1], wish[:-1] - part * left[:-1, -1])
+            + part * wish[-1]
+            - 0.5 * left[-1, -1] * part**2
+            for part in (-1.0, 0.0, 1.0)
+        )
+        likelihood = np.outer(0.5 * (more - less), TRENDS) + np.outer(0.5 * (more + less) - none, TRENDS**2)
+        likelihood, parts = none[:, None] + likelihood, BEFORE_TREND
+    probability = np.outer(before, parts) * np.exp(likelihood - likelihood.max())
+    return np.asarray(probability / probability.sum())
 
 
 def _equal(none: float) -> Array:

@@ -259,6 +259,12 @@ class ShiftProblem:
             wanted = np.concatenate([wanted, np.zeros(size - 1)])
         return rows, wanted
 
+    @property
+    def trend(self) -> Array | None:
+        """What a vertical shift that was left out adds to log E' and log E'' (2n,); one alone hardly shows it."""
+        trend = self.gauge.trend
+        return None if trend is None or self.moduli == 1 else np.tile(trend, self.moduli)
+
     def vertical_prior(self) -> Array:
         """Return the covariance (n, n) of vertical shifts before any point is seen, zero where none are sought."""
         inner = self.ways[self.size :]
