@@ -97,6 +97,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     of_anchors = _anchor_notes(best, drawn, middle, limit) if anchored else ()
     fitted, residuals = _fitted(outcome, found.posterior)
     common = found.common(bands, residuals, error_scale)
+    radius, coupling = _contacts(outcome, common["material"])
     level_range = limits(np.abs([one.complex_modulus(middle) for one in drawn.materials]))
     result = IdentifiedMaterial(
         **common,
@@ -106,7 +107,8 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         friction=fitted,
         residuals=residuals,
         iterations=outcome.iterations,
-        notes=(*points.notes, *of_outliers, *doubts, *_coupling(outcome, common["material"]), *of_anchors),
+        contact_radius=radius,
+        notes=(*points.notes, *of_outliers, *doubts, *coupling, *of_anchors),
     )
     return replace(result, material=with_origin(result, outcome.curves.source))
 
@@ -140,14 +142,15 @@ def _with_tails(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], A
     return fits, np.where(outlying, np.sqrt(squares), 0.0), float(np.sqrt(scale))
 
 
-def _coupling(outcome: Outcome, material: Material) -> tuple[str, ...]:
-    """Return a note where measured Coulomb friction changes the friction of the contacts by too much."""
+def _contacts(outcome: Outcome, material: Material) -> tuple[float, tuple[str, ...]]:
+    """Return the largest contact radius, m, and a note where measured Coulomb friction changes friction by too much."""
     points, indenter = outcome.start.points, outcome.contacts.indenter
     measured = points.at_one_load(outcome.curves)
     measured = replace(measured, load=points.forces, load_unit=indenter.geometry.load_unit)
     sizes = ContactSize.all_of(material, indenter, measured)
     coupled = check_coupling(measured, material, None, [(one.smallest, one.smallest) for one in sizes])
-    return () if coupled is None or coupled.holds else (coupled.sentence,)
+    notes = () if coupled is None or coupled.holds else (coupled.sentence,)
+    return max(one.smallest for one in sizes), notes
 
 
 def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit: float) -> Iterator[Note]:

@@ -25,11 +25,13 @@ from viscofric.rheology.spectra.quality import FROM_FRICTION, FROM_INDENTATION, 
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.showing import Plotted, Rows
-from viscofric.units import in_si, shown_celsius
+from viscofric.units import in_si, shown_celsius, shown_number
 
 #: Factor to which the modulus is given beyond the measured frequencies, and number of frequencies.
 _BEYOND = 10.0
 _FREQUENCIES = 300
+#: Thickness over the contact's radius of a layer with 2 % less friction than a half-space; at half of it, 5 % less.
+HALF_SPACE = 10
 
 
 def log_magnitudes(samples: MaterialSamples, angular_frequency: Array | float) -> Array:
@@ -264,6 +266,8 @@ class IdentifiedMaterial(Identified):
         Measured minus fitted, over the standard error, in the order of `friction`.
     iterations : int
         Steps made, with contacts solved in each.
+    contact_radius : float
+        Largest radius, or half width, of the contacts on the half-space that the rubber is taken to be, m.
     """
 
     METHOD: ClassVar[str] = FROM_FRICTION
@@ -273,6 +277,7 @@ class IdentifiedMaterial(Identified):
     friction: FrictionCurves
     residuals: Array
     iterations: int
+    contact_radius: float
 
     def _attributes(self) -> dict[str, Any]:
         low, high = self.level_range
@@ -308,7 +313,7 @@ class IdentifiedMaterial(Identified):
     @property
     def sentences(self) -> tuple[str, ...]:
         """The result and its limits, one sentence each."""
-        return (self._fit_words(), *self.known, *self._shift_words(), *self.notes)
+        return (self._fit_words(), *self.known, *self._shift_words(), self._body_words(), *self.notes)
 
     def _fit_words(self) -> str:
         return (
@@ -336,6 +341,13 @@ class IdentifiedMaterial(Identified):
         return (
             f"{super()._band_words()} All bands assume a smooth spectrum: one mode per decade makes E'' oscillate by "
             "about 6 % and changes friction by a few per cent, which no band has."
+        )
+
+    def _body_words(self) -> str:
+        least = shown_number(1e3 * HALF_SPACE * self.contact_radius, ".2g")
+        return (
+            f"The rubber is taken to be a half-space: a layer thinner than {least} mm, {HALF_SPACE} times the largest "
+            "contact radius, has less friction by 2 % or more, so that another modulus is found."
         )
 
     def _shift_words(self) -> tuple[str, ...]:
