@@ -188,6 +188,7 @@ def test_a_rubber_identified_from_friction_says_so_after_its_file(tmp_path: Path
         METHOD="friction",
         UNMEASURED="",
         middle=30.0,
+        notes=(),
         known=("|E(ω)| is known to 5 % from 3 to 400 rad/s.",),
     )
     vf.write_card(with_origin(found, "fr.csv"), tmp_path / "rubber.json", format="json")
