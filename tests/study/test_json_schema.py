@@ -51,7 +51,7 @@ def test_every_key_of_the_example_fits() -> None:
         ("points = 13", "points = 1"),
         ("points = 13", 'points = "13"'),
         ('spacing = "log"', 'spacing = "logarithmic"'),
-        ("accuracy = 1e-3", "accuracy = 1e-9"),
+        ("accuracy = 1e-3", "accuracy = 1e-11"),
         ("draws = 200", "draws = -1"),
         ("[indenter]", "[[indenter]]"),
         ("[solver]", "[solvers]"),
