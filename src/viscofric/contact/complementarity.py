@@ -251,7 +251,10 @@ def solve_many_spots(
     pressure = _loaded_to(backend, backend.positive_part(xp.asarray(backend.asarray(guess), copy=True)), load)
     contact = backend.cells(pressure > 0.0)
     loaded, values = contact.indices, contact.gathered(pressure)
-    gap, confirmed = _gap(backend, operator(pressure), height), True
+    # In the precision of corrections: the gap of a guess is far from nothing.
+    first = inner(contact.scattered(xp.astype(values, inner.dtype)))
+    gap, confirmed = _gap(backend, xp.astype(first, pressure.dtype), height), False
+    del first
     known = KnownChanges(contact, directions, inner.dtype, fixed_load=load is not None)
     change = image = None
     extended, collected = extension.on(contact), extension.collecting(contact)

@@ -15,6 +15,7 @@ from viscofric.contact.periodic.one_grid import OneGrid
 from viscofric.contact.periodic.surface import interpolated
 from viscofric.errors import ConvergenceError
 from viscofric.notes import Remedy
+from viscofric.threads import in_parts
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -74,8 +75,8 @@ def solve_on_levels(
     complementarity on the finest grid, relative to the rms height; `most_products` applies to each grid.  Arguments and
     results are NumPy's on any backend.
     """
-    coarser: Array | None = None
-    gap: Array | None = None
+    coarser: ComplementaritySolution | None = None
+    height: Array | None = None
     grids: list[tuple[int, int, int]] = []
     stage = next(stages)
     while True:
@@ -85,19 +86,16 @@ def solve_on_levels(
         else:
             wanted, most = tolerance, most_products
         level = OneGrid(stage, mean_pressure, offset, wanted, most, backend)
-        start: list[AnyArray] = [None, None]
-        if coarser is not None and gap is not None:
-            start = [backend.asarray(one) for one in _refined(coarser, gap, level)]
-            gap = None  # large, and no longer needed
-        result = level.solve(start.pop(0), start.pop()).on_numpy(backend)
+        start: AnyArray = None
+        if coarser is not None and height is not None:
+            start = backend.asarray(_refined(coarser, height, level))
+            height = None
+        result = level.solve(start).on_numpy(backend)
         ffts = level.exact.ffts + level.single.ffts
         grids.append((*level.shape, ffts))
         logger.debug("%s points: %s FFTs, residual %.1e", level.shape, ffts, result.complementarity)
         if finer is not None:
-            coarser = result.pressure
-            gap = np.maximum(result.displacement + stage.height - result.indentation, 0.0)
-            gap[coarser > 0.0] = 0.0
-            stage = finer
+            coarser, height, stage = result, stage.height, finer
             continue
         if not result.converged:
             fewer = "take fewer points, or a smoother surface."
@@ -115,14 +113,20 @@ def solve_on_levels(
             set_changes=level.set_changes,
             linear_iterations=level.linear_iterations,
             grids=tuple(grids),
-            coarser_pressure=coarser,
+            coarser_pressure=None if coarser is None else coarser.pressure,
         )
 
 
-def _refined(pressure: Array, gap: Array, level: OneGrid) -> tuple[Array, NDArray[Any]]:
-    """Interpolate pressure and gap of a coarser grid; the gap in the precision of corrections.
+def _refined(coarser: ComplementaritySolution, height: Array, level: OneGrid) -> NDArray[Any]:
+    """Interpolate pressures less gaps over ρ of a coarser grid, whose heights are given; in precision of corrections.
 
-    Each has a kink at the edges of the contact; p − gap/ρ is smooth there, and its sign says which of them is not zero.
+    Pressure and gap have a kink at the edges of the contact; p − gap/ρ is smooth there.
     """
-    signed = interpolated((pressure - gap / level.quick_rho).astype(level.single.precision), level.shape)
-    return np.maximum(signed, 0.0, dtype=np.float64), np.maximum(-level.quick_rho * signed, 0.0)
+    signed = np.empty(height.shape, level.single.precision)
+
+    def subtract(signed: NDArray[Any], pressure: Array, displacement: Array, height: Array) -> None:
+        gap = np.maximum(displacement + height - coarser.indentation, 0.0)
+        signed[...] = np.where(pressure > 0.0, pressure, gap / -level.quick_rho)
+
+    in_parts(subtract, signed, coarser.pressure, coarser.displacement, height)
+    return interpolated(signed, level.shape)

@@ -95,20 +95,18 @@ class OneGrid:
         self.most_products = most_products
         self.splitting_steps = self.set_changes = self.linear_iterations = 0
 
-    def solve(self, pressure: AnyArray | None, gap: AnyArray | None = None) -> ComplementaritySolution:
-        """Solve from the pressure and the gap of the coarser grid, from another pressure, or from nothing.
-
-        `gap` is zero where the pressure is not, and in the precision of corrections; it is overwritten.
-        """
-        full = self._full_contact() if pressure is None or self._nearly_full(pressure) else None
+    def solve(self, guess: AnyArray | None) -> ComplementaritySolution:
+        """Solve from pressures less gaps over `quick_rho`, or from nothing."""
+        loaded = self.cells if guess is None else self._loaded(guess)
+        full = self._full_contact() if loaded > 0.9 * self.cells else None
         if full is not None:
             return full
-        if pressure is None or not self._loaded(pressure):
-            pressure, gap = self._first_guess(), None
+        known = guess is not None and loaded > 0
         # These find most of the contact set, and cost half of a step of the next method each.
         kind = 0 if self.elastic else 1
-        pressure = self._split(self.single, pressure, _FIRST_STEPS, self.quick_rho, gap)
-        del gap
+        guess = guess if known else self._first_guess()
+        pressure = self._split(self.single, guess, _FIRST_STEPS, self.quick_rho, less_gap=known)
+        del guess
         start, result, few = pressure, None, _FEW_DIRECTIONS[kind]
         if self._loaded(pressure) <= _SPARSE * self.cells:
             result = self._many_spots(pressure, few)
@@ -225,17 +223,14 @@ class OneGrid:
 
     def _split(
         self, operator: PeriodicOperator, pressure: AnyArray, steps: int, rho: float,
-        gap: AnyArray | None = None, *, accelerated: bool = False,
+        *, accelerated: bool = False, less_gap: bool = False,
     ) -> AnyArray:  # fmt: skip
         self.splitting_steps += steps
         found = split_steps(
             operator, self.height, pressure, load=self.load, indentation=self.indentation, steps=steps,
-            rho=rho, accelerated=accelerated, gap=gap,
+            rho=rho, accelerated=accelerated, less_gap=less_gap,
         )  # fmt: skip
-        return found if self._loaded(found) else pressure
-
-    def _nearly_full(self, pressure: AnyArray) -> bool:
-        return self._loaded(pressure) > 0.9 * self.cells
+        return found if self._loaded(found) else self.backend.positive_part(pressure)
 
     def _loaded(self, pressure: AnyArray) -> int:
         return int(self.backend.xp.count_nonzero(pressure > 0.0))

@@ -42,36 +42,33 @@ def split_steps(
     steps: int,
     rho: float,
     accelerated: bool = False,
-    gap: AnyArray | None = None,
+    less_gap: bool = False,
 ) -> AnyArray:
     """Take steps of the splitting from a guess, and return pressures that are not negative, in double precision.
 
     Steps are in the operator's precision.  `height` (nx, ny) is above the indenter's lowest point; `guess` (nx, ny) are
     pressures, not negative, some above zero; the load, the sum of the pressures, or the indentation δ is given.  `rho`
     is ρ, a compliance: much more compliant waves converge at once, those of about ρ in a few steps.  `accelerated`
-    extrapolates from earlier steps (Anderson), which pays where many are needed.  `gap` (nx, ny) is about that
-    of the guess, not negative, in the operator's precision; it is overwritten.
+    extrapolates from earlier steps (Anderson), which pays where many are needed.  `less_gap`: the guess is that of
+    pressures less gaps over ρ, of which either is zero.
     """
     backend, xp = operator.backend, operator.backend.xp
     height, guess = backend.asarray(height), backend.asarray(guess)
-    offset = float(xp.mean(height)) if indentation is None else indentation
+    offset, level = float(xp.mean(height)) if indentation is None else indentation, 0.0
     # y and p are multiplied by ρ throughout, so that most of a step is done in place.
     resolvent, surface = xp.empty_like(operator.transfer), xp.empty_like(height, dtype=operator.dtype)
-    pressure, result = xp.empty_like(surface), xp.empty_like(guess)
+    state, shifted = xp.empty_like(surface), xp.empty_like(surface)
 
     def resolve(resolvent: AnyArray, transfer: AnyArray) -> None:
         resolvent[...] = 1.0 / (transfer / rho + 1.0)
 
-    def prepare(surface: AnyArray, pressure: AnyArray, height: AnyArray, guess: AnyArray) -> None:
+    def begin(
+        state: AnyArray, shifted: AnyArray, surface: AnyArray, height: AnyArray, guess: AnyArray, *moved: AnyArray
+    ) -> None:
         surface[...] = xp.astype(height - offset, operator.dtype)
-        pressure[...] = xp.astype(guess, operator.dtype)
-
-    def begin(state: AnyArray, pressure: AnyArray, shifted: AnyArray, surface: AnyArray) -> None:
-        if gap is None:
-            state += surface - level
-            backend.positive_part(state)
-        pressure *= rho
-        state += pressure
+        state[...] = rho * xp.abs(xp.astype(guess, operator.dtype))
+        for displacement in moved:
+            state += backend.positive_part(displacement + surface - level)
         shifted[...] = state - surface
 
     def step(state: AnyArray, flat: AnyArray, shifted: AnyArray, surface: AnyArray) -> None:
@@ -85,13 +82,13 @@ def split_steps(
         result[...] = xp.astype(flat / rho, xp.float64)
 
     backend.in_parts(resolve, resolvent, operator.transfer)
-    backend.in_parts(prepare, surface, pressure, height, guess)
-    state, level = operator(pressure) if gap is None else gap, 0.0
-    if gap is None and indentation is None:
-        loaded = pressure > 0.0
-        level = float(xp.mean(state[loaded] + surface[loaded]))
-    flat, shifted = pressure, xp.empty_like(surface)
-    backend.in_parts(begin, state, pressure, shifted, surface)
+    moved = [] if less_gap else [operator(xp.astype(guess, operator.dtype))]
+    if moved and indentation is None:
+        loaded = guess > 0.0
+        level = float(xp.mean(moved[0][loaded] + height[loaded])) - offset
+    backend.in_parts(begin, state, shifted, surface, height, guess, *moved)
+    del moved
+    flat = state
     acceleration = Acceleration(backend) if accelerated else None
     for _ in range(steps):
         waves = backend.transforms.forward(shifted)
@@ -107,6 +104,7 @@ def split_steps(
             flat, shifted = positive, state - surface
     operator.ffts += 2 * steps
     operator.products += steps
+    result = xp.empty_like(height)
     backend.in_parts(finish, result, flat)
     return result
 
