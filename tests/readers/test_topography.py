@@ -64,6 +64,12 @@ def test_width_and_unit_in_the_remarks_of_a_matrix_are_believed(tmp_path):
         vf.read_topography(write(tmp_path, text), unit="um")
 
 
+@pytest.mark.parametrize("width", ["1,000 µm", "ten µm"])
+def test_a_width_that_is_no_clear_length_is_refused(tmp_path, width):
+    with refused("wrong-unit"):
+        vf.read_topography(write(tmp_path, f"# Width: {width}\n# Value units: m\n{matrix_text()}"))
+
+
 @pytest.mark.parametrize("names", [("Lateral units", "Value units"), ("XY units", "Z units")])
 def test_units_in_the_remarks_of_points_are_believed(tmp_path, names):
     remarks = f"# Channel: Height\n# {names[0]}: um\n# {names[1]}: nm\n"

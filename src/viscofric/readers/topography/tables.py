@@ -16,7 +16,7 @@ from viscofric.files import saved_array
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.headings import Vocabulary, heading
 from viscofric.readers.one_table import only_table
-from viscofric.readers.source import Source, decimal_comma
+from viscofric.readers.source import LIKE_THOUSANDS, Source, decimal_comma
 from viscofric.readers.table import MISSING, NUMBER
 from viscofric.readers.tables import holds_table, lines_of
 from viscofric.units import conversion
@@ -76,12 +76,8 @@ def scan_of_points(
     insist_on_need(source.path, options, spacing="contains the positions of its points")
     bad = np.flatnonzero(~np.all(np.isfinite(points[:, :-1]), axis=1))
     if bad.size:
-        raise DataFileError(
-            source.path,
-            "a position has no number; only heights may be missing.",
-            lines[int(bad[0])],
-            code="not-a-number",
-        )
+        problem = "a position has no number; only heights may be missing."
+        raise DataFileError(source.path, problem, lines[int(bad[0])], code="not-a-number")
     if len(points) < 2:
         raise DataFileError(source.path, "contains one point only; a line or a grid is needed.", code="no-points")
     found = _line(source, points) if points.shape[1] == 2 else _grid(source, points)
@@ -93,11 +89,8 @@ def _line(source: Source, points: Array) -> Scan:
     origin = f"read from {name_of(source)} (line scan)"
     steps = np.diff(x)
     if not np.all(steps > 0.0):
-        raise DataFileError(
-            source.path,
-            f"two points have the same position, x = {x[:-1][steps <= 0.0][0]:.6g} m.",
-            code="same-position",
-        )
+        problem = f"two points have the same position, x = {x[:-1][steps <= 0.0][0]:.6g} m."
+        raise DataFileError(source.path, problem, code="same-position")
     mean = float(np.ptp(x)) / (len(x) - 1)
     if float(np.abs(x - x[0] - mean * np.arange(len(x))).max()) <= _EVEN * mean:
         return Scan(z[:, None], (mean, mean), origin)
@@ -116,24 +109,19 @@ def _line(source: Source, points: Array) -> Scan:
 def _grid(source: Source, points: Array) -> Scan:
     (i, dx, nx), (j, dy, ny) = (_rows(source, points[:, axis], "xy"[axis]) for axis in (0, 1))
     if nx * ny > len(points) / _LEAST_FILLED:
-        raise DataFileError(
-            source.path,
+        problem = (
             f"its {len(points)} points form no grid: their x and y would need one of {nx} × {ny}; a matrix of heights "
-            "needs ",
-            code="no-grid",
-            remedy=SPACING + ", for instance.",
+            "needs "
         )
+        raise DataFileError(source.path, problem, code="no-grid", remedy=SPACING + ", for instance.")
     heights = np.full((nx, ny), math.nan)
     heights[i, j] = points[:, 2]
     taken = np.zeros((nx, ny), dtype=int)
     np.add.at(taken, (i, j), 1)
     if taken.max() > 1:
         where = np.argwhere(taken > 1)[0]
-        raise DataFileError(
-            source.path,
-            f"two points have the same position, column {where[0]}, row {where[1]}.",
-            code="same-position",
-        )
+        problem = f"two points have the same position, column {where[0]}, row {where[1]}."
+        raise DataFileError(source.path, problem, code="same-position")
     origin = f"read from {name_of(source)} (x, y, z)"
     if nx == 1:
         return Scan(heights.T, (dy, dy), origin, notes=("a line along y, read as one along x",))
@@ -195,34 +183,14 @@ HEIGHTS = Vocabulary(
     "a table of heights",
     {
         "x": frozenset(
-            {
-                "x",
-                "X",
-                "position",
-                "position x",
-                "x position",
-                "x-position",
-                "distance",
-                "length",
-                "lateral",
-                "scan length",
-            }
+            {"x", "X", "position", "position x", "x position", "x-position", "distance", "length", "lateral"}
+            | {"scan length"}
             | {"weg", "tastweg", "länge", "abstand", "distance x", "longueur", "距離", "长度"}
         ),
         "y": frozenset({"y", "Y", "position y", "y position", "y-position"}),
         "height": frozenset(
-            {
-                "z",
-                "Z",
-                "height",
-                "height z",
-                "z height",
-                "profile",
-                "profile height",
-                "total profile",
-                "elevation",
-                "höhe",
-            }
+            {"z", "Z", "height", "height z", "z height", "profile", "profile height", "total profile"}
+            | {"elevation", "höhe"}
             | {"profil", "p-profil", "hauteur", "altitude", "altura", "altezza", "高さ", "高度"}
         ),
     },
@@ -326,12 +294,8 @@ def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[st
         height = _length(source.path, remarks["height"]) if "height" in remarks else width
         spacing = (width / heights.shape[0], height / heights.shape[1])
     if spacing is None:
-        raise DataFileError(
-            source.path,
-            "does not state the spacing of its points; give ",
-            code="no-spacing",
-            remedy=SPACING + ", for instance.",
-        )
+        problem = "does not state the spacing of its points; give "
+        raise DataFileError(source.path, problem, code="no-spacing", remedy=SPACING + ", for instance.")
     if not (options.unit or stated_unit):
         notes.append(Note("unit-assumed", f"heights assumed to be in {unit}", values={"unit": unit}))
     return Scan(factor * heights, spacing, f"read from {name_of(source)} ({kind})", notes=tuple(notes))
@@ -357,7 +321,7 @@ def _is_length(unit: str) -> bool:
 
 def _length(path: str, text: str) -> float:
     match = re.fullmatch(r"([0-9.,eE+-]+)\s*(\S+)", text)
-    if match is None or not NUMBER.fullmatch(match[1]):
+    if match is None or not NUMBER.fullmatch(match[1]) or LIKE_THOUSANDS.fullmatch(match[1]):
         raise DataFileError(path, f"{text!r} in its remarks is not a length such as '10 um'.", code="wrong-unit")
     factor, _ = conversion(match[2], "m", "width")
     return factor * float(match[1].replace(",", "."))
@@ -487,9 +451,6 @@ def checked_heights(heights: Array, path: object) -> Array:
     """Return heights, m, or raise `DataFileError` where they differ by more than any surface's; NaN is passed over."""
     largest = float(np.nanmax(np.abs(heights), initial=0.0))
     if largest > HIGHEST:
-        raise DataFileError(
-            path,
-            f"holds heights of up to {largest:.3g} m, impossible for a surface; check their unit.",
-            code="implausible-height",
-        )
+        problem = f"holds heights of up to {largest:.3g} m, impossible for a surface; check their unit."
+        raise DataFileError(path, problem, code="implausible-height")
     return heights
