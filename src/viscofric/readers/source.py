@@ -249,13 +249,11 @@ class Decimals:
                 return cls(mark, point)
         if not commas or not points:
             return cls("", "," if decimal_comma(path, [*commas, *(beside if commas else ())]) else ".")
-        raise DataFileError(
-            path,
+        problem = (
             f"{points[0][0]!r} has a point, but other numbers of the file have a comma, so that decimals and "
-            "thousands cannot be distinguished; write all decimals in one way.",
-            points[0][1],
-            code="mixed-decimals",
+            "thousands cannot be distinguished; write all decimals in one way."
         )
+        raise DataFileError(path, problem, points[0][1], code="mixed-decimals")
 
     def plain(self, cell: str) -> str:
         """Return a number with a decimal point and without separators of thousands, any other cell as it is."""

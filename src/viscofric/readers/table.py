@@ -21,26 +21,8 @@ NumberedRow = tuple[int, Sequence[str]]
 
 #: Printed by instruments and people in place of a number.
 MISSING = frozenset(
-    {
-        "",
-        "-",
-        "--",
-        "---",
-        "----",
-        "–",
-        "—",
-        "nan",
-        "na",
-        "n/a",
-        "#n/a",
-        "#nv",
-        "n.a.",
-        "null",
-        "none",
-        "*",
-        "***",
-        "bad",
-    }
+    {"", "-", "--", "---", "----", "–", "—", "nan", "na", "n/a", "#n/a", "#nv", "n.a.", "null", "none", "*"}
+    | {"***", "bad"}
     | {"-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind"}  # of Windows
 )
 

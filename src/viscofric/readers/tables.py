@@ -648,12 +648,8 @@ def _insist_on_text(path: str, above: Sequence[NumberedRow], words: Vocabulary) 
         if sum(map(is_number, cells)) <= 2:
             width = max(width, len(cells))
         elif len(cells) > width:
-            raise DataFileError(
-                path,
-                "a row of numbers precedes the header; put the header first.",
-                number,
-                code="numbers-above-header",
-            )
+            problem = "a row of numbers precedes the header; put the header first."
+            raise DataFileError(path, problem, number, code="numbers-above-header")
 
 
 def _is_row_of_units(columns: Sequence[Column], cells: Sequence[str]) -> bool:

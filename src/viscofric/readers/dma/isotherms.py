@@ -127,13 +127,11 @@ def _holds(points: Points, group: Indices, source: str) -> list[Indices]:
             return held
     kelvin = points.temperature[group]
     low, high = float(kelvin.min()), float(kelvin.max())
-    raise DataFileError(
-        source,
+    problem = (
         f"the temperatures run continuously from {shown_celsius(low)} to {shown_celsius(high)} °C, without a gap of "
-        f"{ISOTHERM_GAP:g} K; isothermal sweeps are needed, not a temperature ramp",
-        code="temperature-ramp",
-        remedy=AS_RAMPS,
+        f"{ISOTHERM_GAP:g} K; isothermal sweeps are needed, not a temperature ramp"
     )
+    raise DataFileError(source, problem, code="temperature-ramp", remedy=AS_RAMPS)
 
 
 def _stretches(points: Points, group: Indices, step: float) -> list[Indices]:
@@ -374,11 +372,8 @@ def _deformation(readings: Sequence[Readings], given: Deformation | None) -> tup
         problem = f"states {other.deformation}{other_by}, but {first.source} states {kind}{by}; read them separately."
         raise DataFileError(other.source, problem, code="deformation-contradicts")
     if given is not None and (given == "shear") != (kind == "shear"):
-        raise DataFileError(
-            first.source,
-            f"the header states {kind}{by}, but {given} was requested.",
-            code="deformation-contradicts",
-        )
+        problem = f"the header states {kind}{by}, but {given} was requested."
+        raise DataFileError(first.source, problem, code="deformation-contradicts")
     notes = [Note("deformation", f"The file's header states that the moduli were measured in {kind}{by}.")]
     if given not in (None, kind):
         kind = given

@@ -118,32 +118,13 @@ LOSS_TANGENT = frozenset(
     | {"factor de pérdida", "fattore di perdita", "fator de perda", "verliesfactor", "förlustfaktor"}
 )
 PHASE_ANGLE = frozenset(
-    {
-        "δ",
-        "delta",
-        "phase",
-        "phase angle",
-        "loss angle",
-        "phase shift",
-        "phase lag",
-    }
+    {"δ", "delta", "phase", "phase angle", "loss angle", "phase shift", "phase lag"}
     | {"phasenwinkel", "verlustwinkel", "phasenverschiebung", "angle de phase", "angle de perte", "déphasage"}
     | {"ángulo de fase", "angolo di fase", "ângulo de fase", "fasehoek", "位相角", "相位角"}
 )
 STRAIN_AMPLITUDE = frozenset(
-    {
-        "γ",
-        "ε",
-        "γ0",
-        "ε0",
-        "gamma",
-        "complex shear strain",
-        "strain",
-        "strain amplitude",
-        "dynamic strain",
-        "oscillation strain",
-        "shear strain",
-    }
+    {"γ", "ε", "γ0", "ε0", "gamma", "complex shear strain", "strain", "strain amplitude", "dynamic strain"}
+    | {"oscillation strain", "shear strain"}
     | {"strain dyn", "strain dyn.", "dehnungsamplitude", "dynamische dehnung", "scheramplitude", "dehnung"}
     | {"deformation", "deformationsamplitude", "amplitude de déformation", "déformation", "déformation dynamique"}
     | {"amplitud de deformación", "deformación", "deformazione", "ampiezza di deformazione", "deformação"}
@@ -152,20 +133,8 @@ STRAIN_AMPLITUDE = frozenset(
     | {"dyn. strain", "peak strain", "应变幅值"}
 )
 STEP = frozenset(
-    {
-        "set",
-        "step",
-        "action name",
-        "segment number",
-        "segment",
-        "interval",
-        "sweep",
-        "schritt",
-        "abschnitt",
-        "intervalle",
-        "étape",
-        "paso",
-    }
+    {"set", "step", "action name", "segment number", "segment", "interval", "sweep", "schritt", "abschnitt"}
+    | {"intervalle", "étape", "paso"}
 )
 
 TIME = frozenset(

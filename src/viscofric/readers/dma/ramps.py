@@ -135,13 +135,11 @@ def read_ramps(
         columns_of = (points.temperature, points.storage_modulus, points.loss_modulus)
         ramps.append(TemperatureRamp(frequency, *(column[order] for column in columns_of)))
     if not ramps:
-        raise DataFileError(
-            found.source,
+        problem = (
             f"no frequency was held over more than {RAMP:g} K at {FEWEST} temperatures or more; this is no temperature "
-            "ramp",
-            code="no-ramp",
-            remedy=AS_SWEEPS,
+            "ramp"
         )
+        raise DataFileError(found.source, problem, code="no-ramp", remedy=AS_SWEEPS)
     notes = [*found.notes, *on_direction]
     if short:
         said = (
@@ -258,13 +256,11 @@ def read_amplitude_sweep(
     keep = keep[points.strain_amplitude[keep] > 0.0]
     taken = _longest(points, keep) if len(keep) else keep
     if not len(taken):
-        raise DataFileError(
-            found.source,
+        problem = (
             f"no frequency was held over {FEWEST_AMPLITUDES} strain amplitudes that differ by more than a factor of "
-            f"{SWEPT_AMPLITUDE:g}; this is no amplitude sweep",
-            code="no-amplitude-sweep",
-            remedy=AS_SWEEPS,
+            f"{SWEPT_AMPLITUDE:g}; this is no amplitude sweep"
         )
+        raise DataFileError(found.source, problem, code="no-amplitude-sweep", remedy=AS_SWEEPS)
     notes = short_notes([*found.notes, *_on_left_out(points, keep, taken), *_on_temperature(points, taken)])
     strain, (storage, loss, frequency, kelvin) = _averaged(points, taken)
     held = float(frequency.mean()), float(kelvin.mean())

@@ -80,12 +80,8 @@ def format_of(source: Source) -> Format:
 def _refuse_traction(source: Source) -> None:
     """Raise `DataFileError` if a text is a table of traction runs."""
     if holds_table(source, TRACTION):
-        raise DataFileError(
-            source.path,
-            "this is a table of traction runs, not of DMA sweeps",
-            code="traction-runs",
-            remedy=replace(AS_RUNS, field="material.dma"),
-        )
+        problem = "this is a table of traction runs, not of DMA sweeps"
+        raise DataFileError(source.path, problem, code="traction-runs", remedy=replace(AS_RUNS, field="material.dma"))
 
 
 def known() -> str:

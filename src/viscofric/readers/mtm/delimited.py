@@ -63,14 +63,8 @@ TRACTION = Vocabulary(
             {"sliding speed", "slip speed", "sliding velocity"} | {"gleitgeschwindigkeit", "vitesse de glissement"}
         ),
         "slide to roll ratio": frozenset(
-            {
-                "srr",
-                "slide-to-roll ratio",
-                "slide-roll ratio",
-                "slide roll ratio",
-                "slide to roll ratio",
-                "slide/roll ratio",
-            }
+            {"srr", "slide-to-roll ratio", "slide-roll ratio", "slide roll ratio", "slide to roll ratio"}
+            | {"slide/roll ratio"}
         ),
         "traction coefficient": COEFFICIENT,
         "zero force": frozenset({"zero force", "zero traction force"}),
@@ -174,12 +168,11 @@ def _unused(table: Table, used: set[str]) -> tuple[Note, ...]:
     )
     numbered = [column for column in unused if column.unnumbered.lower() in readings]
     if numbered:
-        raise DataFileError(
-            table.path,
+        problem = (
             f"the numbered {_named(numbered)} would be left out, since a row of a table is one reading; write "
-            "each force in a row of its own with the signed speeds of disc and ball that go with it, or remove them.",
-            code="several-readings-a-row",
+            "each force in a row of its own with the signed speeds of disc and ball that go with it, or remove them."
         )
+        raise DataFileError(table.path, problem, code="several-readings-a-row")
     return (Note("unused-columns", f"Not read: the {_named(unused)}."),) if unused else ()
 
 

@@ -148,11 +148,8 @@ def read_mtm(
     for place, part in enumerate(parts):
         for other in parts[:place]:
             if part.same_as(other):
-                raise DataFileError(
-                    part.source,
-                    f"contains the same readings as {other.source}; give only one of them.",
-                    code="given-twice",
-                )
+                problem = f"contains the same readings as {other.source}; give only one of them."
+                raise DataFileError(part.source, problem, code="given-twice")
     return _together(parts)
 
 

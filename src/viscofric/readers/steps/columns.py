@@ -35,18 +35,8 @@ CREEP_COMPLIANCE = frozenset(
 RELAXATION_MODULUS = frozenset(
     {"E", "G", "E(t)", "G(t)", "e(t)", "g(t)", "modulus", "modulus g(t)", "modulus e(t)", "relaxation modulus"}
     | {"relaxation modulus g(t)", "relaxation modulus e(t)", "shear relaxation modulus", "tensile relaxation modulus"}
-    | {
-        "stress relaxation modulus",
-        "relax. modulus",
-        "G rel",
-        "E rel",
-        "G r(t)",
-        "E r(t)",
-        "shear modulus",
-        "relaxationsmodul",
-        "module de relaxation",
-        "módulo de relajación",
-    }
+    | {"stress relaxation modulus", "relax. modulus", "G rel", "E rel", "G r(t)", "E r(t)", "shear modulus"}
+    | {"relaxationsmodul", "module de relaxation", "módulo de relajación"}
     | {"modulo di rilassamento", "松弛模量", "緩和弾性率"}
 )
 STRESS = frozenset(

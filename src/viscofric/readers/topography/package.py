@@ -139,12 +139,8 @@ def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
     given: dict[str, Any] = {}
     if channel.unit is None:
         if not options.unit:
-            raise DataFileError(
-                source.path,
-                "does not state the unit of its heights; give ",
-                code="no-unit",
-                remedy=UNIT + ", for instance.",
-            )
+            problem = "does not state the unit of its heights; give "
+            raise DataFileError(source.path, problem, code="no-unit", remedy=UNIT + ", for instance.")
         given["unit"] = options.unit
     insist_on_need(
         source.path, options, "" if channel.unit is None else f"states that its heights are in {channel.unit!r}"
@@ -152,12 +148,8 @@ def _scan(source: Source, reader: Any, options: ScanOptions) -> Scan:
     factor, _ = conversion(str(channel.unit or options.unit), "m", "unit")
     if channel.physical_sizes is None:
         if options.spacing is None:
-            raise DataFileError(
-                source.path,
-                "does not state the spacing of its points; give ",
-                code="no-spacing",
-                remedy=SPACING + ".",
-            )
+            problem = "does not state the spacing of its points; give "
+            raise DataFileError(source.path, problem, code="no-spacing", remedy=SPACING + ".")
         points = channel.nb_grid_pts
         given["physical_sizes"] = tuple(n * d / factor for n, d in zip(points, options.spacing, strict=False))
     else:

@@ -189,12 +189,11 @@ def isotherm_of_each_row(
     count = fits.sum(axis=1)
     if np.any(count == 0):
         first = int(np.argmin(count))
-        raise DataFileError(
-            path,
+        problem = (
             f"{places[first]}: no shift of the list takes {frequency[first]:.6g} Hz back to a frequency of the "
-            f"programme, so that the master curve cannot be split; {AS_IT_IS}.",
-            code="master-curve-inseparable",
+            f"programme, so that the master curve cannot be split; {AS_IT_IS}."
         )
+        raise DataFileError(path, problem, code="master-curve-inseparable")
     chosen: Indices = np.argmax(fits, axis=1)
     for row in np.flatnonzero(count > 1):
         chosen[row] = _next_in_time(int(row), time, fits[row], chosen, count == 1, path, places)
@@ -347,12 +346,11 @@ def _isotherms(
 ) -> Indices:
     lacking = "sheet 'Shiftlist'" if shifts is None else "range of frequencies in sheet 'Data header'"
     if shifts is None or programmed is None:
-        raise DataFileError(
-            path,
+        problem = (
             f"is a master curve at {shown_celsius(float(temperature[0]))} °C without the {lacking}, which is needed to "
-            f"split it into isotherms; {AS_IT_IS}.",
-            code="master-curve-inseparable",
+            f"split it into isotherms; {AS_IT_IS}."
         )
+        raise DataFileError(path, problem, code="master-curve-inseparable")
     usable = time if time is not None and np.all(np.isfinite(time)) else None
     return isotherm_of_each_row(frequency, usable, shifts.log10_shifts, programmed, path, places)
 

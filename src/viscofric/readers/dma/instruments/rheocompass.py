@@ -100,12 +100,8 @@ def intervals(source: Source) -> list[Interval]:
     for start in (place for place, row in enumerate(cells) if _begins(row)):
         named = next((place for place in range(start + 1, min(start + 3, len(cells))) if cells[place][0]), None)
         if named is None or not cells[named][0].endswith(":") or _begins(cells[named]):
-            raise DataFileError(
-                source.path,
-                "the names of the columns must follow the number of points.",
-                start + 1,
-                code="missing-columns",
-            )
+            problem = "the names of the columns must follow the number of points."
+            raise DataFileError(source.path, problem, start + 1, code="missing-columns")
         found.append(_interval(source.path, cells, start, named))
     broken = found[-1].missing > 0 or len(cells[-1]) < len(found[-1].columns)
     if broken and not text.endswith(("\n", "\r")):
@@ -200,12 +196,11 @@ def read(source: Source) -> Readings:
         notes += _doubts(interval)
     if not tables:
         headings = ", ".join(repr(column) for column in found[0].columns[1:] if column)
-        raise DataFileError(
-            source.path,
+        problem = (
             f"no interval of {len(found)} is a frequency sweep, with frequency, storage and loss modulus; the first "
-            f"has the columns {headings}.",
-            code="no-frequency-sweep",
+            f"has the columns {headings}."
         )
+        raise DataFileError(source.path, problem, code="no-frequency-sweep")
     others = len(found) - len(tables)
     if others:
         what = "1 interval that is no frequency sweep was"

@@ -192,11 +192,8 @@ def readings_of(
     swept = [step.is_of(source.test) for step in steps]
     sweeps = [(number, step) for number, (step, one) in enumerate(zip(steps, swept, strict=True), start=1) if one]
     if not sweeps:
-        raise DataFileError(
-            source.path,
-            f"contains no {TESTS[source.test]} of an oscillation; {_contents(steps)}.",
-            code=f"no-{TESTS[source.test].replace(' ', '-')}",
-        )
+        problem = f"contains no {TESTS[source.test]} of an oscillation; {_contents(steps)}."
+        raise DataFileError(source.path, problem, code=f"no-{TESTS[source.test].replace(' ', '-')}")
     notes = [*notes, *_passed_over([step for step, one in zip(steps, swept, strict=True) if not one], source.test)]
     left_out = [place for _, step in sweeps for place in step.taken(~step.usable).places]
     if left_out:

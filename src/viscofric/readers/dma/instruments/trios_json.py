@@ -48,11 +48,8 @@ def read(source: Source) -> Readings:
     held = _part(document, "Results")
     name = next((one for one in _SECTIONS if _part(_part(held, one), "ColumnHeaders")), None)
     if name is None:
-        raise DataFileError(
-            source.path,
-            f"has no results under any of {', '.join(_SECTIONS)}; export the file with results.",
-            code="no-points",
-        )
+        problem = f"has no results under any of {', '.join(_SECTIONS)}; export the file with results."
+        raise DataFileError(source.path, problem, code="no-points")
     section = held[name]
     steps = steps_of(source.path, _steps(section), where=f"{name.lower()} results, row")
     return readings_of(source, NAME, steps, list(_geometry(document)), _notes(name, section))

@@ -65,11 +65,8 @@ def read(source: Source) -> Readings:
     step = replace(step, named_by_instrument=False)
     if not step.has_moduli:
         instrument = next((value for tag, value in header if tag.lower() == "instrument"), "the instrument")
-        raise DataFileError(
-            source.path,
-            f"contains no storage modulus, loss modulus and frequency; {instrument} wrote {', '.join(names)}.",
-            code="missing-columns",
-        )
+        problem = f"contains no storage modulus, loss modulus and frequency; {instrument} wrote {', '.join(names)}."
+        raise DataFileError(source.path, problem, code="missing-columns")
     tools = [(tag, value) for tag, value in header if _CLAMP_TAGS.fullmatch(tag)]
     # The file does not separate the steps of its programme.
     return replace(readings_of(source, kind, [step], tools, notes), step=None)
@@ -113,11 +110,8 @@ def _signals(path: str, header: Sequence[tuple[str, str]]) -> tuple[list[str], l
     stated = next((value for tag, value in header if tag.lower() == "nsig"), "")
     if not re.fullmatch(r"[0-9]{1,3}", stated) or int(stated) == 0:
         shown = f"'Nsig {stated[:20]}'" if stated else "no line 'Nsig'"
-        raise DataFileError(
-            path,
-            f"the header has {shown}; it must give the number of signals, such as 'Nsig 17'.",
-            code="damaged-header",
-        )
+        problem = f"the header has {shown}; it must give the number of signals, such as 'Nsig 17'."
+        raise DataFileError(path, problem, code="damaged-header")
     found = {tag.lower(): value for tag, value in header if re.fullmatch(r"sig\d+", tag, re.IGNORECASE)}
     missing = [f"Sig{k}" for k in range(1, int(stated) + 1) if f"sig{k}" not in found]
     if missing:
@@ -126,11 +120,8 @@ def _signals(path: str, header: Sequence[tuple[str, str]]) -> tuple[list[str], l
         )
     parts = [_name_and_unit(found[f"sig{k}"]) for k in range(1, int(stated) + 1)]
     if parts[0][0].lower() not in TIME:
-        raise DataFileError(
-            path,
-            f"the first signal is {parts[0][0]!r}; it must be the time, whose sign marks events.",
-            code="damaged-header",
-        )
+        problem = f"the first signal is {parts[0][0]!r}; it must be the time, whose sign marks events."
+        raise DataFileError(path, problem, code="damaged-header")
     return [name for name, _ in parts], [unit for _, unit in parts]
 
 

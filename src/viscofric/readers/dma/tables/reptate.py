@@ -116,11 +116,8 @@ def _places(source: Source, names: list[str]) -> dict[str, int]:
             places.setdefault("frequency" if what == "angular frequency" else what, place)
     missing = [what for what in ("frequency", *_MODULI) if what not in places]
     if missing:
-        raise DataFileError(
-            source.path,
-            f"no column for {' or '.join(missing)}; this file has {', '.join(names)}.",
-            code="missing-columns",
-        )
+        problem = f"no column for {' or '.join(missing)}; this file has {', '.join(names)}."
+        raise DataFileError(source.path, problem, code="missing-columns")
     return places
 
 
