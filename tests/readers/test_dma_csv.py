@@ -1062,3 +1062,10 @@ def test_a_second_column_of_a_modulus_that_is_not_read_is_noted(tmp_path):
 def test_measured_temperatures_count_before_those_of_the_programme(tmp_path):
     lines = ["Target temperature (°C),Measured temperature (°C),f (Hz),E' (MPa),E'' (MPa)"]
     assert_is_the_table(read_dma(write(tmp_path, *lines, *(f"99,{row}" for row in ROWS))))
+
+
+@pytest.mark.parametrize("name", ["EPDM 70 - 20 °C.csv", "EPDM-20C.csv"])
+def test_a_name_with_a_dash_before_its_temperature_is_not_read(tmp_path, name):
+    path = write(tmp_path, "f (Hz),E' (MPa),E'' (MPa)", "1,5,0.5", "10,6,0.7", name=name)
+    with refused("no-temperature", None, repr(path.stem)):
+        read_dma(path)

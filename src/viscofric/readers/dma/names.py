@@ -234,6 +234,12 @@ def temperature_in_name(name: str) -> float | None:
     return kelvin if kelvin and kelvin > _COLDEST else None
 
 
+def unclear_in_name(name: str) -> str:
+    """Return words on a name whose temperature was not read, "" where it holds none: ``EPDM 70 - 25 °C``."""
+    said = f" (that in the name {name[:80]!r} is not clear: a dash may be a minus sign, or there are several)"
+    return said if TEMPERATURE_IN_NAME.search(name) else ""
+
+
 #: Where there is no column of temperature.
 FROM_TITLES = Note(
     "temperature-from-title",

@@ -18,6 +18,7 @@ from viscofric.readers.dma.names import (
     TIME,
     known_temperatures,
     temperature_in_name,
+    unclear_in_name,
 )
 from viscofric.readers.headings import Vocabulary
 from viscofric.readers.source import Source, unit_conversion
@@ -194,7 +195,8 @@ def temperature_of(table: Table, source: Source, name: str, notes: list[str]) ->
         return known
     found = temperature_in_name(name) or temperature_in_name(source.stem)
     if found is None:
-        problem = f"no column for temperature, this table has {table.headings()}; give it, e.g. "
+        unclear = unclear_in_name(source.stem)
+        problem = f"no column for temperature{unclear}, this table has {table.headings()}; give it, e.g. "
         by = setting("material.temperature", "Temperature of the sweep", "'25 degC'")
         raise table.refused("no-temperature", problem, replace(by, python="temperature='25 degC'") + ".")
     notes.append(Note("temperature-from-name", "No column holds a temperature; it was taken from the file's name."))

@@ -392,7 +392,7 @@ def _temperature(
     swept = angular[angular > 0.0]
     decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
     if found is None or decades > WIDEST_SWEEP:
-        raise _no_temperature(table, decades)
+        raise _no_temperature(table, decades, name)
     notes.append(
         Note(
             "temperature-from-name",
@@ -402,7 +402,7 @@ def _temperature(
     return np.full(len(angular), found)
 
 
-def _no_temperature(table: Table, decades: float) -> DataFileError:
+def _no_temperature(table: Table, decades: float, name: str) -> DataFileError:
     if decades > WIDEST_SWEEP:
         return DataFileError(
             table.path,
@@ -417,9 +417,10 @@ def _no_temperature(table: Table, decades: float) -> DataFileError:
             "such as 'T = 25 °C', or into a column."
         )
         return DataFileError(table.path, problem, code="no-temperature")
+    problem = f"no column for temperature{names.unclear_in_name(name)}, this table has {table.headings()}; for a sweep "
     return DataFileError(
         table.path,
-        f"no column for temperature, this table has {table.headings()}; for a sweep at one temperature give ",
+        f"{problem}at one temperature give ",
         code="no-temperature",
         remedy=setting("material.temperature", "Temperature of the sweep", "'25 degC'")
         + Remedy(
