@@ -248,7 +248,9 @@ def test_every_method_is_refitted_its_own_way(method):
 def test_standard_errors_are_those_of_the_samples():
     samples = sample_materials(known_superposition())
     errors = samples.standard_errors
-    assert pytest.approx(np.std([m.spectrum.E0 for m in samples.materials], ddof=1)) == errors.E0
+    for each, error in ((samples.E0, errors.E0), (samples.E_inf, errors.E_inf)):
+        inside = np.abs(each - np.median(each)) < error  # of 200 samples, of a skewed distribution
+        assert np.mean(inside) == pytest.approx(0.68, abs=0.15)
     assert pytest.approx(np.sqrt(np.diag(samples.covariance))) == errors.C
     # Per sample, 1/E0 = 1/E_inf + ΣC.
     assert pytest.approx(1.0 / samples.E_inf + samples.C.sum(axis=1), rel=1e-9) == 1.0 / samples.E0

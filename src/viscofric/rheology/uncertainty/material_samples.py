@@ -264,9 +264,17 @@ class MaterialSamples(KnownFrequencies, Plotted, Items["Material"]):
 
     @property
     def standard_errors(self) -> StandardErrors:
-        """Standard deviations over the samples; those of neighbouring C are strongly correlated."""
+        """Half of the ranges of E0 and E_inf that hold 68 % of the samples, and standard deviations of C.
+
+        Standard deviations of E0 and E_inf would be those of a few samples: what lies beyond the measured frequencies
+        is drawn from a wide distribution.  Neighbouring C are strongly correlated.
+        """
+        middle = NormalDist().cdf(1.0) - NormalDist().cdf(-1.0)
+        E0, E_inf = (_limits(one, middle) for one in (self.E0, self.E_inf))
         return StandardErrors(
-            float(np.std(self.E0, ddof=1)), float(np.std(self.E_inf, ddof=1)), np.std(self.C, axis=0, ddof=1)
+            float(0.5 * (E0.upper - E0.lower)),
+            float(0.5 * (E_inf.upper - E_inf.lower)),
+            np.std(self.C, axis=0, ddof=1),
         )
 
     @property
