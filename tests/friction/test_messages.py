@@ -284,7 +284,7 @@ def test_identification_says() -> None:
     )
     band = SimpleNamespace(low=1.0, high=10.0)
     found = SimpleNamespace(
-        material=RUBBER, identified=band, middle=3.0, known=("Known.",), METHOD="friction", UNMEASURED=""
+        material=RUBBER, identified=band, middle=3.0, known=("Known.",), METHOD="friction", UNMEASURED="", notes=()
     )
     for source, behind in (("curves.csv", " (curves.csv)"), ("", "")):
         origin, *known = with_origin(found, source).spectrum.fit.notes

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.special import stdtrit
 from scipy.stats import binom
 
-from friction.made_runs import FOUR, rows_of, runs_from, traction_runs
+from friction.made_runs import FOUR, rows_of, runs_from, timed_sweeps, traction_runs
 from refusals import refused
 from viscofric.friction.measurement.conditions import conditions, of_the_disc
 from viscofric.friction.measurement.fit import operators, residuals
@@ -617,3 +617,10 @@ def test_loads_that_differ_between_the_directions_of_the_disc_are_taken_together
     np.testing.assert_allclose(curves.load, 25.0, rtol=0.02)
     # Two loads with all directions each are two conditions, however near.
     assert len(separate(runs_from(np.concatenate([rows_of(runs), rows_of(runs) * [1, 1, 1.1, 1.1, 1, 1]])))) == 12
+
+
+@pytest.mark.parametrize(("order", "hidden"), [((0, 2, 3, 1), True), ((0, 1, 2, 3), False)])
+def test_wear_that_the_order_of_one_run_hides_is_noted(order: tuple[int, ...], hidden: bool) -> None:
+    """Coulomb friction that falls linearly leaves nothing, or most of its change, in the residual."""
+    runs = timed_sweeps(np.geomspace(0.02, 0.2, 5), runs=1, configurations=[FOUR[one] for one in order])
+    assert ("wear-not-shown" in codes(separate(runs).notes)) == hidden

@@ -321,7 +321,7 @@ def _of_coulomb(fits: list[Fit], weights: Array, zero_error: float) -> tuple[Rat
     # contradicts it, there is no wear; where the second may be zero as well, viscoelastic friction may be as it is.
     points, checked = _courses(fits, weights)
     if not points:
-        return _NONE, 0.0
+        return _NONE, _hidden_in_one_run(fits, weights)
     times = np.concatenate([fit.times for fit in fits])
     length = float(np.nanmax(times) - np.nanmin(times))
     by_replicates, by_residual, poor = _two_rates(points, checked, zero_error)
@@ -349,6 +349,21 @@ def _of_coulomb(fits: list[Fit], weights: Array, zero_error: float) -> tuple[Rat
         found = found._replace(value=0.0)
     noted = not found.value and hidden > _WORN and least * length < _WORN
     return found, min(hidden, _ALL) if noted else 0.0
+
+
+def _hidden_in_one_run(fits: list[Fit], weights: Array) -> float:
+    """Return the change of Coulomb friction that configurations measured once hide, over its mean; zero if small."""
+    once = [fit for fit in fits if fit.checks and fit.replicates == 1 and np.isfinite(fit.time)]
+    if not once:
+        return 0.0
+    times = np.concatenate([fit.times for fit in once])
+    by_wear = np.array([fit.each[0, :, WEAR] for fit in once]) / max(float(np.ptp(times)), ROUNDING)
+    trend = _Trend.of(np.array([fit.mean(weights)[3] for fit in once]), by_wear[:, 3], 0)
+    change = trend.rate(trend.squares, trend.freedom)
+    hidden = (threshold(change.freedom, CHANCE) + _SURELY) * change.error
+    # It is noted where less than what is looked for would move viscoelastic friction out of its interval.
+    matters = 2.0 * math.sqrt(trend.squares / len(once)) < _WORN * np.abs(by_wear[:, 1]).max()
+    return min(hidden, _ALL) if hidden > _WORN and matters else 0.0
 
 
 def _two_rates(points: list[Array], checked: list[Array], zero_error: float) -> tuple[Rate, Rate, bool]:
