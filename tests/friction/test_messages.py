@@ -19,9 +19,9 @@ from viscofric.errors import InputError
 from viscofric.friction.curve_checks import outlying_points
 from viscofric.friction.identification.conclusions import _anchor_notes
 from viscofric.friction.identification.points import usable_points
-from viscofric.friction.identification.result import with_origin
+from viscofric.friction.identification.result import synthetic_notes, with_origin
 from viscofric.friction.shifting.collapse import Collapse
-from viscofric.notes import Reader
+from viscofric.notes import Reader, codes
 
 LAW = vf.WLF(C1=8.86, C2=101.6, reference="50 degC")
 SPEEDS = np.geomspace(0.02, 0.2, 10)
@@ -291,11 +291,10 @@ def test_identification_says() -> None:
         assert origin == f"The material was identified from friction{behind}; none of its moduli was measured."
         assert origin.code == "identified-from-friction"
         assert known == ["Known."]
-    for source, made_up in (("curves.csv (synthetic)", True), ("curves.csv", False)):
-        assert (
-            any(getattr(one, "code", "") == "synthetic" for one in with_origin(found, source).spectrum.fit.notes)
-            == made_up
-        )
+    for source, said in (("curves.csv (synthetic)", {"synthetic"}), ("curves.csv", set())):
+        found.notes = synthetic_notes(source, None, measured)
+        assert codes(found.notes) == codes(with_origin(found, source).spectrum.fit.notes) & {"synthetic"} == said
+    assert synthetic_notes("", RUBBER) == ("The prior is synthetic (synthetic fluoroelastomer).",)
 
 
 def test_points_of_friction_say() -> None:
