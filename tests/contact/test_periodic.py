@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import platform
 import tracemalloc
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -20,7 +19,7 @@ from viscofric.contact.bodies import Layer
 from viscofric.contact.periodic import one_grid
 from viscofric.contact.periodic.levels import _refined
 from viscofric.contact.periodic.operator import PeriodicOperator
-from viscofric.contact.periodic.solve import BYTES_PER_POINT, _kept_memory, solve_periodic
+from viscofric.contact.periodic.solve import BYTES_PER_POINT, solve_periodic
 from viscofric.contact.periodic.splitting import split_steps
 from viscofric.contact.periodic.surface import PeriodicSurface, interpolated
 from viscofric.contact.periodic.transfer import SlidingSolid
@@ -680,19 +679,3 @@ def test_inertia_of_waves_is_noted_by_the_squares_of_their_speeds() -> None:
     changes = (4.0 * parts) ** 2 * np.abs(compliance) * 3.0 * 1150.0  # of filled rubber
     # Moduli are interpolated between frequencies that are a tenth of a decade apart.
     assert note.values["change"] == pytest.approx(float(shares @ changes / shares.sum()), rel=1e-2)
-
-
-@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="only glibc has these options")
-def test_large_arrays_take_the_memory_of_freed_ones_while_a_large_contact_is_solved() -> None:
-    import resource  # not on every system
-
-    def pages() -> int:
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-        np.ones(2**23)  # larger than what glibc keeps by itself
-        return resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before
-
-    with _kept_memory(2**22):
-        first, second = pages(), pages()
-    # The pages of 64 MiB, 32 at least where they are huge ones; none of them again, but for what else happens.
-    assert first >= 32 > second
-    assert pages() >= 32  # returned

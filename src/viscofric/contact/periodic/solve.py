@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import ctypes
 import functools
 import logging
 import math
 import os
-from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -69,11 +67,7 @@ _FADING = 0.5**1.5
 _MODULI = 200
 #: Bytes of memory for each point while an elastic and a viscoelastic contact is solved with up to a fifth of the area
 #: in contact: those of the arrays and of the surface, and what the allocator keeps.  In full contact up to 30 more.
-BYTES_PER_POINT = (110, 125)
-# Points from which on glibc maps memory anew for each array, and has the system clear it: a fifth of a solve and more.
-_MAPPED = 2**22
-# Options of its `mallopt`, M_MMAP_MAX and M_TRIM_THRESHOLD: to keep what is freed, and as large arrays leave them.
-_KEEP, _RETURN = ((-4, 0), (-1, -1)), ((-4, 65536), (-1, 2**26))
+BYTES_PER_POINT = (105, 120)
 
 
 @one_blas_thread
@@ -146,7 +140,7 @@ def solve_periodic(
 
     Notes
     -----
-    A viscoelastic contact needs about 125 bytes of memory per point: 2.1 GB for 4096², 8 GB for 8192².
+    A viscoelastic contact needs about 120 bytes of memory per point: 2 GB for 4096², 8 GB for 8192².
 
     û = 2(1−ν²) S(−q·v) p̂/|q| holds exactly for each wave, so that a table of moduli needs no modes.  The surface
     repeats itself and so does the pressure: an isolated contact is better solved by `solve_steady`.
@@ -203,7 +197,7 @@ def solve_periodic(
         half_space_coupling(indenter_poisson_ratio),
     )
     _insist_on_memory(surface.shape, BYTES_PER_POINT[not solid.is_symmetric], where)
-    with so_many(where.threads), _kept_memory(surface.z.size):
+    with so_many(where.threads):
         given = _Given.of(surface, pressure, gap)
         depth = surface.rms_height
         finest = solid.transfer(surface.shape, surface.spacing)
@@ -238,24 +232,6 @@ def _insist_on_memory(shape: tuple[int, int], bytes_per_point: int, backend: Bac
             f"computer has {there / 1e9:.2g} GB; give fewer points.",
             code="not-enough-memory",
         )
-
-
-@contextmanager
-def _kept_memory(points: int) -> Iterator[None]:
-    """Let large arrays take the memory of freed ones, where the C library is glibc; then return it to the system."""
-    library = ctypes.CDLL(None) if points >= _MAPPED and os.name == "posix" else None
-    if not hasattr(library, "mallopt"):
-        yield
-        return
-    assert library is not None
-    for option in _KEEP:
-        library.mallopt(*option)
-    try:
-        yield
-    finally:
-        for option in _RETURN:
-            library.mallopt(*option)
-        library.malloc_trim(0)
 
 
 def _memory() -> float:
