@@ -67,6 +67,8 @@ _FOR_EXCEL = re.compile(r"\s*\"?sep=[,;\t]\"?\s*", re.IGNORECASE)
 
 #: A quoted cell that does not end with its line, and the most lines of one row.
 _OPEN, _MOST_WRAPPED = re.compile(r'(?:^|[\t;,])"[^"]*$'), 20
+#: Words, each with the brackets behind it: "E(t) (Pa)", but "[Hz]" and "[Pa]" of a row of units.
+_WORDS = re.compile(r"[^\s(\[{<]\S*+(?:\s[(\[{<][^()\[\]{}<>]*[)\]}>](?!\S))?|\S+")
 #: A number at the beginning of a cell, but not that of "1/s".
 _VALUE = re.compile(r"[+−-]?[\d.,]++(?!\s*/)")
 
@@ -105,7 +107,8 @@ def no_header(source: Source, vocabulary: Vocabulary) -> DataFileError:
     if is_workbook(source):
         return _no_header_in_workbook(source, words)
     candidates = [guessed(_split_lines(source, delimiter), words) for delimiter in (*_DELIMITERS, _BLANKS)]
-    return _not_understood(source.path, words, max(candidates, key=len))
+    lacking = [one for one in candidates if one and words.missing(column.quantity for column in words.columns(one))]
+    return _not_understood(source.path, words, max(lacking or candidates, key=len))
 
 
 def _of_workbook(source: Source, words: Vocabulary) -> dict[str, Table]:
@@ -793,7 +796,7 @@ def _cells(path: str, number: int, line: str, delimiter: str) -> list[str]:
         return [quoted or bare for quoted, bare in re.findall(r'"([^"]*)"|(\S+)', line)]
     # two blanks or more, or single ones if no heading has several words but its unit in brackets
     wide = re.split(r"\s{2,}", line.strip())
-    single = re.split(r"\s++(?![(\[{<])|(?<=[)\]}>])\s++", line.strip())
+    single = _WORDS.findall(line)
     return single if len(wide) == 1 or all(map(is_number, single)) else wide
 
 
