@@ -415,7 +415,14 @@ def test_refusals_say(call: Callable[[], object], reader: Reader, sentence: str)
             ),
         ),
         ("200;60", "200;-300", ", line 3: '-300' in column 'temperature (degC)' must be above absolute zero."),
-        ("2,5", "two", ", line 3: 'two' in column 'viscoelastic friction (%)' is not a finite number."),
+        (
+            "2,5",
+            "two",
+            (
+                ", line 3: 'two' in column 'viscoelastic friction (%)' is not a finite number; correct it, or leave "
+                "out the row."
+            ),
+        ),
         ("2,5", "", ", line 3: the cell in column 'viscoelastic friction (%)' is empty; give a number."),
     ],
 )

@@ -27,7 +27,7 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     (
         read_dma,
         [DMA, "20,1,five,0.5"],
-        "'five' in column 'storage modulus (MPa)' is not a finite number.",
+        "'five' in column 'storage modulus (MPa)' is not a finite number; correct it, or leave out the row.",
     ),
     (read_dma, [DMA, "20,1,0,0.5"], "0 in column 'storage modulus (MPa)' must be above zero."),
     (

@@ -122,7 +122,10 @@ class Table:
             value = math.nan
         if not math.isfinite(value) or "_" in plain:
             raise DataFileError(
-                self.path, f"{text!r} in column {heading!r} is not a finite number.", line, code="not-a-number"
+                self.path,
+                f"{text!r} in column {heading!r} is not a finite number; correct it, or leave out the row.",
+                line,
+                code="not-a-number",
             )
         return value
 
