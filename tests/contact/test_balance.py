@@ -10,6 +10,7 @@ import pytest
 import viscofric as vf
 from gallery import HERTZ_RADIUS, broad_spectrum_37, low_speed_friction, standard_linear_solid
 from marks import apart, slow
+from viscofric.contact.free import balance
 from viscofric.contact.free.balance import lag, openings
 from viscofric.contact.free.estimates import FEWEST_GRIDS, FRICTION_FLOOR, friction_estimate
 from viscofric.contact.free.geometry import LINE, POINT, Geometry
@@ -45,10 +46,10 @@ def test_bends_of_the_surface_balance_those_of_the_indenter(geometry: Geometry) 
     assert stage.operator.shift == 0.0
     window, pressure = stage.window, stage.result.pressure
     bends = second_difference(stage.result.displacement) / window.spacing**2
-    balance = -window.cell_area * float(np.vdot(pressure[1:-1], bends)) / stage.load
+    balanced = -window.cell_area * float(np.vdot(pressure[1:-1], bends)) / stage.load
     assert 0.01 < stage.opening < 0.2  # the identity is off by that much on 32 cells
     # The gap under the pressures is zero to 1e-9 of the indentation; differences over h² ≈ 1e-2 of a0².
-    assert balance + stage.opening == pytest.approx(1.0, abs=1e-6)
+    assert balanced + stage.opening == pytest.approx(1.0, abs=1e-6)
 
 
 @pytest.mark.parametrize("geometry", [POINT, LINE], ids=lambda geometry: geometry.name)
@@ -85,8 +86,9 @@ def test_lag_of_waves_left_out() -> None:
 
 
 @pytest.mark.parametrize("length", [1e-3, 0.1, 1.0, 3.0])
-def test_lag_of_either_edge_is_the_integral_over_its_waves(length: float) -> None:
+def test_lag_of_either_edge_is_the_integral_over_its_waves(length: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Waves of the pressure: at the trailing edge those of a square root, at the leading one over the compliance."""
+    monkeypatch.setattr(balance, "_LESS", 0.0)  # which is of cells, not of waves
     solid, cut = SteadyMaterial(0.02, np.array([0.4, 0.04]), np.array([length, 0.1 * length])), 3.0
     logarithm, step = np.linspace(-30.0, 30.0, 6001, retstep=True)  # trapezoids: exact to rounding for what fades
     wave = np.exp(logarithm)
@@ -103,7 +105,7 @@ def test_lag_of_either_edge_is_the_integral_over_its_waves(length: float) -> Non
     assert lag(solid, 1.0, cut, 0.0) == pytest.approx(front, rel=rough)
 
 
-@pytest.mark.parametrize("length", [2e-3, 2e-2])  # a tenth of a cell, and one cell
+@pytest.mark.parametrize("length", [2e-3, 2e-2, 8e-2])  # a tenth of a cell, one cell and four cells
 def test_cells_leave_out_of_hertz_contact_what_the_closed_form_says(length: float) -> None:
     """A weak mode leaves it as it is: F = (16/(π l)) ∫ j(q)² (1 − 1/√(1 + q²l²)) dq, j the transform of pressure."""
     stage = refine(coarse_stage(contact(POINT, 1.0 + 1e-6, [1.0], [length])), 0.5, 128)[-1]
@@ -112,8 +114,8 @@ def test_cells_leave_out_of_hertz_contact_what_the_closed_form_says(length: floa
     known = 0.16 / (math.pi * length) * float(square @ (1.0 - 1.0 / np.sqrt(1.0 + (length * wave) ** 2)))
     weak = float(stage.problem.solid.compliances[0])
     left_out = weak * known / stage.load - stage.operator.dissipated_force(stage.result.pressure) / stage.load
-    assert left_out > 1e-3 * weak * known
-    # How the edge lies in its cells: on 128 to 512 cells it is 1 to 6 %.
+    assert left_out > 1e-4 * weak * known
+    # How the edge lies in its cells: on 128 and 256 cells it is 0.2 to 5 %; with q_c = 3.2 alone, 16 % at four cells.
     assert stage.lag * stage.opening == pytest.approx(left_out, rel=0.08)
 
 

@@ -148,9 +148,9 @@ def test_a_peak_that_is_not_resolved_is_known_to_its_own_size_at_best() -> None:
 
 
 def test_an_accuracy_out_of_reach_is_refused_before_the_fine_grids() -> None:
-    """What cells leave out at the edges is known to 1.8e-4 at best on 2048 cells, and no limit is known better."""
+    """What cells leave out at the edges is not known to 4e-5 on 2048 cells, and no limit is known better."""
     with refused("accuracy-not-reached", ConvergenceError) as caught:
-        standard_linear_solid(10.0, 1e-3).solve(accuracy=1e-4)
+        standard_linear_solid(10.0, 1e-3).solve(accuracy=4e-5)
     assert caught.value.note.values["cells"] < 2048
 
 
