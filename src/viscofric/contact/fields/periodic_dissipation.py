@@ -22,8 +22,8 @@ from viscofric.arrays import Array, ComplexArray
 from viscofric.contact.fields.dissipation import Modes
 from viscofric.heat.layers import LayeredHeat, Waves
 
-#: Waves of pressure that are so much smaller than the largest one are none.
-_ROUNDING = 1e-12
+#: Waves of pressure that are so much smaller than the largest one are none: contacts are not solved better.
+_ROUNDING = 1e-9
 #: Step of ln z from depth to depth: that of temperatures below is 2 %, of the heat of each wave below 1e-4.
 _STEP = 0.6
 #: First and last depth, times the wave number of the shortest and of the longest wave.
