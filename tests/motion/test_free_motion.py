@@ -66,6 +66,20 @@ def test_a_slow_motion_of_a_cylinder_needs_no_fine_cells():
     assert np.all(run.errors.indentation <= 2e-3 * np.ptp(run.indentation))  # a fifth of the accuracy
 
 
+def test_friction_of_strokes_within_a_cell_is_that_of_a_contact_that_tilts():
+    """μ = ∫ (E(t − t')/E0 − 1) dx(t')/R, whose edges stay where they are: exact for small strokes; in the errors."""
+    time, stroke, tau = np.linspace(0.0, 0.6, 5), 1e-6, 0.1
+    rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="100 MPa", tau=tau)
+    position = stroke * np.array([0.0, 1.0, 0.0, -1.0, 0.0])
+    history = vf.motion.History(time, load=100.0, position=position, before="at rest")
+    run = vf.motion.solve_transient(rubber, CYLINDER, history, times=time, accuracy=1e-2)
+    since = (time[1:, None] - time) / (tau / 100.0)  # by the time of relaxation
+    faded = np.exp(-np.maximum(since, 0.0))
+    friction = 99.0 / 10e-3 * (tau / 100.0) * (faded[:, 1:] - faded[:, :-1]) @ (np.diff(position) / np.diff(time))
+    assert np.all(np.abs(run.friction_coefficient[1:] - friction) < run.friction_error[1:])
+    assert run.friction_error.max() < 1.1e-2 * friction.max()  # the accuracy, of a friction that is off by as much
+
+
 def test_start_after_a_dwell_on_untouched_rubber_rises_from_below():
     """Independent solution, known to 2e-4."""
     distance = np.array([0.00021850968611841586, 0.0004370193722368317, 0.0010925484305920792])

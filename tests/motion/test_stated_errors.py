@@ -149,13 +149,15 @@ def test_friction_of_the_memory_and_of_the_slopes_differ_by_no_more_than_their_e
     def level(memory, slopes):
         seen = Observation(1.0, 1e-4, (memory, 0.0), 1e-6, 0.0, 0.0, {}, force_on_slopes=(slopes, 0.0))
         moments = [
-            Moment(Instant(time, Reading(time, 0.0), np.zeros(2), load=1.0), seen, 0.0, Sizes(0.0, 0.0, 0.0, 0.0), None)
+            Moment(
+                Instant(time, Reading(time, 0.0), np.array([time, 0.0]), load=1.0), seen, 0.0, Sizes(*[0.0] * 4), None
+            )
             for time in (0.0, 0.5, 1.0)
         ]
-        setting = SimpleNamespace(schedule=SimpleNamespace(kinks=np.array([0.0, 1.0])))
-        return SimpleNamespace(
-            track=SimpleNamespace(moments=moments), mover=SimpleNamespace(setting=setting), cells=100.0
-        )
+        kinks, scale = SimpleNamespace(kinks=np.array([0.0, 1.0])), SimpleNamespace(length=1.0)
+        setting, grid = SimpleNamespace(schedule=kinks, scale=scale), SimpleNamespace(spacing=0.01)
+        mover = SimpleNamespace(setting=setting, grid=grid)
+        return SimpleNamespace(track=SimpleNamespace(moments=moments), mover=mover, cells=100.0)
 
     for one in _compared(level(0.30, 0.32), level(0.30, 0.33), [0, 1, 2]):
         assert one.errors.friction >= 0.02

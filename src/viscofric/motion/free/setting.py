@@ -78,6 +78,8 @@ _BEND, _MOST_BEND = 4.0, 0.25
 _OF_SPEED = 5
 # Graded ticks of a rest, at cells of this length or longer, and the first of them, as a part of the rest.
 _AT_REST, _REST_CELL, _FIRST_AT_REST = 48, 0.04, 1e-3
+# Least number of ticks of a stroke of few cells, at cells of that length or longer.
+_OF_STROKE = 2
 # Second tick after a jump, in the time in which the response to it changes.
 _FIRST_TICK = 0.2
 # First tick after a start, in the time in which a cell is passed: least and largest; ratio of the times of the next.
@@ -275,6 +277,8 @@ class Setting:
         else:
             wanted = cell * np.arange(1.0, math.ceil(length[-1] / cell - 1e-6))
         found = [np.interp(wanted, length, times)]
+        if len(wanted) < (count := math.ceil(_OF_STROKE * max(1.0, _REST_CELL / cell))):
+            found.append(np.linspace(start.time, end.time, count + 1))
         found.append(self._of_control(start, end))
         if self._begins_with_jump(start):
             found.append(self._after_jump(start, end))

@@ -284,6 +284,9 @@ def _compared(level: Level, coarser: Level, judged: Sequence[int]) -> list[Momen
     reached = before <= clock[-1]  # a march may have been interrupted
     apart = _interpolated(before[reached], clock, here, kinks) - there[reached]
     left = _LEFT * np.column_stack([np.interp(clock, before[reached], column) for column in apart.T])
+    cell = coarser.mover.grid.spacing * coarser.mover.setting.scale.length
+    if 0.0 < np.ptp([one.instant.position for one in fine], axis=0).max() < cell:
+        left[:, 3:7] *= _FINER + 1.0  # edges that stay within their cells are known to cells, to first order
     forces = left[:, 3:5], left[:, 5:7], here[:, 3:5] - here[:, 5:7]
     off = np.column_stack([np.abs(left[:, :3]), *(np.hypot(*one.T) for one in forces)])
     # One change may be small by chance.
