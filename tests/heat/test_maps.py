@@ -67,7 +67,8 @@ def test_periodic_maps_equal_free_ones_before_they_meet(speed: float) -> None:
     heat = np.zeros((64, 48))
     heat[24:40, 16:32] = disc(16, True)[0]
     settings: dict[str, Any] = {"spacing": 1.0 / 8.0, "speed": speed}
-    for more in ({"time": 0.05}, {"thickness": 0.15}):
+    both = {"time": 0.05, "thickness": 0.15}
+    for more in ({"time": 0.05}, {"thickness": 0.15}, both, {**both, "base": "insulated"}):
         free, waves = rise(heat, **settings, **more), rise(heat, **settings, **more, periodic=True)
         assert np.abs(waves - free).max() < 1e-2 * free.max()
 
@@ -88,6 +89,20 @@ def test_a_steady_periodic_map_shows_the_rise_above_the_mean() -> None:
         assert found[:, 3] == pytest.approx(expected, abs=1e-12)
 
 
+@pytest.mark.parametrize("base", ["isothermal", "insulated"])
+def test_a_periodic_map_on_a_layer_is_that_of_a_half_space_at_first_and_steady_at_last(base: str) -> None:
+    """And is smooth where one formula takes over from the other (H = 6 √(κt)); even heat warms as its series says."""
+    heat = np.random.default_rng(1).random((12, 9))
+    layer: dict[str, Any] = {"speed": 2.0, "periodic": True, "thickness": 3.0, "base": base}
+    just = [rise(heat, **layer, time=0.25 * (1.0 + one)) for one in (-1e-12, 1e-12)]
+    assert just[0] == pytest.approx(just[1], rel=1e-10)
+    assert just[0] == pytest.approx(rise(heat, speed=2.0, periodic=True, time=0.25), rel=1e-10)
+    level = 3.0 if base == "isothermal" else 100.0 / 3.0 + 1.0  # H, or t/H + H/3
+    last, steady = rise(heat, **layer, time=100.0), rise(heat, **layer)
+    assert last - last.mean() == pytest.approx(steady - steady.mean(), abs=1e-9)
+    assert last.mean() == pytest.approx(level * heat.mean(), rel=1e-9)
+
+
 def test_motion_the_other_way_is_the_mirror_image() -> None:
     heat = np.random.default_rng(1).random((12, 9))
     assert rise(heat, speed=-2.0) == pytest.approx(rise(heat[::-1], speed=2.0)[::-1], rel=1e-12)
@@ -97,7 +112,5 @@ def test_motion_the_other_way_is_the_mirror_image() -> None:
 def test_what_warms_without_end_is_refused() -> None:
     with refused("no-steady-state"):
         rise(EVEN, thickness=1.0, base="insulated")
-    with refused("time-on-layer"):
-        rise(EVEN, thickness=1.0, time=1.0, periodic=True)
     with refused("shape"):
         rise(np.ones(4))

@@ -16,6 +16,9 @@ from viscofric.heat.influence import Diffusion
 from viscofric.thermal import ThermalProperties
 from viscofric.units import Quantity, in_si, positive, to_si, two_lengths
 
+#: Thickness over √(κt) from which on no heat has reached a base, to 1e-16; waves across thinner layers until then.
+_DEEP, _ACROSS = 6.0, 14
+
 
 def surface_temperature(
     heat: ArrayLike,
@@ -57,7 +60,7 @@ def surface_temperature(
     Raises
     ------
     InputError
-        If a value cannot be used, there is no steady state, or a periodic map on a layer has a time.
+        If a value cannot be used, or there is no steady state.
 
     Notes
     -----
@@ -66,7 +69,8 @@ def surface_temperature(
 
         T(q) = Q(q)/(k s) erf(s √(κ t)),    s² = q² − i q·v/κ
 
-    and in the steady state of a layer by tanh(s H)/(k s) or coth(s H)/(k s), H the thickness.
+    and in the steady state of a layer by tanh(s H)/(k s) or coth(s H)/(k s), H the thickness; at a time less those
+    waves across the layer that have not faded.
 
     Examples
     --------
@@ -88,8 +92,6 @@ def surface_temperature(
     check_choice(base, "base", "isothermal", "insulated")
     insulated = base == "insulated"
     if flag(periodic, "periodic"):
-        if since < math.inf and thick < math.inf:
-            raise InputError("A periodic map on a layer has a steady state only; leave out time.", code="time-on-layer")
         return _periodic(flux, cell, body, (velocity, 0.0), since, thick, insulated)
     mirrored = flux[::-1] if velocity < 0.0 else flux
     found = free_temperature(mirrored, cell, Diffusion(body, abs(velocity), since, thick, insulated))
@@ -138,18 +140,24 @@ def _transfer(
     """Return T/Q of each wave, K m²/W; that of the mean is zero where it has no steady state."""
     from scipy.special import erf
 
-    conductivity = float(body.conductivity)
+    conductivity, reach = float(body.conductivity), math.sqrt(body.diffusivity * time)
     inverse = np.zeros_like(root)
     np.divide(1.0, root, out=inverse, where=root != 0.0)
-    if math.isfinite(thickness):
+    if math.isfinite(thickness) and thickness < _DEEP * reach:
         through = np.tanh(np.minimum(root.real, 30.0 / thickness) * thickness + 1j * root.imag * thickness)
         if insulated:
             found = inverse / np.where(root != 0.0, through, 1.0)
+            if math.isfinite(time):
+                found[0, 0] = reach**2 / thickness + thickness / 3.0
         else:
             found = inverse * through
             found[0, 0] = thickness
+        for mode in range(_ACROSS if math.isfinite(time) else 0):
+            wave = np.pi / thickness * (mode if insulated else mode + 0.5)
+            square, share = np.square(root) + wave**2, (2.0 if wave > 0.0 else 1.0) / thickness
+            faded = share * np.exp(-square * reach**2)
+            found -= np.divide(faded, square, out=np.zeros_like(root), where=square != 0.0)
     elif math.isfinite(time):
-        reach = math.sqrt(body.diffusivity * time)
         found = inverse * erf(root * reach)
         found[0, 0] = 2.0 * reach / math.sqrt(math.pi)
     else:
