@@ -21,6 +21,7 @@ from viscofric.rheology.shifts.shift_law import NOMINAL
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors, known_vertical
 from viscofric.rheology.superposition.common_shifts import CommonShifts, common_shifts
 from viscofric.rheology.superposition.consistency import drift, neighbour_distances
+from viscofric.rheology.superposition.isotherm_offsets import TRENDS
 from viscofric.rheology.superposition.joined_isotherms import (
     BOTH,
     STEP,
@@ -457,7 +458,8 @@ def _between_models(found: CommonShifts, other: CommonShifts, free: bool) -> Com
     """Add the difference of the alternative model to the errors: with a free vertical shift, or without if `free`."""
     # Isotherms that drift contradict the requested model; each of the two models is given half of the weight, so that
     # their difference adds half its square to the variance (S. T. Buckland et al., Biometrics 53 (1997) 603). Of the
-    # difference of each step, only the part beyond the uncertainty of the free model counts.
+    # difference of each step, only the part beyond the uncertainty of the free model counts, and beyond what a vertical
+    # shift in proportion to temperature explains, which the errors include.
     loose = found if free else other
     nearest = int(np.argmin(np.abs(found.values) + np.diag(found.covariance)))
 
@@ -467,7 +469,9 @@ def _between_models(found: CommonShifts, other: CommonShifts, free: bool) -> Com
         total = np.concatenate([[0.0], np.cumsum(steps)])
         return np.asarray(total - total[nearest])
 
-    horizontal = away(other.values - found.values, loose.covariance)
+    left_out = None if found.offsets is None else found.offsets.left_out
+    explained = 0.0 if left_out is None else left_out.probability @ TRENDS * left_out.follow
+    horizontal = away(other.values - found.values + explained, loose.covariance)
     changed = replace(found, covariance=found.covariance + OTHER_MODEL * np.outer(horizontal, horizontal))
     if not free:
         return changed
