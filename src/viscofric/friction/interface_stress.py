@@ -129,8 +129,7 @@ class ShearStress(Plotted):
         intervals then hold 92 to 97 % with five temperatures and 85 to 95 % with three; with errors in common of half
         the scatter of a point, which are not seen, 80 to 90 %.
         """
-        law = fit_stress(kind, self._table, *self._way).law
-        return replace(law, fitted_pressures=(float(self.mean_pressure.min()), float(self.mean_pressure.max())))
+        return fit_stress(kind, self._table, *self._way).law
 
     def compare_laws(self) -> LawComparison[InterfaceLaw]:
         """Fit every law and choose by Akaike's criterion, as laws of shift factors are chosen; see `LawComparison`.
@@ -140,13 +139,7 @@ class ShearStress(Plotted):
         InputError
             If no law can be fitted.
         """
-        compared = compare_stress_laws(self._table, *self._way)
-        pressures = float(self.mean_pressure.min()), float(self.mean_pressure.max())
-        rows = {
-            row.kind: row if row.law is None else replace(row, law=replace(row.law, fitted_pressures=pressures))
-            for row in compared.rows
-        }
-        return replace(compared, rows=tuple(rows.values()), chosen=rows[compared.chosen.kind])
+        return compare_stress_laws(self._table, *self._way)
 
     @property
     def _way(self) -> tuple[ShiftLaw | None, float, bool]:
@@ -166,6 +159,7 @@ class ShearStress(Plotted):
         stress = scale.value(place)
         error = LN10 * scale.unit(stress) * np.sqrt(variance)
         near = scale.near(stress, error)
+        pressures = float(self.mean_pressure.min()), float(self.mean_pressure.max())
         shared = (self.level_error / LN10) ** 2 * (number[:, None] == number) + (self.area_error / LN10) ** 2
 
         def about(some: Array) -> StressTable:
@@ -173,7 +167,8 @@ class ShearStress(Plotted):
             middle = np.where(near, some, stress)
             unit = LN10 * middle
             values, own = np.log10(middle) + (stress - middle) / unit, np.diag((error / unit) ** 2)
-            return StressTable.of(speed, kelvin, values, own + shared, 2.0 * float(np.sum(np.log(unit[near]))))
+            volume = 2.0 * float(np.sum(np.log(unit[near])))
+            return replace(StressTable.of(speed, kelvin, values, own + shared, volume), pressures=pressures)
 
         first = about(np.maximum(stress, error))
         return replace(first, about=about) if np.any(near) else first

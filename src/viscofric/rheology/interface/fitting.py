@@ -65,6 +65,7 @@ class StressTable(Table):
 
     speed: Array  # (n,), log10 of m/s
     kelvin: Array  # (n,)
+    pressures: tuple[float, float] | None = None  # lowest and highest mean pressure of the contacts, Pa
     level: float = 0.0  # error that all values of a temperature share, beyond the covariance, decades
     # returns the table with stresses near zero made linear about others (n,); None where all are clear of zero
     about: Callable[[Array], StressTable] | None = None
@@ -103,6 +104,7 @@ class _Family:
 
     def __init__(self, kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> None:
         self.kind, self.kelvin, self.shift, self.reference = kind, table.kelvin, shift, reference
+        self.pressures = table.pressures
         self.x = table.speed + (0.0 if shift is None else np.asarray(shift.log10(table.kelvin)))
         # ∂log10 α/∂Ea; constant stress does not depend on it
         own = energy and kind != "constant"
@@ -124,6 +126,7 @@ class _Family:
             shift=shift,
             covariance=covariance,
             fitted_temperatures=fitted,
+            fitted_pressures=None if covariance is None else self.pressures,
             fitted_speeds=None if covariance is None else (float(10.0 ** x.min()), float(10.0 ** x.max())),
         )
 
