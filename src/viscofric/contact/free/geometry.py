@@ -41,5 +41,5 @@ class Geometry:
         return Grid.around(rear, front, side if self.dimension > 1 else 0.0, cells, aspect)
 
 
-POINT: Final = Geometry("point", 2, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, 3.4, 0.08)
+POINT: Final = Geometry("point", 2, HalfSpaceOperator, 4.0 / 3.0, "N", True, 1.0, 2048, 3.4, 0.1)
 LINE: Final = Geometry("line", 1, LineOperator, 0.25 * math.pi, "N/m", False, 2.0, 65536, 2.5, 0.4)
