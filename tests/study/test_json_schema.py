@@ -8,10 +8,14 @@ from typing import Any
 
 import jsonschema_rs
 import pytest
+from annotated_types import Ge
 
+from refusals import refused
 from viscofric.cli.new import SCHEMA_LINE, TEMPLATES, template_text
+from viscofric.contact.settings import ContactSettings
 from viscofric.study.run_file.errors import keys
 from viscofric.study.run_file.json_schema import json_schema
+from viscofric.study.run_file.settings import SolverTable
 from viscofric.study.run_file.study import TABLES, Study
 
 SCHEMA = json_schema()
@@ -87,3 +91,10 @@ def test_every_key_is_described_and_every_table_is_there() -> None:
     assert SCHEMA["required"] == ["material", "conditions"]
     assert SCHEMA["oneOf"] == [{"required": ["indenter"]}, {"required": ["surface"]}]
     assert json.loads(json.dumps(SCHEMA)) == SCHEMA
+
+
+def test_accuracies_of_run_files_begin_where_those_of_contacts_do() -> None:
+    [least] = [one.ge for one in SolverTable.model_fields["accuracy"].metadata if isinstance(one, Ge)]
+    assert ContactSettings(accuracy=least).accuracy == least
+    with refused("out-of-range"):
+        ContactSettings(accuracy=0.99 * least)
