@@ -138,7 +138,7 @@ def test_every_key_of_a_run_file_is_in_the_reference(extension: Extension) -> No
             assert field.description in re.sub(r"\\(.)", r"\1", row)
     for key in {key for shape in run_file.SHAPES.values() for key in shape.model_fields}:
         assert f"| `{key}` |" in tables["indenter"]
-    assert "| `accuracy` | number from 0.0001 to 0.1 | `0.001` |" in tables["solver"]
+    assert "| `accuracy` | number from 1e-10 to 0.1 | `0.001` |" in tables["solver"]
     assert '| `load` | quantity, such as `"25 N"`, `"2 N/mm"`, a list or a range |' in tables["conditions"]
 
 
