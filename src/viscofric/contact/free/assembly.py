@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
-from viscofric.contact.free.estimates import FRICTION_FLOOR, FootprintErrors, error_of, friction_estimate
+from viscofric.contact.free.estimates import FRICTION_FLOOR, Estimate, FootprintErrors, error_of, friction_estimate
+from viscofric.contact.free.scale import Scale
+from viscofric.contact.free.stage import Stage
 from viscofric.contact.solution import ContactSolution, Diagnostics, Level
-
-if TYPE_CHECKING:
-    from viscofric.contact.free.estimates import Estimate
-    from viscofric.contact.free.scale import Scale
-    from viscofric.contact.free.stage import Stage
 
 
 def assemble(

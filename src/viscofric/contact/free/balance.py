@@ -37,19 +37,14 @@ Where all memories are short against the cell, Λ is their mean and F_t = Λ ∫
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from viscofric.contact.operators.convolution import bent_share
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array
-    from viscofric.contact.free.grids import Grid
-    from viscofric.contact.operators.convolution import SteadyMaterial
-
+from viscofric.arrays import Array
+from viscofric.contact.free.grids import Grid
+from viscofric.contact.operators.convolution import SteadyMaterial, bent_share
 
 # Wavenumber times the cell of the waves that decide how strong the pressure at either edge is on cells.
 _RESOLVED = 0.4

@@ -5,15 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.contact.free.stage import Stage
+from viscofric.arrays import Array, Mask
+from viscofric.contact.free.stage import Stage
 
 #: Expression of the friction coefficient: the asymmetry of the pressure, or the balanced energy.
 Way = Literal["pressure", "balance"]

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from viscofric.contact.free.grids import Grid
+from viscofric.contact.operators.convolution import ConvolutionOperator
 from viscofric.contact.operators.half_space import HalfSpaceOperator, LineOperator
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.contact.operators.convolution import ConvolutionOperator
 
 
 @dataclass(frozen=True)

@@ -5,14 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from typing import Self
-
-    from viscofric.arrays import Array, Mask
+from viscofric.arrays import Array, Mask
 
 
 class Extent(NamedTuple):

@@ -9,29 +9,23 @@ from __future__ import annotations
 
 import logging
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from viscofric.arguments import check_cost
+from viscofric.arrays import Array
 from viscofric.contact.free.estimates import FEWEST_GRIDS, LEAST_SHARE, friction_estimate, least_error
-from viscofric.contact.free.grids import Extent
+from viscofric.contact.free.grids import Extent, Grid
+from viscofric.contact.free.problem import Problem
 from viscofric.contact.free.proximal import proximal_points
+from viscofric.contact.free.scale import Scale
 from viscofric.contact.free.stage import Stage
 from viscofric.contact.operators.convolution import collocation_shift
 from viscofric.errors import ConvergenceError, InputError, brief, wrong_argument
 from viscofric.units import Quantity, to_si
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.arrays import Array
-    from viscofric.contact.free.grids import Grid
-    from viscofric.contact.free.problem import Problem
-    from viscofric.contact.free.scale import Scale
-
 
 logger = logging.getLogger(__name__)
 

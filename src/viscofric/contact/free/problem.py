@@ -5,23 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.contact.arrays.backend import Backend
-from viscofric.contact.free.scale import root
-from viscofric.contact.operators.convolution import solve_on_cells
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.complementarity import ComplementaritySolution
-    from viscofric.contact.free.geometry import Geometry
-    from viscofric.contact.free.grids import Grid
-    from viscofric.contact.free.scale import ScaledIndenter
-    from viscofric.contact.operators.convolution import ConvolutionOperator, SteadyMaterial
-    from viscofric.contact.operators.layer import ScaledLayer
-
+from viscofric.contact.complementarity import ComplementaritySolution
+from viscofric.contact.free.geometry import Geometry
+from viscofric.contact.free.grids import Grid
+from viscofric.contact.free.scale import ScaledIndenter, root
+from viscofric.contact.operators.convolution import ConvolutionOperator, SteadyMaterial, solve_on_cells
+from viscofric.contact.operators.layer import ScaledLayer
 
 # Between which the first guess of the contact's size lies, but for extreme solids; compliances below the last number
 # count as it.

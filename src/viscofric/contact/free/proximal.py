@@ -19,16 +19,13 @@ from __future__ import annotations
 import logging
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.complementarity import ComplementaritySolution
-    from viscofric.contact.free.problem import Control
-    from viscofric.contact.operators.convolution import ConvolutionOperator
-
+from viscofric.arrays import Array
+from viscofric.contact.complementarity import ComplementaritySolution
+from viscofric.contact.free.problem import Control
+from viscofric.contact.operators.convolution import ConvolutionOperator
 
 logger = logging.getLogger(__name__)
 

@@ -4,22 +4,16 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscofric.contact.free.grids import Extent
+from viscofric.arrays import Array, Mask
+from viscofric.contact.free.geometry import Geometry
+from viscofric.contact.free.grids import Extent, Grid
+from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.arrays import Array, Mask
-    from viscofric.contact.free.geometry import Geometry
-    from viscofric.contact.free.grids import Grid
-    from viscofric.contact.indenters.indenter import Indenter
-
 
 # Directions over which an indenter's height at a distance is averaged.
 _DIRECTIONS = 16

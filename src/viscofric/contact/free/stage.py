@@ -5,20 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.arrays import Array
+from viscofric.contact.complementarity import ComplementaritySolution
 from viscofric.contact.free.balance import LagChanges, lag, lag_changes, openings
-from viscofric.contact.operators.convolution import loss_angle
-
-if TYPE_CHECKING:
-    from viscofric.arrays import Array
-    from viscofric.contact.complementarity import ComplementaritySolution
-    from viscofric.contact.free.grids import Extent, Grid
-    from viscofric.contact.free.problem import Problem
-    from viscofric.contact.operators.convolution import ConvolutionOperator
-
+from viscofric.contact.free.grids import Extent, Grid
+from viscofric.contact.free.problem import Problem
+from viscofric.contact.operators.convolution import ConvolutionOperator, loss_angle
 
 # Where displacements are taken behind the cell centres, longer waves are left out: logarithm of the cut per shift.  It
 # is in doubt in proportion to the square of the loss angle's sine.  Both from random contacts on finer grids.
