@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from viscofric.readers.headings import is_place, place_of
+from viscofric.readers.headings import Column, Vocabulary, is_place, place_of
 from viscofric.readers.source import plain_number
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viscofric.readers.headings import Column, Vocabulary
-    from viscofric.readers.table import NumberedRow
+from viscofric.readers.table import NumberedRow
 
 #: Tables by people and instruments begin above this line.
 DEEPEST_HEADER = 300

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 from viscofric.errors import DataFileError
 from viscofric.files import insist_on_size
 from viscofric.processes import LimitedProcess
 from viscofric.readers.parse_workbook import parsed
+from viscofric.readers.source import Source
 
-if TYPE_CHECKING:
-    from viscofric.readers.source import Source
+#: Rows of cells, each a number or text, empty text where the sheet has nothing.
+Rows = list[list[float | int | str | bool]]
 
-    #: Rows of cells, each a number or text, empty text where the sheet has nothing.
-    Rows = list[list[float | int | str | bool]]
 
 #: A zip archive (.xlsx) and a compound document (.xls).
 MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1")

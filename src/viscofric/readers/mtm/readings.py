@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
+from viscofric.arrays import Array, Integers
+from viscofric.traction import TractionStep
+
 if TYPE_CHECKING:
     from datetime import datetime
-
-    from viscofric.arrays import Array, Integers
-    from viscofric.traction import TractionStep
 
 
 #: Which of an instrument's thermometers gives the temperature of the readings.

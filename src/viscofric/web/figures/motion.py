@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from viscofric.datasets import Dataset, plain
+from viscofric.motion.impact_solution import ImpactContact
+from viscofric.motion.solution import TransientSolution
 from viscofric.report.data import ENERGIES, SIZES, moves, position_along, pressure_along, returns
 from viscofric.report.sweeps import thinned
 from viscofric.web.figures.spec import Spec, around, axis, axis_of, figure, kind_of, line, number, quantity
-
-if TYPE_CHECKING:
-    from viscofric.motion.impact_solution import ImpactContact
-    from viscofric.motion.solution import TransientSolution
 
 #: Times and points of the pressure over time.
 _FRAMES, _POINTS, _FRAME_DIGITS = 120, 121, 4

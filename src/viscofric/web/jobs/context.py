@@ -7,16 +7,14 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
 from viscofric.datasets import plain
 from viscofric.errors import ViscofricError
 from viscofric.notes import Note
-
-if TYPE_CHECKING:
-    from viscofric.study.running.running import Event
+from viscofric.study.running.running import Event
 
 _BETWEEN_SENT = 0.05  # s, of progress: a browser shows no more
 
