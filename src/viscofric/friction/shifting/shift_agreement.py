@@ -237,12 +237,9 @@ def _slope(x: Array, y: Array, x_spread: Array, y_spread: Array) -> tuple[float,
         residual = inverse @ (y - slope * x)
         nearest = x + slope * x_spread @ residual  # the true x, given the line
         change = float(nearest @ residual) / float(nearest @ inverse @ nearest)
-        slope += change
         if abs(change) < CONVERGED:
             break
-    inverse = np.linalg.inv(y_spread + slope**2 * x_spread + floor)
-    residual = inverse @ (y - slope * x)
-    nearest = x + slope * x_spread @ residual
+        slope += change
     chi2 = float((y - slope * x) @ residual)
     excess = max(1.0, chi2 / (x.size - 1)) if x.size > 1 else 1.0
     return slope, float(np.sqrt(excess / (nearest @ inverse @ nearest)))
