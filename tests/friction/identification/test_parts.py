@@ -334,7 +334,7 @@ def test_the_level_of_subtracted_friction_is_an_amount_and_other_errors_in_commo
         coulomb_scatter=np.zeros(8),
     )
     points = SharedErrors(common=0.02, coulomb_level=level).given_to(
-        usable_points(curves, BALL, None, 1e-6), curves, np.zeros(1)
+        usable_points(curves, BALL, None, 1e-6), curves, None
     )
     assert 0 < np.count_nonzero(points.logarithmic) < 8
     np.testing.assert_allclose(points.missed(np.log(friction), away)[0], 0.0, atol=1e-12)
@@ -361,11 +361,24 @@ def test_an_error_of_temperature_is_one_of_friction_by_its_slope() -> None:
     speed = np.tile(np.geomspace(0.02, 0.5, 7), 2)
     x = np.log(speed)
     curves = curves_of(speed, np.repeat([300.0, 310.0], 7), np.exp(0.3 * x + 0.1 * x**2), 1e-3, load=LOAD)
-    per_kelvin = Shifts(np.array([300.0, 310.0]), 300.0, np.array([0.0, -2.0]), np.eye(2), True).per_kelvin
-    points = SharedErrors(temperature=2.0).given_to(usable_points(curves, BALL, None, 1e-6), curves, per_kelvin)
+    usable, errors = usable_points(curves, BALL, None, 1e-6), SharedErrors(temperature=2.0)
+    points = errors.given_to(usable, curves, np.array([-0.2, -0.2]))
     moved = -0.4 * (0.3 + 0.2 * x)
     cold = np.repeat([True, False], 7)
     np.testing.assert_allclose(points.shared.T, [np.where(cold, moved, 0.0), np.where(cold, 0.0, moved)], atol=1e-9)
+    with refused("no-shift-factors", naming=("temperature_error", "shift factors")):
+        errors.given_to(usable, curves, Shifts.unknown(np.array([300.0]), 300.0).per_kelvin)
+
+
+def test_slopes_of_shift_factors_are_those_of_their_law_at_each_temperature() -> None:
+    """Those of WLF are −ln 10 C1 C2/(C2 + T − T0)²; also of one temperature, and at the ends of a table."""
+    law, kelvin = vf.WLF(C1=9.0, C2=100.0, reference=320.0), np.array([290.0, 340.0])
+    exact = -np.log(10.0) * 900.0 / (kelvin - 220.0) ** 2
+    np.testing.assert_allclose(Shifts.known(kelvin, law).per_kelvin, exact, rtol=1e-5)  # (0.1 K/70 K)²
+    np.testing.assert_allclose(Shifts.known(kelvin[:1], law).per_kelvin, exact[:1], rtol=1e-5)
+    fine = np.linspace(290.0, 340.0, 51)
+    table = vf.ShiftFactors(fine, law.log10(fine), 320.0)
+    np.testing.assert_allclose(Shifts.unknown(kelvin, 320.0, table).per_kelvin, exact, rtol=2e-2)  # 1 K/70 K
 
 
 def test_found_shifts_are_expected_where_the_curves_overlap() -> None:

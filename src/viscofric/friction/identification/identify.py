@@ -108,7 +108,8 @@ def identify_material(
         Relative standard error, shared by all points, of the Coulomb friction of the curves, which was subtracted.
         Without it, the standard error of one that `separate` was told to assume.
     temperature_error : float, str or pint.Quantity
-        Standard error of every temperature of the rubber in the contact, K, another one at each temperature.
+        Standard error of every temperature of the rubber in the contact, K, another one at each temperature.  Of
+        friction at one temperature it needs `shift`.
     reference : float, str or pint.Quantity, optional
         Temperature at which the material is described, K if a plain number; without it, that of `shift`, or of the
         shift factors that are found.

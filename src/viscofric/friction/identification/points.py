@@ -228,10 +228,10 @@ class SharedErrors(NamedTuple):
     coulomb_level: float = 0.0
     temperature: float = 0.0
 
-    def given_to(self, points: Points, curves: FrictionCurves, per_kelvin: Array) -> Points:
+    def given_to(self, points: Points, curves: FrictionCurves, per_kelvin: Array | None) -> Points:
         """Return points of these curves with the errors, each independent one a column of `Points.shared`.
 
-        `per_kelvin` (t,) is d ln α/dT at the temperatures of the points.
+        `per_kelvin` (t,) is d ln α/dT at the temperatures of the points, None where it is not known.
         """
         measured = curves.select(points.rows)
         found = []
@@ -243,6 +243,12 @@ class SharedErrors(NamedTuple):
         if self.level > 0.0:
             found += [np.where(points.number == one, self.level, 0.0) for one in np.unique(points.number)]
         if self.temperature > 0.0:
+            if per_kelvin is None:
+                raise InputError(
+                    f"temperature_error = {self.temperature:g} K: friction at one temperature does not tell how α "
+                    "changes with it; give the shift factors, or leave it out.",
+                    code="no-shift-factors",
+                )
             # Another temperature moves the curve along ln v, so that friction changes by its slope.
             slope = self.temperature * per_kelvin[points.number] * _slopes(points)
             found += [np.where(points.number == one, slope, 0.0) for one in np.unique(points.number)]

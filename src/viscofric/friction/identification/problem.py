@@ -59,6 +59,7 @@ class Shifts:
     reference: float  # K, one of the temperatures, where α = 1, unless `found` is false
     middle: Array  # (t,), prior mean of ln α
     whitening: Array  # (r, t); its product with (ln α − middle) has standard deviation one
+    per_kelvin: Array | None  # (t,), expected d ln α/dT; None for one temperature, of which it is not known
     found: bool  # whether the friction is to determine them
     exact: bool = False  # whether they were given without an error
 
@@ -66,29 +67,27 @@ class Shifts:
     def unknown(cls, temperatures: Array, reference: float, overlap: ShiftFactors | None = None) -> Shifts:
         """Return unknown shifts about those from the `overlap` of the curves, which is None for one temperature."""
         if overlap is None:
-            return cls(temperatures, reference, np.zeros(1), np.eye(1) / EXACT, True)
+            return cls(temperatures, reference, np.zeros(1), np.eye(1) / EXACT, None, True)
         about = overlap.at_reference(reference)
         away = np.abs(temperatures - reference) >= _SAME
         covariance = (OVERLAPPING * LN10) ** 2 * about.covariance_at(temperatures) * np.outer(away, away)
         covariance += np.diag(np.where(away, OVERLAPPING_LEAST**2, 0.0))
-        return cls(temperatures, reference, LN10 * np.asarray(about.log10(temperatures)), _whitening(covariance), True)
+        middle = LN10 * np.asarray(about.log10(temperatures))
+        return cls(temperatures, reference, middle, _whitening(covariance), _per_kelvin(about, temperatures), True)
 
     @classmethod
     def known(cls, temperatures: Array, shift: ShiftLaw) -> Shifts:
         """Return the shifts of a law or table at temperatures (t,), with its covariance where it has one."""
         middle = LN10 * np.asarray(shift.log10(temperatures))
         covariance = LN10**2 * shift.covariance_at(temperatures)
-        return cls(temperatures, float(shift.reference), middle, _whitening(covariance), False, not covariance.any())
+        slopes = _per_kelvin(shift, temperatures)
+        exact = not covariance.any()
+        return cls(temperatures, float(shift.reference), middle, _whitening(covariance), slopes, False, exact)
 
     def widened(self, log_alpha_error: Array) -> Shifts:
         """Return the prior with additional standard errors (t,) of ln α."""
         covariance = np.linalg.inv(self.whitening.T @ self.whitening) + np.diag(log_alpha_error**2)
         return replace(self, whitening=_whitening(np.asarray(covariance, dtype=np.float64)))
-
-    @property
-    def per_kelvin(self) -> Array:
-        """Expected d ln α/dT at the temperatures (t,); zero for one temperature, of which it is not known."""
-        return np.asarray(np.gradient(self.middle, self.temperatures)) if len(self.middle) > 1 else np.zeros(1)
 
     def row(self, temperature: float) -> Array:
         """Return the weights (t,) in ln α at a temperature, linear in 1/T; InputError clearly outside their range."""
@@ -105,6 +104,14 @@ class Shifts:
     def table(self, log_alpha: Array, covariance: Array) -> ShiftFactors:
         """Return the factors found, of ln α (t,) with its covariance (t, t), about the reference."""
         return ShiftFactors(self.temperatures, log_alpha / LN10, self.reference, covariance / LN10**2)
+
+
+def _per_kelvin(shift: ShiftLaw, temperatures: Array) -> Array:
+    """Return d ln α/dT (t,), by differences of 0.2 K, or of half of it at an end of the shift factors."""
+    low, high = (
+        np.where(shift.valid_at(there), there, temperatures) for there in (temperatures - 0.1, temperatures + 0.1)
+    )
+    return np.asarray(LN10 * (shift.log10(high) - shift.log10(low)) / (high - low))
 
 
 def _whitening(covariance: Array) -> Array:
