@@ -123,6 +123,10 @@ class Note(str):
         """Return the note with a wider place in front; an empty one changes nothing."""
         return Note(self.code, self.text, ": ".join(filter(None, (where, self.where))), self.remedy, self.values)
 
+    def advising(self, more: Remedy | str) -> Note:
+        """Return the note with further advice at its end."""
+        return Note(self.code, self.text, self.where, (self.remedy or Remedy("")) + more, self.values)
+
     def coded(self, code: str) -> Note:
         """Return the note with another code."""
         return Note(code, self.text, self.where, self.remedy, self.values)

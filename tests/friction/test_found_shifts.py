@@ -23,7 +23,7 @@ from viscofric.friction.shifting.isotherms import friction_isotherms
 from viscofric.friction.shifting.placement import scan_pairs
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.friction.shifting.shift_agreement import compare_shift_factors
-from viscofric.notes import codes
+from viscofric.notes import Note, Remedy, codes
 from viscofric.rheology.catalogue import synthetic_fluoroelastomer
 from viscofric.rheology.shifts.laws import WLF, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
@@ -370,6 +370,14 @@ def test_all_temperatures_are_reported() -> None:
     with refused("curves-too-flat", SuperpositionError) as caught:
         shift_friction(made(constant, *np.arange(30.0, 49.0, 2.0)))
     np.testing.assert_allclose(caught.value.note.values["temperatures"], 273.15 + np.arange(30.0, 49.0, 2.0))
+
+
+@pytest.mark.parametrize("remedy", [Remedy(" Leave it out."), None])
+def test_a_refusal_of_flat_curves_names_readings_that_were_kept_although_far_off(remedy: Remedy | None) -> None:
+    far = Note("outliers", "One reading is far off.", remedy=remedy)
+    with refused("curves-too-flat", SuperpositionError) as caught:
+        shift_friction(replace(made(constant, 30.0, 34.0), notes=(far,)))
+    assert str(caught.value).endswith(" One reading is far off. Leave it out.") == (remedy is not None)
 
 
 def test_an_overlap_of_one_point_is_none() -> None:

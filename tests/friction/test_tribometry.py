@@ -412,6 +412,8 @@ def test_an_outlier_is_noted_and_kept() -> None:
     curves = separate(runs_from(rows))
     (note,) = (note for note in curves.notes if note.code == "outliers")
     assert note.values == {"readings": 1, "rows": [6]}
+    assert note.remedy is not None
+    assert "--leave-out-outliers" in note.words("shell")
     # Kept: it moves the mean by 0.5 N / 32 / 25 N = 6.3e-4; noise has a standard error of 7e-5.
     assert abs(curves.viscoelastic[0] - 0.03) > 3e-4
 
@@ -427,6 +429,7 @@ def test_outliers_are_left_out_if_wanted_and_named(places: tuple[int, ...]) -> N
     np.testing.assert_array_equal(curves.coulomb_error, without.coulomb_error)  # type: ignore[arg-type]
     (note,) = (note for note in curves.notes if note.code == "outliers")
     assert note.values == {"readings": len(places), "rows": [place + 1 for place in places[:3]]}
+    assert note.remedy is None
     with refused("wrong-choice", naming=("outliers", "'keep'", "'leave out'")):
         separate(runs, outliers="drop")  # type: ignore[arg-type]
 

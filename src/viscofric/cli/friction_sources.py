@@ -12,7 +12,7 @@ from viscofric.cli.commands import together
 from viscofric.cli.files import plainly
 from viscofric.cli.keys import key, table_of
 from viscofric.cli.rubber_options import column_options, find_rubber, rubber_of
-from viscofric.notes import Note, Remedy, dumped, note_of
+from viscofric.notes import dumped, note_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -97,9 +97,8 @@ def friction_curves(paths: Sequence[Path], parameters: dict[str, Any]) -> Fricti
         except DataFileError as error:
             if error.code != "missing-columns":
                 raise
-            note, also = error.note, " A table of friction curves has a column 'viscoelastic friction'."
-            remedy = (note.remedy or Remedy("")) + also
-            raise error.with_note(Note(note.code, note.text, note.where, remedy, note.values)) from None
+            also = " A table of friction curves has a column 'viscoelastic friction'."
+            raise error.with_note(error.note.advising(also)) from None
     other = [path for path in paths if path not in tables]
     if other:
         raise InputError(

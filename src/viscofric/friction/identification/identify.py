@@ -25,7 +25,7 @@ from viscofric.friction.identification.solving import Contacts
 from viscofric.friction.shifting.found_shifts import CURVE_LEFT_OUT
 from viscofric.friction.shifting.shift import shift_friction
 from viscofric.nominal import SAME_TEMPERATURE, nominal_rows
-from viscofric.notes import Note, Remedy, codes
+from viscofric.notes import Note, codes
 from viscofric.processes import Workers
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.shift_law import ShiftLaw
@@ -247,8 +247,7 @@ def _with_cause(error: InputError, points: Points) -> InputError:
         f" It is the contact of a material that the friction, up to {largest:.2g} of the load, leads to: check load, "
         "indenter and anchor, and subtract friction other than the viscoelastic one."
     )
-    note = error.note
-    return error.with_note(Note(note.code, note.text, note.where, (note.remedy or Remedy("")) + also, note.values))
+    return error.with_note(error.note.advising(also))
 
 
 def _checked_levels(levels: Sequence[float]) -> tuple[float, ...]:

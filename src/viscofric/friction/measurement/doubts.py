@@ -12,7 +12,7 @@ from viscofric.friction.intervals import threshold
 from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.friction.measurement.fit import Entry
 from viscofric.friction.measurement.zeros import ROUNDING, Zeros
-from viscofric.notes import Note
+from viscofric.notes import Note, Remedy
 from viscofric.traction import TractionRuns
 from viscofric.units import shown_number
 
@@ -26,6 +26,13 @@ _GROSS = 0.5
 _OUTLIER = 5.0  # robust standard deviations
 _FEWEST_FOR_OUTLIERS = 4  # readings of a configuration
 _NAMED = 3  # outliers that a note names one by one
+LEAVE_OUT = Remedy(
+    ' With outliers="leave out" such readings are left out.',
+    " With --leave-out-outliers such readings are left out.",
+    ' With outliers = "leave out" under [measurement] such readings are left out.',
+    " With “Outliers”: leave out, such readings are left out.",
+    "measurement.outliers",
+)
 
 
 def doubts(entries: list[Entry], zeros: Zeros) -> list[Note]:
@@ -291,6 +298,7 @@ def outlier_notes(runs: TractionRuns, found: list[tuple[Condition, int]], *, lef
         f"{'One reading deviates' if one else f'{len(found)} readings deviate'} from the others of the same "
         f"configuration by more than {_OUTLIER:g} robust standard deviations and {'was' if one else 'were'} "
         f"{'left out' if left_out else 'kept'}: {', '.join(named)}{more}.",
+        remedy=None if left_out else LEAVE_OUT,
         values={"readings": len(found), "rows": [int(row) + 1 for _, row in found[:_NAMED]]},
     )
     return [note]

@@ -10,7 +10,7 @@ import numpy as np
 from viscofric.arguments import insist_on
 from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
-from viscofric.errors import InputError
+from viscofric.errors import InputError, SuperpositionError
 from viscofric.friction.curve_checks import error_freedom, implausible, shared_error
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.measurement.zeros import ROUNDING
@@ -20,7 +20,7 @@ from viscofric.friction.shifting.isotherms import friction_isotherms
 from viscofric.friction.shifting.load_rule import LoadRule
 from viscofric.friction.shifting.master_curve import FrictionMasterCurve, reduced_decades
 from viscofric.nominal import SAME_LOAD, nominal_rows
-from viscofric.notes import Note, Remedy, codes
+from viscofric.notes import Note, Remedy, codes, note_of
 from viscofric.rheology.shifts.laws import ShiftLaw
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.units import Quantity, positive
@@ -129,7 +129,10 @@ def shift_friction(
     if shift is None:
         # Whatever the reference of the vertical shift is, it moves all curves together.
         points = _at_one_load(curves, rule, at_load, vertical_shift)
-        shift, members = found_shifts(friction_isotherms(points), kelvin, shared)
+        try:
+            shift, members = found_shifts(friction_isotherms(points), kelvin, shared)
+        except SuperpositionError as error:
+            raise _with_outliers(error, curves) from None
         notes = (*error_freedom(points)[1], *shift.notes)
         rows = nominal_rows(curves.temperature)
         curves = curves.select(np.sort(np.concatenate([rows[place] for place in members])))
@@ -229,6 +232,14 @@ def _check(curves: FrictionCurves, shift: Any, vertical_shift: Any, indenter: An
             )
             + " with which loads are reduced to one.",
         )
+
+
+def _with_outliers(error: SuperpositionError, curves: FrictionCurves) -> SuperpositionError:
+    """Return an error on flat curves with the note on readings that were kept although far from the others, if any."""
+    kept = [one for one in map(note_of, curves.notes) if one.code == "outliers" and one.remedy is not None]
+    for one in kept if error.code == "curves-too-flat" else ():
+        error = error.with_note(error.note.advising(f" {one.text}").advising(one.remedy or ""))
+    return error
 
 
 def _frozen(column: Array) -> Array:
