@@ -17,8 +17,8 @@ from viscofric.notes import from_json, notes_in
 
 Found = TypeVar("Found")
 
-#: Temperatures closer than this are one nominal temperature, K.
-SAME_TEMPERATURE = 0.5
+#: Temperatures of results closer than this are shown as one, K.
+SHOWN_AS_ONE = 0.5
 
 
 def group(tree: DataTree, name: str) -> Dataset | None:
@@ -112,7 +112,7 @@ def nominal_temperatures(*temperatures: Array) -> Array:
     """Return the different temperatures among columns, K, ascending: means of those that are close."""
     together: Array = np.concatenate([np.ravel(column) for column in temperatures])
     together = together[np.isfinite(together)]
-    return np.array([together[rows].mean() for rows in parted(together, SAME_TEMPERATURE)])
+    return np.array([together[rows].mean() for rows in parted(together, SHOWN_AS_ONE)])
 
 
 def nearest(nominal: Array, temperature: Array) -> Integers:

@@ -13,7 +13,7 @@ from viscofric.datasets import Dataset
 from viscofric.errors import InputError
 from viscofric.report.data import Shifts, ShiftTable, as_dataset, beside_friction, law_line, law_residuals, shift_table
 from viscofric.report.figures import style
-from viscofric.report.results import SAME_TEMPERATURE, values
+from viscofric.report.results import SHOWN_AS_ONE, values
 from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.shifts.laws import WLF, Arrhenius, WLFArrhenius
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
@@ -142,7 +142,7 @@ def plot_shift_comparison(axes: Axes, found: Shifts, known: Shifts | ShiftLaw) -
         lowest, highest = (float(part) for part in np.asarray(known.log10(ends))[[1, 0]])
     else:
         other = shift_table(beside_friction(as_dataset(known), table.temperature))
-        if abs(other.reference - table.reference) > SAME_TEMPERATURE:
+        if abs(other.reference - table.reference) > SHOWN_AS_ONE:
             raise InputError(
                 f"shift factors of friction are 1 at {degrees(table.reference)}, those of the modulus at "
                 f"{degrees(other.reference)}: must be the same to be drawn together.",

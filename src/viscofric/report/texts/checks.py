@@ -16,7 +16,7 @@ from viscofric.friction.assumption_check import assumption_checks_of
 from viscofric.friction.intervals import consistency_check
 from viscofric.notes import Note, by_reader, notes_in
 from viscofric.report.results import (
-    SAME_TEMPERATURE,
+    SHOWN_AS_ONE,
     group,
     interpolated,
     is_extrapolated,
@@ -79,7 +79,7 @@ def _isotherms(factors: Dataset, _: DataTree) -> Iterator[Check]:
         return
     kept = values(factors, "temperature")
     given_temperatures = numbers(factors.attrs, "temperatures_given")
-    apart = [kelvin for kelvin in given_temperatures if np.min(np.abs(kept - kelvin)) > SAME_TEMPERATURE]
+    apart = [kelvin for kelvin in given_temperatures if np.min(np.abs(kept - kelvin)) > SHOWN_AS_ONE]
     left = [degrees(kelvin) for kelvin in apart]
     which = f"those at {several(left)} are left out" if len(left) > 1 else f"the one at {''.join(left)} is left out"
     if len(left) != given - used:
