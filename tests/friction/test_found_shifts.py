@@ -15,6 +15,7 @@ from refusals import refused
 from viscofric.arrays import Array
 from viscofric.contact.indenters.shapes import Ball
 from viscofric.errors import SuperpositionError
+from viscofric.files import SYNTHETIC
 from viscofric.friction.curve_checks import Decades
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.prediction import predict_friction
@@ -370,6 +371,12 @@ def test_all_temperatures_are_reported() -> None:
     with refused("curves-too-flat", SuperpositionError) as caught:
         shift_friction(made(constant, *np.arange(30.0, 49.0, 2.0)))
     np.testing.assert_allclose(caught.value.note.values["temperatures"], 273.15 + np.arange(30.0, 49.0, 2.0))
+
+
+@pytest.mark.parametrize("source", ["friction.csv (synthetic)", "friction.csv"])
+def test_shift_factors_of_synthetic_friction_say_so(source: str) -> None:
+    found = shift_friction(replace(made(power, 44.0, 50.0), source=source)).shift_factors
+    assert (SYNTHETIC in codes(found.notes)) == ("synthetic" in source)
 
 
 @pytest.mark.parametrize("remedy", [Remedy(" Leave it out."), None])

@@ -150,7 +150,9 @@ def test_a_material_made_step_by_step_of_files_that_say_so_is_synthetic(tmp_path
         path = tmp_path / f"{synthetic}.csv"
         path.write_text("\n".join([remark, *rows]), encoding="utf-8")
         fit = vf.superpose(vf.read_dma(path), reference="25 degC")
-        rubber = vf.Material(vf.fit_retardation_spectrum(fit), shift=fit.shift_factors)
+        factors = fit.shift_factors
+        assert (codes(factors.at_reference("30 degC").notes) == {SYNTHETIC}) == synthetic
+        rubber = vf.Material(vf.fit_retardation_spectrum(fit), shift=factors)
         assert rubber.synthetic == rubber.at_reference("30 degC").synthetic == synthetic
         assert vf.Material(vf.fit_retardation_spectrum(fit.master_curve)).synthetic == synthetic
         vf.write_card(rubber, tmp_path / "rubber.json", format="json")
@@ -160,6 +162,7 @@ def test_a_material_made_step_by_step_of_files_that_say_so_is_synthetic(tmp_path
 def test_a_material_of_synthetic_ramps_is_synthetic():
     ramps = replace(planted_ramps(1), notes=(Note(SYNTHETIC, "The data are synthetic."),))
     fit = vf.superpose_ramps(ramps, "25 degC")
+    assert codes(fit.shift_factors.notes) == {SYNTHETIC}
     assert vf.Material(vf.fit_retardation_spectrum(fit), shift=fit.shift).synthetic
     assert vf.Material(vf.fit_retardation_spectrum(fit.master_curve), shift=fit.shift).synthetic
 

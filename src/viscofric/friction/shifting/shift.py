@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from viscofric.arguments import insist_on
 from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.errors import InputError, SuperpositionError
+from viscofric.files import on_source
 from viscofric.friction.curve_checks import error_freedom, implausible, shared_error
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
 from viscofric.friction.measurement.zeros import ROUNDING
@@ -134,6 +136,7 @@ def shift_friction(
         except SuperpositionError as error:
             raise _with_outliers(error, curves) from None
         notes = (*error_freedom(points)[1], *shift.notes)
+        shift = replace(shift, notes=(*shift.notes, *on_source(curves.source)))
         rows = nominal_rows(curves.temperature)
         curves = curves.select(np.sort(np.concatenate([rows[place] for place in members])))
     elif kelvin is not None:

@@ -8,7 +8,6 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.arrays import Array
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError, SuperpositionError, brief, check_choice
 from viscofric.files import of_synthetic
@@ -369,7 +368,6 @@ def _master_curve(ramps: TemperatureRamps, points: RampPoints, shift: ShiftLaw, 
 def _table(shift: ShiftLaw, ramps: TemperatureRamps, kelvin: float) -> ShiftFactors:
     """Return the law as a table over the temperatures of the ramps, with the covariance that its constants make."""
     temperatures = np.linspace(*ramps.temperature_range, TABLE)
-    covariance: Array | None = None
-    if shift.has_standard_error:
-        covariance = shift._covariance(temperatures)
-    return ShiftFactors(temperatures, np.asarray(shift.log10(temperatures)), kelvin, covariance)
+    covariance = shift._covariance(temperatures) if shift.has_standard_error else None
+    values, made_up = np.asarray(shift.log10(temperatures)), of_synthetic(ramps.notes)
+    return ShiftFactors(temperatures, values, kelvin, covariance, made_up)

@@ -48,7 +48,7 @@ class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
     covariance : (n, n) array, optional
         Of the values, given that the one at the reference is exactly zero; zero if not given.
     notes : tuple of str
-        What was corrected by hand: one sentence each.
+        What was corrected by hand, and that data are synthetic: one sentence each.
 
     Examples
     --------

@@ -11,6 +11,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset
 from viscofric.errors import InputError
+from viscofric.files import of_synthetic
 from viscofric.nominal import parted
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
@@ -103,7 +104,8 @@ def joined_kinds(alone: Sequence[Part], reference: float) -> JointSuperposition:
     excess = max(misfit / freedom, 1.0) if freedom > 0 else 1.0
     covariance = excess * covariance
     gains = tuple(np.sqrt(excess) * one for one in gains)
-    common = ShiftFactors(temperatures, values, reference, covariance)
+    made_up = of_synthetic(note for one in alone for note in one.shift_factors.notes)
+    common = ShiftFactors(temperatures, values, reference, covariance, made_up)
     parts = tuple(_shifted(one, pick @ common.log10_values) for one, pick in zip(alone, picks, strict=True))
     return JointSuperposition(parts, common, tuple(alone), gains, tuple(dict.fromkeys(notes)))
 
@@ -139,7 +141,7 @@ def _shifted(part: Part, values: Array) -> Part:
         columns |= {"storage_modulus": curve.storage_modulus, "loss_modulus": curve.loss_modulus}
     order = np.argsort(next(iter(columns.values())), kind="stable")
     moved = {name: column[order] for name, column in {**columns, "temperature": curve.temperature}.items()}
-    factors = ShiftFactors(own.temperatures, values, own.reference, own.covariance)
+    factors = ShiftFactors(own.temperatures, values, own.reference, own.covariance, own.notes)
     return replace(part, shift_factors=factors, master_curve=replace(curve, **moved))  # type: ignore[arg-type]
 
 

@@ -226,25 +226,27 @@ def superpose(
                 field="by",
                 code="useless-weights",
             )
-        read = sweeps.in_tension(ratio)
+        read, made_up = sweeps.in_tension(ratio), of_synthetic(sweeps.notes)
         tests = read.thinned(PER_DECADE)
         weights_of = weights_of_averages(read.tests, tests.kind)
         logs = [LogSweep.of_step(one, tests.kind, own) for one, own in zip(tests.tests, weights_of, strict=True)]
-        steps, found = shifted_isotherms(tests.tests, logs, kelvin, known, vertical == "free", shift, fixed, STEP)
+        steps, found = shifted_isotherms(
+            tests.tests, logs, kelvin, known, vertical == "free", shift, fixed, STEP, made_up
+        )
         found["notes"] = (*tests.notes, *found["notes"], *(flowing(steps.isotherms) if tests.kind == "creep" else []))
         steps_curve = _step_master_curve(steps, found["shift_factors"], tests.kind)
-        return StepSuperposition(master_curve=replace(steps_curve, notes=of_synthetic(tests.notes)), **found)
+        return StepSuperposition(master_curve=replace(steps_curve, notes=made_up), **found)
     assert isinstance(sweeps, IsothermalSweeps)
-    tensile = sweeps.in_tension(ratio)
+    tensile, made_up = sweeps.in_tension(ratio), of_synthetic(sweeps.notes)
     quantities = Quantities.chosen(by, weights)
     quantities.insist_on_use(vertical, shift)
     logs = [LogSweep.of(isotherm) for isotherm in tensile.isotherms]
     joined, found = shifted_isotherms(
-        tensile.isotherms, logs, kelvin, known, vertical == "free", shift, fixed, quantities
+        tensile.isotherms, logs, kelvin, known, vertical == "free", shift, fixed, quantities, made_up
     )
     found["notes"] = (*tensile.notes, *quantities.notes, *found["notes"])
     unequal = None if weights is None else (float(quantities.weights[0]), float(quantities.weights[1]))
-    curve = replace(_master_curve(joined, found["shift_factors"]), notes=of_synthetic(tensile.notes))
+    curve = replace(_master_curve(joined, found["shift_factors"]), notes=made_up)
     return Superposition(master_curve=curve, shifted_by=quantities.by, weights=unequal, **found)
 
 
@@ -387,10 +389,12 @@ def shifted_isotherms(
     shift: ShiftLaw | None,
     fixed: Mapping[Any, float] | None,
     quantities: Quantities,
+    made_up: tuple[Note, ...],
 ) -> tuple[JoinedIsotherms[Tested], dict[str, Any]]:
     """Join and shift isotherms given by their logarithms; `known` is b(T) where it is not fitted.
 
-    Returns them free of the vertical shift, and the attributes of a `Superposed` but for its master curve.
+    Returns them free of the vertical shift, and the attributes of a `Superposed` but for its master curve.  Factors
+    that are found have the notes `made_up` on synthetic data.
     """
     usable(isotherms)
     levels = [0.0 if known is None else known.log10(isotherm.temperature) for isotherm in isotherms]
@@ -417,7 +421,8 @@ def shifted_isotherms(
             found = _between_models(found, fitted_shifts(joined, kelvin, held, not free, quantities), free)
     else:
         found = given_shifts(joined, kelvin, shift.at_reference(kelvin), free)
-    factors = ShiftFactors(temperatures, found.values, kelvin, found.covariance)
+    made_up = made_up if shift is None else of_synthetic(getattr(shift, "notes", ()))
+    factors = ShiftFactors(temperatures, found.values, kelvin, found.covariance, made_up)
     unidentified: tuple[tuple[float, float], ...] = ()
     notes = [*joined.notes, *joined.disagreements(given=shift is not None)]
     if shift is None:
