@@ -540,7 +540,8 @@ CALLS: dict[str, Any] = {
     "Material.notes_at": lambda: (shifted(), {"temperature": 310.0}),
     "Material.modes_at": lambda: (shifted(), {"temperature": 310.0}),
     "Material.complex_modulus": lambda: (shifted(), {"angular_frequency": np.array([1.0, 2.0]), "temperature": 310.0}),
-    "Arrhenius": lambda: {"activation_energy": 1e5, "reference": 300.0, **fitted(), "covariance": np.eye(1)},
+    "Arrhenius": lambda: {"activation_energy": 1e5, "reference": 300.0, **fitted(), "covariance": np.eye(1),
+        "rivals": np.array([[0.2, 900.0, 200.0]])},
     "InversePolynomial": lambda: {"coefficients": [5000.0, 1e6], "reference": 300.0, **fitted()},
     "VFT": lambda: {"B": 800.0, "T0": 200.0, "reference": 300.0, **fitted()},
     "WLF": lambda: {"C1": 9.0, "C2": 100.0, "reference": 300.0, **fitted()},
@@ -952,6 +953,7 @@ WITHOUT_UNIT = {
     "threads", "most_products", "finest", "most_periods", "rebounds", "replicate", "replicates", "step", "rows",
     "steps", "modes", "samples", "seed", "workers", "material_id", "per_decade", "shape", "passes of track_temperature",
     "direction", "covariance", "coefficients", "parameters", "log10_values", "weights", "response",
+    "rivals",
 }  # fmt: skip
 
 

@@ -264,6 +264,12 @@ def test_json_keeps_every_digit_of_the_modes(tmp_path):
     assert (back.spectrum.E0, back.spectrum.E_inf) == (material.spectrum.E0, material.spectrum.E_inf)
 
 
+def test_json_keeps_the_laws_that_factors_do_not_exclude(tmp_path):
+    law = ShiftFactors([290.0, 305.0], [1.2, 0.0], 305.0, np.diag([1e-4, 0.0])).law("arrhenius")
+    back = read_card(write_card(replace(rubber(), shift=law), tmp_path / "card", "json")).shift
+    assert back.standard_error([285.0, 310.0]) == pytest.approx(law.standard_error([285.0, 310.0]), rel=1e-12)
+
+
 # --- edits and damage ----------------------------------------------------------------------------------------
 
 

@@ -46,9 +46,9 @@ def test_a_poorly_known_law_reaches_as_far_as_it_is_known_to_half_a_decade():
         law.log10(low - 1.0)
 
 
-def test_limits_do_not_depend_on_the_reference():
-    law = fitted(error=0.25)
-    for reference in ("0 degC", "90 degC", "130 degC"):
+@pytest.mark.parametrize("law", [fitted(error=0.25), fitted("arrhenius", temperatures=WARM[2:5:2])])
+def test_limits_do_not_depend_on_the_reference(law):
+    for reference in ("20 degC", "40 degC", law.extrapolation_limits[1]):
         assert law.at_reference(reference).extrapolation_limits == pytest.approx(law.extrapolation_limits, rel=1e-6)
 
 

@@ -183,6 +183,28 @@ def test_two_temperatures_fix_an_arrhenius_law_that_nothing_tests():
     assert "law-exact" in codes(found.notes)
 
 
+@pytest.mark.parametrize(("C1", "C2"), [(12.0, 35.0), (17.44, 51.6), (10.0, 100.0)])
+def test_two_temperatures_do_not_exclude_wlf(C1, C2):
+    """An Arrhenius law through two factors of a rubber 15 and 25 K above Tg misses it 10 K beyond them."""
+    rubber, kelvin = WLF(C1, C2, 258.0), np.array([273.0, 283.0])
+    law = ShiftFactors(kelvin, rubber.at_reference(283.0).log10(kelvin), 283.0).law("arrhenius").unbounded()
+    for far in (263.0, 293.0, 303.0):
+        away = abs(law.log10(far) - rubber.at_reference(283.0).log10(far))
+        assert 0.02 < away < 1.96 * law.standard_error(far)
+    # All laws pass through both factors, which are exact to `SMALLEST_ERROR`.
+    assert law.standard_error(kelvin) == pytest.approx(0.0, abs=1e-6)
+    assert law.standard_error([263.0, 303.0]) == pytest.approx(np.sqrt(np.diag(law.covariance_at([263.0, 303.0]))))
+    assert law.with_parameters(law.parameters).rivals is None
+
+
+def test_an_arrhenius_law_that_factors_tell_from_wlf_is_as_certain_as_its_constant():
+    """Over 80 K of factors known to 0.01 decades all WLF laws usual for rubbers are excluded."""
+    law = measured(PLANTED["arrhenius"][0], WARM, 0).law("arrhenius")
+    assert law.rivals[:, 0].sum() < 1e-3
+    own = law.standard_errors[0] / law.activation_energy * np.abs(law.unbounded().log10([250.0, 420.0]))
+    assert law.unbounded().standard_error([250.0, 420.0]) == pytest.approx(own, rel=0.05)
+
+
 @pytest.mark.parametrize("count", [3, 4, *(pytest.param(count, marks=pytest.mark.apart) for count in (5, 6))])
 def test_a_straight_line_stays_one_at_few_temperatures(count):
     """WLF takes one constant more than Arrhenius: four in χ² have to pay for it, which noise does in 5 % of tables."""

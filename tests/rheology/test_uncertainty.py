@@ -217,6 +217,18 @@ def test_samples_of_an_uncertain_vft_law_are_its_curve():
     assert spread == pytest.approx(law.standard_error(kelvin), rel=0.4)
 
 
+def test_samples_of_an_arrhenius_law_are_also_wlf_laws_that_the_factors_do_not_exclude():
+    """Two factors: the standard error is the rms distance of the samples from the law."""
+    shifts = ShiftFactors([273.0, 283.0], [1.0, 0.0], 283.0, np.diag([0.02**2, 0.0]))
+    law, random = shifts.law("arrhenius"), np.random.default_rng(0)
+    drawn = _laws(random, shifts, normal_deviates(random, shifts.covariance, 4000), law)
+    assert {type(one) for one in drawn} == {vf.Arrhenius, vf.WLF}
+    far = np.array([266.0, 278.0, 293.0])
+    away = np.array([one.unbounded().log10(far) for one in drawn]) - law.unbounded().log10(far)
+    # The mean square of 4000 is known to 4 %; four of that, halved by the root.
+    assert np.sqrt(np.mean(away**2, axis=0)) == pytest.approx(law.unbounded().standard_error(far), rel=0.08)
+
+
 def test_samples_of_an_uncertain_polynomial_fall_with_temperature():
     """Residuals of 0.2 decades make one of four polynomials within the errors rise somewhere."""
     kelvin = np.arange(270.0, 371.0, 20.0)

@@ -318,7 +318,9 @@ def _notes(chosen: LawRow[ParametricLaw], rows: list[LawRow[ParametricLaw]], tab
     yield Note("law-chosen", first[0].upper() + first[1:])
     if chosen.exact:
         text = f"It has as many constants as there are steps between the {len(table) + 1} temperatures, so that it "
-        yield Note("law-exact", text + "passes through all factors and nothing tests it.")
+        text += "passes through all factors and nothing tests it"
+        usual = "; its errors hold WLF laws usual for rubbers" if chosen.kind == "arrhenius" else ""
+        yield Note("law-exact", f"{text}{usual}.")
     if chosen.law is not None and chosen.kind != "polynomial":
         yield from law_fitting.undetermined(chosen.law, chosen.law.parameters, chosen.law.covariance)
     for row in others:

@@ -14,7 +14,7 @@ import numpy as np
 
 from viscofric.arguments import flag, numbers
 from viscofric.arrays import Array
-from viscofric.errors import InputError
+from viscofric.errors import InputError, wrong_argument
 from viscofric.notes import Remedy
 from viscofric.rheology.shifts.parametric_law import Constant, ParametricLaw, Reach, shown_constant
 from viscofric.rheology.shifts.shift_law import GAS_CONSTANT, LN10, NOMINAL, ShiftLaw
@@ -227,6 +227,9 @@ class Arrhenius(ParametricLaw):
         Of the activation energy, where the law was fitted.
     fitted_range, bounded
         See `ParametricLaw`.
+    rivals : (m, 3) array, optional
+        WLF laws that the factors of a fit do not exclude: weight, and B and T0 of `VFT`, K.  Standard errors include
+        the distance from them.
 
     Examples
     --------
@@ -237,6 +240,7 @@ class Arrhenius(ParametricLaw):
 
     activation_energy: float
     reference: float
+    rivals: Array | None = field(default=None, kw_only=True, compare=False, repr=False)
 
     kind: ClassVar[str] = "arrhenius"
     title: ClassVar[str] = "Arrhenius"
@@ -249,14 +253,29 @@ class Arrhenius(ParametricLaw):
         covariance: Any = None,
         fitted_range: tuple[Quantity, Quantity] | None = None,
         bounded: bool = True,
+        rivals: Any = None,
     ) -> None:
         self._set((activation_energy,), reference, covariance, fitted_range, bounded)
+        if rivals is not None:
+            rivals = np.array(numbers(rivals, "rivals"))
+            if rivals.ndim != 2 or rivals.shape[1] != 3 or np.any(rivals < 0.0):
+                raise wrong_argument("rivals", rivals, "must be rows of a weight, B and T0.", "wrong-shape")
+        # Without a covariance nothing is said of errors.
+        object.__setattr__(self, "rivals", None if covariance is None else rivals)
 
     def _log10(self, kelvin: Array) -> Array:
         return self.activation_energy / (GAS_CONSTANT * LN10) * (1.0 / kelvin - 1.0 / self.reference)
 
     def _gradient(self, kelvin: Array) -> Array:
         return np.stack([(1.0 / kelvin - 1.0 / self.reference) / (GAS_CONSTANT * LN10)], axis=-1)
+
+    def _departures(self, kelvin: Array) -> Array:
+        if self.rivals is None:
+            return super()._departures(kelvin)
+        weight, B, T0 = self.rivals.T
+        # Near a pole and below it a law is as far off as it likes: the distance is no less than a kelvin.
+        here, there = (np.maximum(np.asarray(one)[..., None] - T0, 1.0) for one in (kelvin, self.reference))
+        return np.asarray(np.sqrt(weight) * (B * (1.0 / here - 1.0 / there) - self._log10(kelvin)[..., None]))
 
 
 @dataclass(frozen=True)

@@ -193,13 +193,17 @@ class ParametricLaw(ShiftLaw):
                 "the law to measured shift factors, or give the covariance.",
                 code="no-covariance",
             )
-        return _spread(self._gradient(kelvin), self.covariance)
+        return _spread(self._gradient(kelvin), self.covariance, self._departures(kelvin))
+
+    def _departures(self, kelvin: Array) -> Array:
+        """Return what log10 α may differ by beyond the constants' covariance, (..., m): independent standard errors."""
+        return np.zeros((*np.shape(kelvin), 0))
 
     def _covariance(self, kelvin: Array) -> Array:
         if self.covariance is None:
             return super()._covariance(kelvin)
-        gradient = self._gradient(kelvin)
-        return np.asarray(gradient @ self.covariance @ gradient.T)
+        gradient, departures = self._gradient(kelvin), self._departures(kelvin)
+        return np.asarray(gradient @ self.covariance @ gradient.T + departures @ departures.T)
 
     def _transformed(self, slope: list[list[float]]) -> Array | None:
         """Return the covariance of new constants (rows) from their derivatives by those of this law (columns)."""
@@ -244,8 +248,8 @@ class ParametricLaw(ShiftLaw):
             return reach
         steps = np.linspace(0.0, farthest, 101)
         steps = steps[end + steps > self._divergence]
-        gradient = self._gradient(end + steps) - self._gradient(np.asarray(end))
-        doubt = LEVEL_95 * _spread(gradient, self.covariance)
+        gradient, departures = (of(end + steps) - of(np.asarray(end)) for of in (self._gradient, self._departures))
+        doubt = LEVEL_95 * _spread(gradient, self.covariance, departures)
         beyond = np.flatnonzero(~(doubt <= LARGEST_UNCERTAINTY))
         if not beyond.size:
             return reach
@@ -324,8 +328,8 @@ def shown_constant(constant: Constant, value: float, error: float) -> str:
     return f"{symbol} = ({both})e{power}{unit}" if power else f"{symbol} = {both}{unit}"
 
 
-def _spread(gradient: Array, covariance: Array) -> Array:
-    variance = np.einsum("...i,ij,...j->...", gradient, covariance, gradient)
+def _spread(gradient: Array, covariance: Array, departures: Array) -> Array:
+    variance = np.einsum("...i,ij,...j->...", gradient, covariance, gradient) + np.sum(departures**2, axis=-1)
     return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
 
 

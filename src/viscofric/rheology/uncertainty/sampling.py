@@ -17,7 +17,7 @@ from viscofric.data import MasterCurve
 from viscofric.errors import InputError
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts import law_fitting
-from viscofric.rheology.shifts.laws import VFT, ParametricLaw, ShiftLaw
+from viscofric.rheology.shifts.laws import VFT, Arrhenius, ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShiftFactors
 from viscofric.rheology.spectra import mode_fits
@@ -293,8 +293,8 @@ def sample_materials(
     seed : int
         Of the random numbers: the same seed gives the same samples.
     law : str, optional
-        Kind of shift law (`ShiftFactors.law`) to be fitted in every sample, VFT as WLF, the same curve; the table
-        itself if not given.
+        Kind of shift law (`ShiftFactors.law`) to be fitted in every sample, VFT as WLF, the same curve, Arrhenius in
+        some samples as WLF (`Arrhenius.rivals`); the table itself if not given.
     poisson_ratio : float
         Of the materials.
     name : str
@@ -493,4 +493,14 @@ def _laws(random: np.random.Generator, shifts: ShiftFactors, moved: Array, law: 
             found[number] = replace(one, fitted_range=law.fitted_range, bounded=law.bounded)
         if len(found) == len(moved):
             break
-    return [found[number] for number in range(len(moved))]
+    laws = [found[number] for number in range(len(moved))]
+    if not isinstance(law, Arrhenius) or law.rivals is None:
+        return laws
+    # Rivals take the place of some, by their weights, steeper or less steep by as much.
+    weight, B, T0 = law.rivals.T
+    steeper = np.array([one.activation_energy for one in laws if isinstance(one, Arrhenius)]) / law.activation_energy
+    places = np.searchsorted(np.cumsum(weight), random.spawn(1)[0].uniform(size=len(laws)))
+    return [
+        one if place == len(B) else VFT(B[place] * steep, T0[place], law.reference).to_wlf()
+        for one, steep, place in zip(laws, steeper, places, strict=True)
+    ]
