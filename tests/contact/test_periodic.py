@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+import scipy.fft
 
 import viscofric as vf
 from contact.dense_reference import solve_dense_contact
@@ -622,6 +623,19 @@ def test_a_layer_pressed_deeply_is_reported() -> None:
         solve_periodic(broad(), wave, speed=1.0, pressure=mean, layer=vf.Layer(1.0)).warnings for mean in (1.0, 1e-2)
     )
     assert [codes(one) - {"quasi-static"} for one in (deep, shallow)] == [{"deep-in-layer"}, set()]
+
+
+@pytest.mark.parametrize(("points", "seed"), [(32, 0), (48, 5)])
+def test_a_gap_nearly_as_large_as_the_highest_peak_leaves_one_point_in_contact(points: int, seed: int) -> None:
+    """Which a coarser grid may not have, and which few steps of the splitting lose; p = δ/û of one point."""
+    surface, material = rough(points, seed=seed), broad()
+    top = float(surface.z.max() - surface.z.mean())
+    found = solve_periodic(material, surface, speed=1.0, gap=(1.0 - 1e-4) * top, tolerance=1e-12)
+    solid = SlidingSolid(material.modes_at(None), POISSON_RATIO, (1.0, 0.0))
+    under = scipy.fft.irfft2(solid.transfer(surface.shape, surface.spacing), surface.shape)[0, 0]
+    assert np.count_nonzero(found.pressure) == 1
+    # Of the depth, 1e-4 of the height, as many digits are left of rounding and of the tolerance.
+    assert found.max_pressure == pytest.approx(1e-4 * top / under, rel=1e-8)
 
 
 def test_what_was_given_comes_back_to_the_last_digit() -> None:

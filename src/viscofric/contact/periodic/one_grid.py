@@ -230,7 +230,9 @@ class OneGrid:
             operator, self.height, pressure, load=self.load, indentation=self.indentation, steps=steps,
             rho=rho, accelerated=accelerated, less_gap=less_gap,
         )  # fmt: skip
-        return found if self._loaded(found) else self.backend.positive_part(pressure)
+        if self._loaded(found):
+            return found
+        return self.backend.positive_part(self.backend.xp.astype(pressure, self.backend.xp.float64))
 
     def _loaded(self, pressure: AnyArray) -> int:
         return int(self.backend.xp.count_nonzero(pressure > 0.0))

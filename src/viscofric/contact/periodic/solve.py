@@ -461,7 +461,7 @@ def _on_slopes(surface: PeriodicSurface, pressure: Array, toward: tuple[float, f
     x, y = (np.sum(surface.on_slopes(axis, sums, pressure), axis=0) for axis in (0, 1))
     # Heights fall where the indenter's surface rises towards the material: ∂h/∂x = −∂z/∂x.
     force = -np.array([x[0], y[0]]) / pressure.size
-    return _along_and_across(toward) @ force, math.sqrt((x[1] + y[1]) / x[2])
+    return _along_and_across(toward) @ force, math.sqrt((x[1] + y[1]) / max(x[2], 1))  # none on a coarser grid
 
 
 def _dissipated(
