@@ -112,9 +112,12 @@ def test_the_size_of_a_contact_is_an_anchor_too(option: str, text: str, name: st
     assert (anchor.speed, anchor.load, anchor.temperature) == (1.0, 1.0, 300.0)
 
 
-def test_tables_show_what_is_identified_and_what_not() -> None:
+def test_tables_show_what_is_identified_and_what_not(capsys: pytest.CaptureFixture[str]) -> None:
     from types import SimpleNamespace
 
+    from viscofric.cli.identify import _print
+    from viscofric.friction.identification.conclusions import SHARED
+    from viscofric.notes import Note
     from viscofric.report.texts.inverse import family_lines, modulus_lines
 
     def modulus(omega: Any) -> Any:
@@ -141,6 +144,9 @@ def test_tables_show_what_is_identified_and_what_not() -> None:
     assert "× 0.5" in family_lines(made)[1]
     made.family = ()
     assert family_lines(made) == []
+    made.sentences = (Note("errors-shared", "Errors may be shared", remedy=SHARED),)
+    _print(made)
+    assert "--common-error" in capsys.readouterr().out
 
 
 def test_a_prior_or_shift_of_a_synthetic_material_is_one(tmp_path: Path) -> None:

@@ -271,6 +271,7 @@ def _prior(parameters: dict[str, Any]) -> dict[str, Any]:
 
 
 def _print(found: IdentifiedMaterial) -> None:
+    from viscofric.notes import note_of
     from viscofric.report.texts.inverse import family_lines, modulus_lines
 
     for table in (modulus_lines(found), family_lines(found)):
@@ -279,4 +280,4 @@ def _print(found: IdentifiedMaterial) -> None:
         if table:
             click.echo()
     for sentence in found.sentences:
-        click.echo(sentence)
+        click.echo(note_of(sentence).words("shell"))
