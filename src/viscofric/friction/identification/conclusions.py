@@ -21,11 +21,13 @@ from viscofric.friction.curve_checks import (
     with_tails,
 )
 from viscofric.friction.curves import FrictionCurves
+from viscofric.friction.finite_thickness import check_half_space
 from viscofric.friction.identification.drawn_materials import Findings, Posterior, level_family, limits
 from viscofric.friction.identification.iteration import Weighed, freedom_of, leverage_of, misfit, most_evident, weighed
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import Problem
 from viscofric.friction.identification.result import (
+    LAYER,
     NOTHING_IDENTIFIED,
     IdentifiedBand,
     IdentifiedMaterial,
@@ -97,7 +99,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     of_anchors = _anchor_notes(best, drawn, middle, limit) if anchored else ()
     fitted, residuals = _fitted(outcome, found.posterior)
     common = found.common(bands, residuals, error_scale)
-    radius, coupling = _contacts(outcome, common["material"])
+    thickness, coupling = _contacts(outcome, common["material"])
     level_range = limits(np.abs([one.complex_modulus(middle) for one in drawn.materials]))
     result = IdentifiedMaterial(
         **common,
@@ -107,7 +109,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
         friction=fitted,
         residuals=residuals,
         iterations=outcome.iterations,
-        contact_radius=radius,
+        half_space_thickness=thickness,
         notes=(*points.notes, *of_outliers, *doubts, *coupling, *of_anchors),
     )
     return replace(result, material=with_origin(result, outcome.curves.source))
@@ -143,14 +145,14 @@ def _with_tails(fits: list[Weighed[Problem]]) -> tuple[list[Weighed[Problem]], A
 
 
 def _contacts(outcome: Outcome, material: Material) -> tuple[float, tuple[str, ...]]:
-    """Return the largest contact radius, m, and a note where measured Coulomb friction changes friction by too much."""
+    """Return the thickness of rubber that serves, m, and a note where Coulomb friction changes friction by too much."""
     points, indenter = outcome.start.points, outcome.contacts.indenter
     measured = points.at_one_load(outcome.curves)
     measured = replace(measured, load=points.forces, load_unit=indenter.geometry.load_unit)
     sizes = ContactSize.all_of(material, indenter, measured)
     coupled = check_coupling(measured, material, None, [(one.smallest, one.smallest) for one in sizes])
     notes = () if coupled is None or coupled.holds else (coupled.sentence,)
-    return max(one.smallest for one in sizes), notes
+    return float(check_half_space(material, measured, sizes, None, LAYER).values["thickness_for_friction"]), notes
 
 
 def _doubts(outcome: Outcome, error_scale: float, best: Weighed[Problem], limit: float) -> Iterator[Note]:

@@ -25,13 +25,13 @@ from viscofric.rheology.spectra.quality import FROM_FRICTION, FROM_INDENTATION, 
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.showing import Plotted, Rows
-from viscofric.units import in_si, shown_celsius, shown_number
+from viscofric.units import in_si, plain, shown_celsius
 
 #: Factor to which the modulus is given beyond the measured frequencies, and number of frequencies.
 _BEYOND = 10.0
 _FREQUENCIES = 300
-#: Thickness over the contact's radius of a layer with 2 % less friction than a half-space; at half of it, 5 % less.
-HALF_SPACE = 10
+#: Change of friction from the half-space to a layer that is named, relative.
+LAYER = 0.02
 
 
 def log_magnitudes(samples: MaterialSamples, angular_frequency: Array | float) -> Array:
@@ -266,8 +266,9 @@ class IdentifiedMaterial(Identified):
         Measured minus fitted, over the standard error, in the order of `friction`.
     iterations : int
         Steps made, with contacts solved in each.
-    contact_radius : float
-        Largest radius, or half width, of the contacts on the half-space that the rubber is taken to be, m.
+    half_space_thickness : float
+        Thickness of the rubber, which is taken to be a half-space, of whose layer friction differs by 2 %, m; estimated
+        as in `check_assumptions`.
     """
 
     METHOD: ClassVar[str] = FROM_FRICTION
@@ -277,7 +278,7 @@ class IdentifiedMaterial(Identified):
     friction: FrictionCurves
     residuals: Array
     iterations: int
-    contact_radius: float
+    half_space_thickness: float
 
     def _attributes(self) -> dict[str, Any]:
         low, high = self.level_range
@@ -344,10 +345,10 @@ class IdentifiedMaterial(Identified):
         )
 
     def _body_words(self) -> str:
-        least = shown_number(1e3 * HALF_SPACE * self.contact_radius, ".2g")
         return (
-            f"The rubber is taken to be a half-space: a layer thinner than {least} mm, {HALF_SPACE} times the largest "
-            "contact radius, has less friction by 2 % or more, so that another modulus is found."
+            f"The rubber is taken to be a half-space: on a layer of {plain(1e3 * self.half_space_thickness, 2)} mm, "
+            f"bonded to a rigid base, friction differs by {100.0 * LAYER:g} %, on a thinner one by more, so that "
+            "another modulus is found."
         )
 
     def _shift_words(self) -> tuple[str, ...]:
@@ -358,7 +359,7 @@ class IdentifiedMaterial(Identified):
         steepest = float(np.abs(np.gradient(factors.log10_values, factors.temperatures)).max())
         sentence = (
             f"α(T) was found from the friction at {len(factors.temperatures)} temperatures, each factor to "
-            f"{largest:.2g} decades or better; 1 K of temperature (temperature_error) is up to {steepest:.2g} decades."
+            f"{largest:.2g} decades or better; 1 K of temperature is up to {steepest:.2g} decades."
         )
         return (sentence,)
 
