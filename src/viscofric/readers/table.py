@@ -121,12 +121,8 @@ class Table:
         except (ValueError, OverflowError):
             value = math.nan
         if not math.isfinite(value) or "_" in plain:
-            raise DataFileError(
-                self.path,
-                f"{text!r} in column {heading!r} is not a finite number; correct it, or leave out the row.",
-                line,
-                code="not-a-number",
-            )
+            problem = f"{text!r} in column {heading!r} is not a finite number; correct it, or leave out the row."
+            raise DataFileError(self.path, problem, line, code="not-a-number")
         return value
 
     def values(

@@ -216,10 +216,8 @@ def identify_material(
     points = usable_points(curves, indenter, load, SOLVED_ERROR * accuracy, assumed=assumed)
     kelvin = None if reference is None else positive(reference, "K", "reference")
     points, shifts = shifts_of(points, curves, shift, kelvin, [float(one.temperature) for one in anchors])
-    points = replace(
-        errors.given_to(points, curves, shifts.per_kelvin),
-        notes=(*points.notes, *synthetic_notes(curves.source, shift, prior)),
-    )
+    notes = dict.fromkeys((*points.notes, *synthetic_notes(curves.source, shift, prior)))
+    points = replace(errors.given_to(points, curves, shifts.per_kelvin), notes=tuple(notes))
     shifts = as_shared_errors_allow(points, shifts)
     moduli = [ModulusObservation.of(one) for one in anchors if isinstance(one, ModulusAnchor)]
     if prior is None and prior_band is not None:

@@ -270,12 +270,9 @@ class MaterialSamples(KnownFrequencies, Plotted, Items["Material"]):
         is drawn from a wide distribution.  Neighbouring C are strongly correlated.
         """
         middle = NormalDist().cdf(1.0) - NormalDist().cdf(-1.0)
-        E0, E_inf = (_limits(one, middle) for one in (self.E0, self.E_inf))
-        return StandardErrors(
-            float(0.5 * (E0.upper - E0.lower)),
-            float(0.5 * (E_inf.upper - E_inf.lower)),
-            np.std(self.C, axis=0, ddof=1),
-        )
+        ends = (_limits(one, middle) for one in (self.E0, self.E_inf))
+        E0, E_inf = (0.5 * float(one.upper - one.lower) for one in ends)
+        return StandardErrors(E0, E_inf, np.std(self.C, axis=0, ddof=1))
 
     @property
     def covariance(self) -> Array:

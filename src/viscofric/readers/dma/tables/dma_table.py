@@ -393,12 +393,7 @@ def _temperature(
     decades = math.log10(np.max(swept) / np.min(swept)) if swept.size else 0.0
     if found is None or decades > WIDEST_SWEEP:
         raise _no_temperature(table, decades, name)
-    notes.append(
-        Note(
-            "temperature-from-name",
-            f"No column holds a temperature; it was taken from the {named} name.",
-        )
-    )
+    notes.append(Note("temperature-from-name", f"No column holds a temperature; it was taken from the {named} name."))
     return np.full(len(angular), found)
 
 
