@@ -121,6 +121,9 @@ SMALLEST_MISFIT = 0.003  # decades
 #: Usual misfit of a good law beyond the errors of the factors; the scale of a half-Cauchy density, which excludes no
 #: size (A. Gelman, Bayesian Analysis 1 (2006) 515).
 USUAL_MISFIT = 0.01  # decades
+#: Sizes of a scatter (decades) over which likelihoods are averaged, and their density, in equal steps of the logarithm.
+SCATTERS = np.geomspace(SMALLEST_MISFIT, LARGEST_SCATTER, 25)
+DENSITY = SCATTERS / (1.0 + (SCATTERS / USUAL_MISFIT) ** 2)
 #: Usual distances of the pole of a WLF law below the lowest temperature, each as likely as the others, K.  C2 about Tg
 #: is 30 to 100 K for most rubbers (J. D. Ferry, Viscoelastic Properties of Polymers, 3rd ed. 1980, Table 11-II), and
 #: the lowest temperature is Tg or some tens of kelvin above it.
@@ -347,15 +350,14 @@ def wlf_beside(table: FactorTable) -> Array:
     # likelihood, averaged over the scatter as in `criterion_of`; B is that of greatest likelihood.
     poles = np.append(0.0, np.maximum(table.temperatures[0] - POLES_BELOW, 1.0))
     shapes, values = table.turn @ (1.0 / (table.temperatures[:, None] - poles)), table.turn @ table.values
-    scatter, density = _scatters()
-    precision = 1.0 / (table.variance + scatter[:, None] ** 2)  # (s, m)
+    precision = 1.0 / (table.variance + SCATTERS[:, None] ** 2)  # (s, m)
     square, product = precision @ shapes**2, precision @ (shapes * values[:, None])
     logarithm = 0.5 * (product**2 / square + np.sum(np.log(precision) - precision * values**2, axis=1)[:, None])
-    weight = density[:, None] * np.exp(logarithm - logarithm.max()) * (product > 0.0)
-    B = np.sum(weight * product / square, axis=0) / np.maximum(np.sum(weight, axis=0), np.finfo(float).tiny)
-    likely = weight.sum(axis=0)
+    weight = DENSITY[:, None] * np.exp(logarithm - logarithm.max()) * (product > 0.0)
+    likely = np.maximum(np.sum(weight, axis=0), np.finfo(float).tiny)
+    B = np.sum(weight * product / square, axis=0) / likely
     likely[0] *= len(POLES_BELOW)
-    return np.column_stack([likely / max(likely.sum(), np.finfo(float).tiny), B, poles])[1:]
+    return np.column_stack([likely / likely.sum(), B, poles])[1:]
 
 
 def solved(family: Model, table: Table, otherwise: InputError) -> tuple[Solution, float, float]:
@@ -394,17 +396,10 @@ def criterion_of(family: Model, table: Table, parameters: Array) -> float:
     # scatter s in every value. No law is exact, and few factors do not show how large s is: L is averaged over s, from
     # `SMALLEST_MISFIT` on, with the density 1/(1 + (s/m)²) of m = `USUAL_MISFIT`. So L stays finite where a law passes
     # through all factors.
-    scatter, weight = _scatters()
-    logarithms = np.array([_log_density(family, table, parameters, float(one) ** 2) for one in scatter])
+    logarithms = np.array([_log_density(family, table, parameters, float(one) ** 2) for one in SCATTERS])
     most = float(logarithms.max())
-    mean = float(np.sum(weight * np.exp(logarithms - most)) / np.sum(weight))
+    mean = float(np.sum(DENSITY * np.exp(logarithms - most)) / np.sum(DENSITY))
     return -2.0 * (most + float(np.log(mean))) + 2.0 * (family.size + family.surcharge)
-
-
-def _scatters() -> tuple[Array, Array]:
-    """Return sizes of an independent scatter (decades), in equal steps of their logarithm, and their weights."""
-    scatter = np.geomspace(SMALLEST_MISFIT, LARGEST_SCATTER, 25)
-    return scatter, scatter / (1.0 + (scatter / USUAL_MISFIT) ** 2)
 
 
 def _log_density(family: Model, table: Table, start: Array, added: float) -> float:
