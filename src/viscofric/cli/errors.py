@@ -67,6 +67,7 @@ _TYPED_AS = {
     "height unit": ("height_unit",),
     "sheet": ("history_sheet", "shift_factor_sheet"),
     "fixed_shift_factors": ("fix",),
+    "temperatures": ("temperature",),
     **dict.fromkeys(("track_radius", "passes"), ("heating_track",)),
 }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,13 +12,15 @@ from matplotlib.figure import Figure
 
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
-from viscofric.friction.heating import HeatedFrictionCurves
 from viscofric.report.data import as_dataset
 from viscofric.report.figures import style
 from viscofric.report.figures.interface import plot_friction_parts
 from viscofric.report.results import group, is_extrapolated, nominal_temperatures, number, on_group, values
 from viscofric.report.sweeps import axis_of, best_estimate, thinned
 from viscofric.report.texts.numbers import short
+
+if TYPE_CHECKING:
+    from viscofric.friction.heating import HeatedFrictionCurves
 
 _MILLIMETRES = 1e3
 #: Curves that a study's figures show.

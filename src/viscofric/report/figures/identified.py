@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,13 +11,15 @@ from matplotlib.figure import Figure
 
 from viscofric.arrays import Array
 from viscofric.datasets import Dataset
-from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
-from viscofric.friction.identification.result import Identified
 from viscofric.report.data import Master, Moduli, as_dataset, moduli, moduli_of_master_curve, modulus_band
 from viscofric.report.figures import style
 from viscofric.report.results import number, values
 from viscofric.rheology.material import Material
 from viscofric.units import shown_celsius
+
+if TYPE_CHECKING:
+    from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
+    from viscofric.friction.identification.result import Identified
 
 
 def plot_identified_modulus(axes: Axes, found: Identified | Dataset, known: Material | Master | None = None) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,7 +14,6 @@ from viscofric.arrays import Array
 from viscofric.datasets import Dataset, DataTree
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.interface_stress import ShearStress
 from viscofric.report.data import Measured, as_dataset
 from viscofric.report.figures import style
 from viscofric.report.figures.friction import plot_measured
@@ -22,8 +21,11 @@ from viscofric.report.results import group, is_synthetic, nearest, nominal_tempe
 from viscofric.report.sweeps import has_curves_only, solved_cases, thinned
 from viscofric.rheology.interface.law import InterfaceLaw
 from viscofric.rheology.shifts.parametric_law import LEVEL_95
-from viscofric.roughness.persson import PerssonTheory
 from viscofric.roughness.rough_friction import RoughFriction
+
+if TYPE_CHECKING:
+    from viscofric.friction.interface_stress import ShearStress
+    from viscofric.roughness.persson import PerssonTheory
 
 _MEGA, _MILLIMETRES = 1e-6, 1e3
 _DASHES: tuple[Any, ...] = ("-", "--", ":", "-.")

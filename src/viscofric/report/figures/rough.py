@@ -8,20 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscofric.arrays import Array
-from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.report.figures.contact import draw_arrow, highest_shown
 from viscofric.report.figures.style import INK, Look, decade_ticks, heat_map, looks, speed_ticks, unit_for
-from viscofric.roughness.patches import FrictionByWavelength
-from viscofric.roughness.persson import PerssonTheory
-from viscofric.roughness.rough_friction import RoughFriction
-from viscofric.roughness.spectrum import PowerSpectrum
-from viscofric.roughness.topography import Topography
 from viscofric.units import shown_celsius
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.collections import QuadMesh
+
+    from viscofric.arrays import Array
+    from viscofric.contact.periodic.solution import PeriodicSolution
+    from viscofric.roughness.patches import FrictionByWavelength
+    from viscofric.roughness.persson import PerssonTheory
+    from viscofric.roughness.rough_friction import RoughFriction
+    from viscofric.roughness.spectrum import PowerSpectrum
+    from viscofric.roughness.topography import Topography
 
 
 _DASHES = ("-", "--", ":", "-.")
