@@ -21,7 +21,9 @@ from study.sweeps import made_results
 from viscofric.cli import main, run
 from viscofric.cli.files import FOLDER, OUT, Written
 from viscofric.cli.keys import KeyOption
+from viscofric.cli.progress import TerminalProgress
 from viscofric.study.run_file.study import TABLES
+from viscofric.study.running.running import Event
 
 SOLID = ["--E0", "1 MPa", "--E-inf", "10 MPa", "--tau", "1 ms"]
 CATALOGUE = ["--material", "synthetic fluoroelastomer"]
@@ -244,3 +246,21 @@ def test_only_tables_are_printed_in_place_of_a_file(tmp_path: Path, monkeypatch:
     assert call("verify", "--list", "--json").exit_code == 2
     assert call("new", "-", "--json").exit_code == 2
     assert not list(tmp_path.iterdir())
+
+
+def test_a_narrow_terminal_has_the_numbers_of_a_study_whole(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name, value in {"FORCE_COLOR": "1", "TERM": "xterm", "COLUMNS": "80"}.items():
+        monkeypatch.setenv(name, value)
+    clock = [0.0]
+    monkeypatch.setattr("viscofric.cli.progress.time.monotonic", lambda: clock[0])
+    with TerminalProgress() as progress:
+        progress(Event("stage", "histories", done=0, total=5000))
+        clock[0] = 10.0
+        progress(Event("solving", "histories", done=1271, total=5000, solves=20, label="0 °C, 3.162 mm/s", key="a"))
+        progress(Event("stage", "histories", done=5000, total=5000, solves=50))
+    shown = re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", capsys.readouterr().err)
+    assert "5000/5000" in shown
+    assert "50 solved, 5/s" in shown  # the stage's last event, too, counts from its beginning
+    assert all(len(line) <= 80 for line in re.split(r"[\r\n]+", shown))

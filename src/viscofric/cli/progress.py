@@ -21,6 +21,7 @@ from rich.progress import (
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
+from rich.table import Column
 
 from viscofric.datasets import plain
 
@@ -61,11 +62,13 @@ class TerminalProgress(Silent):
         self._began = self._last_line = time.monotonic()
         self._bars = Progress(
             TextColumn("{task.description}"),
-            BarColumn(bar_width=24),
+            BarColumn(bar_width=12),
             MofNCompleteColumn(),
             TimeRemainingColumn(elapsed_when_finished=True),
-            TextColumn("{task.fields[doing]}"),
+            # what does not fit is cut off here, not from the numbers
+            TextColumn("{task.fields[doing]}", table_column=Column(ratio=1, no_wrap=True)),
             console=self._console,
+            expand=True,
         )
 
     def __enter__(self) -> Self:
@@ -93,9 +96,10 @@ class TerminalProgress(Silent):
     def _draw(self, event: Event, stage: str, words: str) -> None:
         if stage not in self._tasks:
             self._tasks[stage] = self._bars.add_task(words, total=event.total, doing="")
+        doing = escape(self._doing(event))  # the last event of a stage, too, has the time from its beginning
         if event.event == "stage":
             self._began = time.monotonic()
-        self._bars.update(self._tasks[stage], completed=event.done, total=event.total, doing=escape(self._doing(event)))
+        self._bars.update(self._tasks[stage], completed=event.done, total=event.total, doing=doing)
 
     def _doing(self, event: Event) -> str:
         """Say how fast contacts are solved, and which."""
