@@ -46,6 +46,11 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     ),
     (
         read_dma,
+        ["T (degC),f,E' (MPa),E'' (MPa)", *SWEEP],
+        "column 'f' has no unit; write it as 'f (Hz)' or 'f (rad/s)'.",
+    ),
+    (
+        read_dma,
         [DMA, *SWEEP],
         (
             "does not state whether it was measured in tension or in shear, a factor of 3 in the modulus; give "

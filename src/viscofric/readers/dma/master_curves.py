@@ -146,7 +146,7 @@ def _of_table(table: Table, source: Source, reference: float, notes: list[str]) 
             raise table.refused("wrong-unit", problem)
     if doubts:  # a master curve carries no notes
         heading = table.columns[places["frequency"]].heading
-        raise table.refused("no-unit", f"column {heading!r} has no unit; it must be 'rad/s' or 'Hz'.")
+        raise table.refused("no-unit", f"column {heading!r} has no unit; write it as {f'{heading} (rad/s)'!r}.")
     dma_table.insist_on_one_frequency(table, places, frequency)
     storage, loss = dma_table.moduli(table, places, source, [])
     temperature = np.full(len(frequency), reference)

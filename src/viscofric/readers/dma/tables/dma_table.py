@@ -160,9 +160,11 @@ def _in_rad_per_second(table: Table, place: int) -> Array:
     factor = to_rad_per_second(column.unit, angular=named_angular)
     if factor is not None:
         return factor * table.numbers_or_missing(place)
+    if not column.unit:  # one that is named angular is read in rad/s by `angular_frequency`
+        right = f"write it as {f'{column.heading} (Hz)'!r} or {f'{column.heading} (rad/s)'!r}."
+        raise table.refused("no-unit", f"column {column.heading!r} has no unit; {right}")
     right = "'rad/s'" if named_angular else "'Hz' or 'rad/s'"
-    shown = f"the unit {column.unit!r}" if column.unit else "no unit"
-    raise table.refused("wrong-unit", f"column {column.heading!r} has {shown}; it must be {right}.")
+    raise table.refused("wrong-unit", f"column {column.heading!r} has the unit {column.unit!r}; it must be {right}.")
 
 
 def insist_on_one_frequency(table: Table, places: dict[str, int], angular: Array) -> None:
