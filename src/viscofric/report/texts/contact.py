@@ -8,7 +8,7 @@ import numpy as np
 
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.solution import OF_THE_SOLVER, ContactSolution
-from viscofric.report.texts.numbers import length, prefixed, short
+from viscofric.report.texts.numbers import AFTER_PLUS_MINUS, length, prefixed, short
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.showing import Row, texts
 from viscofric.units import shown_number
@@ -48,7 +48,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
         ("grid", f"{cells} cells of {length(diagnostics.spacing)}, {len(diagnostics.levels)} nested grids"),
         ("solver", f"{diagnostics.linear_iterations} iterations, {diagnostics.products} products, {closed}"),
         ("time", f"{seconds:.2f} s"),
-        ("after ±", "errors of the numerical solution, not of the material"),
+        AFTER_PLUS_MINUS,
     ]
 
 

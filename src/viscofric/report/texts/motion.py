@@ -12,7 +12,7 @@ from viscofric.motion.history import History
 from viscofric.motion.impact_solution import ImpactSolution, RestitutionCurve
 from viscofric.motion.solution import TransientSolution
 from viscofric.notes import Note
-from viscofric.report.texts.numbers import degrees, length, prefixed, significant, with_error
+from viscofric.report.texts.numbers import AFTER_PLUS_MINUS, degrees, length, prefixed, significant, with_error
 from viscofric.showing import aligned, texts
 
 _ERRORS_IN_TIME = Note(
@@ -74,6 +74,7 @@ def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, s
         ("energy balance", f"{100.0 * run.energy_imbalance:.1g} % at most"),
         ("steps", f"{run.steps}, {run.rejected_steps} rejected; {len(run.time)} times returned"),
         ("time", f"{seconds:.2f} s"),
+        AFTER_PLUS_MINUS,
     ]
 
 
@@ -85,6 +86,7 @@ def cycle_lines(cycle: CycleSolution, seconds: float) -> list[tuple[str, str]]:
         ("energy balance", f"{100.0 * cycle.run.energy_imbalance:.1g} % at most"),
         ("memory", f"{cycle.change:.1g} of its size away from the periodic state"),
         ("time", f"{seconds:.2f} s"),
+        AFTER_PLUS_MINUS,
     ]
 
 
@@ -112,7 +114,7 @@ def impact_lines(hit: ImpactSolution, seconds: float) -> list[tuple[str, str]]:
             contacts.append((f"contact {number}", f"{prefixed(one.start, None, 's')} after the first touch"))
         contacts += texts(one._shown())
     balance = f"{100.0 * hit.run.energy_imbalance:.1g} % at most"
-    return [*contacts, ("energy balance", balance), ("time", f"{seconds:.2f} s")]
+    return [*contacts, ("energy balance", balance), ("time", f"{seconds:.2f} s"), AFTER_PLUS_MINUS]
 
 
 def restitution_lines(curve: RestitutionCurve) -> list[str]:

@@ -14,6 +14,8 @@ from viscofric.units import shown_celsius, shown_number, shown_speed
 __all__ = ["ABSENT", "prefixed", "several", "short", "significant", "with_error"]  # handed on
 
 _SPACE = "\N{NO-BREAK SPACE}"
+#: What the numbers after ± are, as name and value.
+AFTER_PLUS_MINUS = ("after ±", "errors of the numerical solution, not of the material")
 
 
 def percent(share: float, digits: int = 2) -> str:
