@@ -359,7 +359,7 @@ class IdentifiedMaterial(Identified):
         steepest = float(np.abs(np.gradient(factors.log10_values, factors.temperatures)).max())
         sentence = (
             f"α(T) was found from the friction at {len(factors.temperatures)} temperatures, each factor to "
-            f"{largest:.2g} decades or better; 1 K of temperature is up to {steepest:.2g} decades."
+            f"{largest:.2g} decades or better; an error of 1 K in temperature is worth up to {steepest:.2g} decades."
         )
         return (sentence,)
 
