@@ -363,5 +363,5 @@ def _no_reason(row: LawRow[Law], chosen: LawRow[Law]) -> str:
     """Return the reason for not choosing a law with a lower AIC, in a sentence."""
     gap = f"{chosen.aic - row.aic:.2g}"
     if row.kind == "polynomial":
-        return f"the AIC of a {row.title} is lower by {gap}, but describes without explaining"
-    return f"the AIC of {row.title} is lower by {gap}, which does not pay for more constants"
+        return f"a {row.title} has an AIC lower by {gap}, but describes without explaining"
+    return f"{row.title} has an AIC lower by {gap}, which does not pay for more constants"

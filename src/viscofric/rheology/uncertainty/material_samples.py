@@ -151,8 +151,9 @@ class SystematicMisfit:
             "fit-misses-data",
             f"The fit misses the measured moduli by more than noise, {modulus} by up to {largest:.2g} decades "
             f"({100.0 * (10.0**largest - 1.0):.2g} %) near {10.0 ** self.log10_frequency[worst[0]]:.1g} rad/s, with "
-            "the same sign at neighbouring points: isotherms do not superpose, or the spectrum cannot follow them. The "
-            "bands of E' and E'' are widened accordingly; those of other quantities include the noise only.",
+            "the same sign at neighbouring points: isotherms do not superpose, E' and E'' contradict each other, or "
+            "the spectrum cannot follow them. The bands of E' and E'' are widened accordingly; those of other "
+            "quantities include the noise only.",
             values={
                 "modulus": modulus,
                 "decades": largest,
