@@ -291,7 +291,7 @@ def inertia_notes(
     return (note,) if float(note.values["change"]) > LITTLE_INERTIA else ()
 
 
-def lag_of_waves(modulus: ComplexArray, poisson_ratio: float, density: float = _DENSITY) -> ComplexArray:
+def lag_of_waves(modulus: ComplexArray, poisson_ratio: float) -> ComplexArray:
     """Return b in u = (c − iωb) F, the displacement of a half-space at low frequencies, for its moduli E(ω), SI.
 
     The waves that it radiates take b ∫(dF/dt)² dt (G. F. Miller, H. Pursey, Proc. R. Soc. A 233 (1955) 55: Lamb's
@@ -299,7 +299,7 @@ def lag_of_waves(modulus: ComplexArray, poisson_ratio: float, density: float = _
     """
     d = 0.5 - poisson_ratio
     shear = modulus / (2.0 * (1.0 + poisson_ratio))
-    return np.asarray((0.66 + d * (0.74 + 1.3 * d)) / (2.0 * math.pi) * math.sqrt(density) * shear**-1.5)
+    return np.asarray((0.66 + d * (0.74 + 1.3 * d)) / (2.0 * math.pi) * math.sqrt(_DENSITY) * shear**-1.5)
 
 
 def waves_notes(change: float, modulus: float, poisson_ratio: float, time: float, said: str) -> tuple[Note, ...]:

@@ -171,10 +171,10 @@ class PeriodicMover(Mover[PeriodicState]):
         energies = stored_energy(modes, memory), 0.0
         return self._state(pressure, (waves, scaled), memory, problem.response, past, depth, energies, None)
 
-    def step(self, state: PeriodicState, start: Instant, end: Instant, *, keep: bool = True) -> PeriodicState:
-        """Return the state at the end of a step or jump; without `keep` its memory overwrites that of the one given."""
+    def step(self, state: PeriodicState, start: Instant, end: Instant) -> PeriodicState:
+        """Return the state at the end of a step or jump."""
         lagging = self.modes.at_once if end.clock - start.clock == 0.0 else 0.0
-        found = self._stepped(state, start, end, lagging, keep=keep)
+        found = self._stepped(state, start, end, lagging)
         if lagging == 0.0:
             return found
         change = np.linalg.norm(self._scale * state.waves) ** 2 - np.linalg.norm(self._scale * found.waves) ** 2
@@ -185,20 +185,13 @@ class PeriodicMover(Mover[PeriodicState]):
         quick = self.modes.tau < QUICK * shortest * self.schedule.rates(instant.time, instant.time)[0]
         if state.lagging == 0.0 and not quick.any():
             return state
-        found = self._stepped(state, instant, instant, 0.0, keep=True, quick=quick)
+        found = self._stepped(state, instant, instant, 0.0, quick=quick)
         work = float(found.pressure.mean()) * (found.depth - state.depth)
         lost = work - (found.stored - state.stored - state.lagging)
         return replace(found, dissipated=state.dissipated + lost)
 
     def _stepped(
-        self,
-        state: PeriodicState,
-        start: Instant,
-        end: Instant,
-        lagging: float,
-        *,
-        keep: bool,
-        quick: Mask | None = None,
+        self, state: PeriodicState, start: Instant, end: Instant, lagging: float, quick: Mask | None = None
     ) -> PeriodicState:
         """Return the state at the end of a step; compliances that lag behind remember the pressure before it."""
         # Quick modes follow in no time.
@@ -213,7 +206,7 @@ class PeriodicMover(Mover[PeriodicState]):
         waves = self.grid.of(pressure)
         begun, scaled = self._scale * state.waves, self._scale * waves
         held = state.stored - self._elastic_energy(state.waves, begun)
-        after = advance(problem.response, self.modes, state.memory, (begun, scaled), held, keep=keep)
+        after = advance(problem.response, self.modes, state.memory, (begun, scaled), held)
         trend = (pressure - state.pressure) / clock_step if clock_step > 0.0 else None
         done = after.stored, state.dissipated + after.dissipated
         return self._state(pressure, (waves, scaled), after.memory, problem.response, past, depth, done, trend)
@@ -264,7 +257,7 @@ class PeriodicMover(Mover[PeriodicState]):
             following = end._replace(pressure=max(0.0, 2.0 * end.pressure - start.pressure))
         elif start.gap is not None and end.gap is not None:
             following = end._replace(gap=2.0 * end.gap - start.gap)
-        later = self._stepped(last, start, following, 0.0, keep=True)
+        later = self._stepped(last, start, following, 0.0)
         forces = np.array([one.friction for one in (middle, last, later)])
         return self.pressure_unit * self.depth_unit * math.hypot(*np.diff(forces, 2, axis=0)[0])
 

@@ -143,12 +143,9 @@ def advance(
     memory: ComplexArray,
     pressures: tuple[ComplexArray, ComplexArray],
     held: float,
-    *,
-    keep: bool = True,
 ) -> Advanced:
-    """Return the memory (n, rows, columns) after a step from one of two pressures (rows, columns) to the other."""
-    # The given memory, which stores the energy held, is overwritten unless `keep` is set.
-    found = np.empty_like(memory) if keep else memory
+    """Return the memory (n, rows, columns), which stored an energy, after a step from one pressure to another."""
+    found = np.empty_like(memory)
     # Pressures are rounded as the memory is: where they are equal, nothing is dissipated.
     both = np.stack(pressures, axis=1, dtype=memory.dtype, casting="same_kind")
     stored = dissipated = 0.0
