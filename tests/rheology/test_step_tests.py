@@ -208,6 +208,27 @@ def test_offsets_of_whole_tests_hardly_move_the_shifts():
     assert np.sqrt(np.mean(np.square(scores))) == pytest.approx(1.0, abs=0.5)
 
 
+@pytest.mark.parametrize(("kind", "power"), [("creep", -1.0), ("relaxation", 1.0)])
+def test_errors_of_tests_include_a_vertical_shift_that_was_left_out(kind, power):
+    """On the plateau ρT looks like a slope, along which α was said to be known."""
+    tests, material, reference = planted_steps(1, name="polymer", kind=kind)
+    rising = vf.rheology.DensityShift(reference)
+    lifted = tuple(replace(one, response=one.response * rising(one.temperature) ** power) for one in tests.tests)
+    raised = vf.readers.StepTests(lifted, kind)
+    none, left_out, known = (
+        vf.superpose(tests, reference),
+        vf.superpose(raised, reference),
+        vf.superpose(raised, reference, vertical="density"),
+    )
+    assert (codes(none.notes), codes(known.notes)) == (set(), set())
+    assert codes(left_out.notes) == {"vertical-shift-left-out", "alpha-not-identified"}
+    fitted_to = left_out.shift_factors
+    away = fitted_to.log10_values - material.shift.at_reference(reference).log10(fitted_to.temperatures)
+    assert np.all(np.abs(away) <= 1.96 * fitted_to.standard_errors)
+    # Tests that exclude such a shift keep the errors of a known one: 1.00 to 1.01 times as large.
+    assert np.all(none.shift_factors.standard_errors <= 1.2 * known.shift_factors.standard_errors)
+
+
 @pytest.mark.slow
 def test_vertical_shifts_of_tests_are_fitted_beside_horizontal_ones():
     tests, material, reference = planted_steps(1, 0.003)

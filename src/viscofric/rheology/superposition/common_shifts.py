@@ -53,12 +53,32 @@ class CommonShifts:
     parted: tuple[int, ...] = ()  # neighbours joined pair by pair because a common curve moved them apart
     freedom: float = np.inf  # of the scatter of the points
     offsets: IsothermOffsets | None = None  # of whole isotherms, where fitted
+    trend: Array | None = None  # (t,), probability of each of `TRENDS`, where fitted
 
 
 def common_shifts(
     sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, quantities: Quantities = BOTH
 ) -> CommonShifts:
     """Shift isotherms (ascending in temperature, two points or more each) onto one curve of log E' and of log E''."""
+    # Where a vertical shift may have been left out, errors include what b = T/T0 would make of α, in proportion to the
+    # part of it; and with the probability that it is more than half of that, errors are those beside it, as where it
+    # turns what looks like a slope into a plateau.
+    found = _with_plateaus(sweeps, joins, gauge, quantities)
+    if gauge.trend is None or found.trend is None:
+        return found
+    lowered = [replace(one, moduli=one.moduli - by) for one, by in zip(sweeps, gauge.trend, strict=True)]
+    other = _with_plateaus(lowered, joins, replace(gauge, left_out=False), quantities)
+    left_out = LeftOut(found.trend, gauge.trend, found.values - other.values)
+    covariance = found.covariance + found.trend @ (TRENDS > 0.5) * (other.covariance - found.covariance)
+    return replace(
+        found,
+        covariance=covariance + np.outer(left_out.errors[0], left_out.errors[0]),
+        offsets=None if found.offsets is None else replace(found.offsets, left_out=left_out),
+    )
+
+
+def _with_plateaus(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, quantities: Quantities) -> CommonShifts:
+    """Shift isotherms, and continue the shifts over plateaus at both ends."""
     # E' and E'' have equal weights; the covariance follows from the scatter of each. `joins` of each isotherm with the
     # next are the start of the search. Plateaus at the cold and the hot end, where the slope of the curves is noise,
     # are left out of the fit; their shifts continue the trend of the others (`continued`). With vertical shifts
@@ -169,13 +189,10 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
     levels = spread + np.kron(np.ones((moduli, moduli)), problem.vertical_prior())
     profiles = StepProfiles(problem, search.smoothers, quantities.of(sweeps), levels)
     covariance = profiles.widened(search.parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
-    left_out = None
-    if problem.gauge.trend is not None and len(offsets.covariance) > 1:  # one quantity hardly shows it
-        left_out = LeftOut(offsets.trend, problem.gauge.trend, gain @ np.tile(problem.gauge.trend, moduli))
-        covariance = covariance + np.outer(left_out.errors[0], left_out.errors[0])
     return replace(
         _result(search, covariance, freedom),
-        offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto, left_out),
+        offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto),
+        trend=offsets.trend,
     )
 
 
@@ -199,7 +216,7 @@ def _with_offsets_of_tests(
         profiles = StepProfiles(problem, search.smoothers, quantities.of(sweeps), spread, excess)
         parameters, covariance = most_likely(profiles.in_parts, search.parameters, scale)
         search = replace(search, parameters=parameters)
-        expected = _offsets(search, offsets.expected)[0].expected
+        expected = _offsets(search, offsets.expected, None)[0].expected
         excess = problem.inflations(parameters, search.smoothers, expected)
         if max(float(one.max()) for one in excess) == 1.0:
             break
@@ -212,18 +229,23 @@ def _with_offsets_of_tests(
     return replace(
         _result(search, widened, freedom),
         offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, quantities.onto_moduli),
+        trend=offsets.trend,
     )
 
 
 def _beside_offsets(search: _Search) -> tuple[_Search, Offsets, Array]:
     """Continue with offsets of the quantities shifted; return these, and their effect on the gradient."""
     problem, expected = search.problem, None
+    # The most likely shifts of one quantity follow the size of offsets, which then must hold a vertical shift too.
+    trend = problem.trend if problem.moduli > 1 else None
     for _ in range(OFFSET_PASSES):
-        offsets, gradient = _offsets(search, expected)
+        offsets, gradient = _offsets(search, expected, trend)
         expected = offsets.expected
         smoothers = problem.smoothers(search.parameters, expected)
         noise = _noise(problem, smoothers)
         search = _Search(problem, _descend(problem, search.parameters, smoothers, noise), smoothers, noise)
+    if trend is not problem.trend:
+        offsets = replace(offsets, trend=_offsets(search, expected, problem.trend)[0].trend)
     return search, offsets, gradient
 
 
@@ -285,9 +307,9 @@ def _covariance(search: _Search, expected: Array | None = None) -> tuple[Array, 
     return np.asarray(ways @ inverse @ (score + prior) @ inverse @ ways.T), left, np.asarray(ways @ inverse @ ways.T)
 
 
-def _offsets(search: _Search, expected: Array | None) -> tuple[Offsets, Array]:
+def _offsets(search: _Search, expected: Array | None, trend: Array | None) -> tuple[Offsets, Array]:
     """Return the variance of offsets of whole isotherms, and the effect of each on the gradient by the shifts."""
-    problem, ways, trend = search.problem, search.problem.ways, search.problem.trend
+    problem, ways = search.problem, search.problem.ways
     information, score, gradient = problem.with_offsets(search.parameters, search.smoothers, expected)
     turned = np.eye(len(score))[:, len(ways) - ways.shape[1] :]
     turned[: len(ways), : ways.shape[1]] = ways

@@ -140,11 +140,7 @@ class IsothermOffsets:
         for row in range(2):
             for column in range(moduli):
                 with_shifts[row, :, column, first:last] = continued(own[row, :, column], gauge, first, last)
-        left_out = self.left_out
-        if left_out is not None and gauge.trend is not None:
-            follow = continued(left_out.follow, gauge, first, last)
-            left_out = LeftOut(left_out.probability, gauge.trend, follow)
-        return replace(self, with_shifts=with_shifts.reshape(2 * size, moduli * size), left_out=left_out)
+        return replace(self, with_shifts=with_shifts.reshape(2 * size, moduli * size))
 
     def resized(self, random: np.random.Generator, errors: Array) -> Array:
         """Rescale the offsets of each sample to one size drawn at random, and move its shifts accordingly."""

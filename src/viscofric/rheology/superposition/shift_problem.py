@@ -261,9 +261,9 @@ class ShiftProblem:
 
     @property
     def trend(self) -> Array | None:
-        """What a vertical shift that was left out adds to log E' and log E'' (2n,); one alone hardly shows it."""
+        """What a vertical shift that was left out adds to the logarithms of the moduli (m n,)."""
         trend = self.gauge.trend
-        return None if trend is None or self.moduli == 1 else np.tile(trend, self.moduli)
+        return None if trend is None else np.tile(trend, self.moduli)
 
     def vertical_prior(self) -> Array:
         """Return the covariance (n, n) of vertical shifts before any point is seen, zero where none are sought."""
