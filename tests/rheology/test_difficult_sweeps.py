@@ -308,6 +308,19 @@ def test_a_wrong_temperature_of_one_isotherm_is_named(off: float, code: str | No
             assert one.values["kelvin"] == pytest.approx(off, abs=0.3)
 
 
+def test_the_scatter_of_factors_is_that_of_the_well_known_ones() -> None:
+    """A factor known to a decade only was counted as the others: one off by 1.6 made 0.46 decades of 0.1."""
+    kelvin, found = 273.15 + np.arange(0.0, 130.0, 10.0), []
+    for seed in range(8):
+        scatter = 0.1 * np.random.default_rng(seed).standard_normal(len(kelvin))
+        values = np.asarray(WLF(8.86, 101.6, 323.15).log10(kelvin)) + scatter
+        values[-1] += 1.6
+        found += course_notes(kelvin, values, np.diag([*np.full(len(kelvin) - 1, 0.01), 1.2]) ** 2)
+    assert codes(found) == {"factors-scatter"}
+    # A course takes up to half of thirteen values; a scatter of six is known to a third, the median of eight to less.
+    assert np.median([note.values["decades"] for note in found]) == pytest.approx(0.1, rel=0.3)
+
+
 def test_errors_of_all_temperatures_are_noted() -> None:
     """Errors of 0.5 K: 95 % intervals of α held a third, without a word."""
     celsius, found = np.arange(-10.0, 81.0, 10.0), []

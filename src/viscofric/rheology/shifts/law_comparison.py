@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
@@ -193,13 +194,12 @@ def course_notes(temperatures: Array, values: Array, covariance: Array) -> tuple
     for degree in degrees:
         freedom = len(values) - 2 - degree
         tried = [(pole, *_course(*factors, degree, pole)) for pole in (0.0, *(temperatures.min() - _BELOW))]
-        pole, whole, course = min(tried, key=lambda one: one[1])
-        scatter = float(np.sqrt(np.sum((values - course(temperatures)) ** 2) / (freedom + 1)))
+        pole, whole, scatter, _ = min(tried, key=lambda one: one[1])
         courses.append((chance_of(degree, whole), -scatter))
         for place in range(1, len(values) - 1):
             others = np.arange(len(values)) != place
             kept = temperatures[others], values[others], covariance[np.ix_(others, others)]
-            rest, course = _course(*kept, degree, pole)
+            rest, _, course = _course(*kept, degree, pole)
             better = np.sqrt(max(whole - rest, 0.0) / max(1.0, rest / freedom))
             found.append((float(stdtr(freedom, -better)), place, course))
     likely, scatter = max(courses)
@@ -227,8 +227,8 @@ def course_notes(temperatures: Array, values: Array, covariance: Array) -> tuple
 
 def _course(
     temperatures: Array, values: Array, covariance: Array, degree: int, pole: float
-) -> tuple[float, Callable[[Array], Array]]:
-    """Return χ² of values about a polynomial in 1/(T − pole), and the polynomial."""
+) -> tuple[float, float, Callable[[Array], Array]]:
+    """Return χ² and scatter of values about a polynomial in 1/(T − pole), and the polynomial."""
     middle = float(temperatures.mean())
     table = FactorTable.of(temperatures, values, covariance, middle)
     whiten = table.whitening(law_fitting.SMALLEST_MISFIT**2)
@@ -238,8 +238,14 @@ def _course(
         return np.stack([place**power for power in range(1, degree + 1)], axis=-1)
 
     found = law_fitting.linear(whiten(powers(temperatures)), whiten(values))
-    level = float(np.mean(values - powers(temperatures) @ found.parameters))
-    return found.chi2, lambda kelvin: np.asarray(level + powers(kelvin) @ found.parameters)
+    rest = values - powers(temperatures) @ found.parameters
+    # Values that are hardly known show hardly anything of the level, and of the scatter of the others.
+    square = np.median((rest - np.median(rest)) ** 2) + law_fitting.SMALLEST_MISFIT**2
+    known = 1.0 / (np.diag(covariance) + square)
+    level = float(np.average(rest, weights=known))
+    freedom = len(values) - 1 - degree
+    scatter = math.sqrt(np.average((rest - level) ** 2, weights=known) * len(values) / freedom)
+    return found.chi2, scatter, lambda kelvin: np.asarray(level + powers(kelvin) @ found.parameters)
 
 
 def weighted(rows: Iterable[LawRow[Law]], compared: Iterable[LawRow[Law]]) -> list[LawRow[Law]]:
