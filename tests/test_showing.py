@@ -86,7 +86,8 @@ def one_of_each(folder):
     pressed = found["MaterialFromIndentation"]
     names = inspect.signature(vf.friction.Identified).parameters
     shared = {name: getattr(pressed, name) for name in names}
-    own = {"level_range": (1.0, 1.0), "family": (), "residuals": np.zeros(N), "iterations": 3, "contact_radius": 1e-3}
+    own = {"level_range": (1.0, 1.0), "family": (), "residuals": np.zeros(N), "iterations": 3}
+    own |= {"half_space_thickness": 1e-3}
     add(pressed.records[0], vf.friction.Identified(**shared))
     add(vf.friction.IdentifiedMaterial(**shared, **own, friction=curves()))
     # --- study

@@ -79,7 +79,7 @@ def test_a_header_that_is_not_understood_is_refused_with_headings_and_missing_qu
     ("header", "code", "missing"),
     [
         ("T_C,f_Hz,E'_MPa,Beta", "missing-columns", ["loss modulus"]),
-        ("T_C,f,E'_MPa,E''_MPa", "wrong-unit", []),
+        ("T_C,f,E'_MPa,E''_MPa", "no-unit", []),
         ("T_C,f_Hz,E',E''", "no-unit", []),
         ("T_C,f_Hz,E' (furlong),E''_MPa", "wrong-unit", []),
         ("T_C,f_Hz,E'_MPa,E'_MPa", "missing-columns", ["loss modulus"]),

@@ -260,6 +260,7 @@ class Arrhenius(ParametricLaw):
             rivals = np.array(numbers(rivals, "rivals"))
             if rivals.ndim != 2 or rivals.shape[1] != 3 or np.any(rivals < 0.0):
                 raise wrong_argument("rivals", rivals, "must be rows of a weight, B and T0.", "wrong-shape")
+            rivals.flags.writeable = False
         # Without a covariance nothing is said of errors.
         object.__setattr__(self, "rivals", None if covariance is None else rivals)
 

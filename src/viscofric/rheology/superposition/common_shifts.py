@@ -39,6 +39,7 @@ TEST_PASSES = 2  # of step tests; the second has the variance of correlated poin
 LARGEST_STEP = 0.3  # decades, in one iteration
 PASSES = 8  # each chooses knots and smoothing again
 CONVERGED = 1e-5  # decades
+FINEST = 3e-4  # decades; moduli that scatter less were not measured
 
 
 @dataclass(frozen=True, eq=False)
@@ -316,10 +317,12 @@ def _offsets(search: _Search, expected: Array | None, trend: Array | None) -> tu
     if trend is not None:
         turned = np.column_stack([turned, np.append(np.zeros(len(ways)), trend)])
     prior = ways.T @ problem.prior.T @ problem.prior @ ways
+    # Of computed moduli the curves' own errors would be taken for what is sought.
+    certainty = 1.0 if trend is None else min(1.0, search.noise / FINEST) ** 2
     found = estimated(
-        turned.T @ information @ turned,
-        turned.T @ score,
-        prior,
+        certainty * turned.T @ information @ turned,
+        certainty * turned.T @ score,
+        certainty * prior,
         problem.moduli,
         tied=problem.gauge.free_vertical,
         trend=trend is not None,

@@ -236,7 +236,7 @@ def _equal(none: float) -> Array:
 def _likelihood_of_sums(left: Array, wish: Array) -> Array:
     """Return the log of the likelihood of sizes (s,) over that of none, from their information and score."""
     known, modes = np.linalg.eigh(left)
-    variance = SIZES[:, None] ** 2
+    known, variance = np.maximum(known, 0.0), SIZES[:, None] ** 2  # rounding makes some negative
     return np.asarray(
         0.5 * np.sum(variance / (1.0 + variance * known) * (modes.T @ wish) ** 2 - np.log1p(variance * known), axis=1)
     )
@@ -247,6 +247,7 @@ def _likelihood(left: Array, wish: Array) -> Array:
     size = len(wish) // 2
     variance = SIZES[:, None] ** 2
     known, modes = np.linalg.eigh(left[:size, :size])
+    known = np.maximum(known, 0.0)
     part = variance / (1.0 + variance * known)  # of each size and mode of the sums
     across, score = modes.T @ left[:size, size:], modes.T @ wish[:size]
     sums = _likelihood_of_sums(left[:size, :size], wish[:size])
@@ -254,6 +255,6 @@ def _likelihood(left: Array, wish: Array) -> Array:
     remaining = wish[size:] - (part * score) @ across
     known, modes = np.linalg.eigh(beside)  # of the differences, beside sums of each size
     score = np.einsum("smk,sm->sk", modes, remaining)[:, None]
-    found = variance * known[:, None]
+    found = variance * np.maximum(known, 0.0)[:, None]
     differences = 0.5 * np.sum(variance * score**2 / (1.0 + found) - np.log1p(found), axis=2)
     return np.asarray(sums[:, None] + differences).ravel()

@@ -8,14 +8,16 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from viscofric.contact.bodies import Layer
 from viscofric.contact.solution import Meaning
-from viscofric.friction.cases.case import Case
 from viscofric.units import plain, shown_celsius, shown_place, shown_speed
+
+if TYPE_CHECKING:
+    from viscofric.friction.cases.case import Case  # slow, and the first plot needs this module
 
 Values: TypeAlias = tuple[float | str, ...]
 
