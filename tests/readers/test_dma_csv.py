@@ -12,7 +12,7 @@ from readers.refusal import noted, refused
 from readers.written import write
 from viscofric import read_mtm
 from viscofric.errors import DataFileError
-from viscofric.notes import codes
+from viscofric.notes import codes, note_of
 from viscofric.readers.dma.read import trace_dma
 
 HEADER = "temperature (degC),frequency (Hz),storage modulus (MPa),loss modulus (MPa)"
@@ -1008,6 +1008,13 @@ def test_digitised_curves_of_both_moduli_may_have_their_own_frequencies(tmp_path
     # Power laws are straight lines between logarithms.
     assert one.storage_modulus == pytest.approx(2e6 * frequency**0.2, rel=1e-8)
     assert one.loss_modulus == pytest.approx(7e5 * frequency**0.3, rel=1e-8)
+
+
+def test_points_of_a_digitised_curve_that_are_not_above_zero_are_counted(tmp_path):
+    rows = [f"{f},2,{1.1 * f},{0.0 if f == 10 else 0.5}" for f in (1, 3, 10, 30, 100)]
+    sweeps = read_dma(write(tmp_path, "f (Hz),E' (MPa),f (Hz),E'' (MPa)", *rows), temperature="20 degC")
+    (note,) = [one for one in map(note_of, sweeps.notes) if one.code == "curves-interpolated"]
+    assert note.values["not_positive"] == 1
 
 
 def test_points_that_may_part_thousands_are_refused(tmp_path):

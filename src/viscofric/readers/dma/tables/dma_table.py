@@ -102,6 +102,7 @@ def with_one_abscissa(table: Table, test: Test, notes: list[str]) -> Table:
     x, at, y = (table.numbers_or_missing(place) for place in (own[0], first, last))
     if np.array_equal(x, at, equal_nan=True):
         return table
+    given = np.count_nonzero(np.isfinite(x) & np.isfinite(y))
     with np.errstate(all="ignore"):
         x, at, y = (one if test == "temperature" and one is not y else np.log(one) for one in (x, at, y))
     known = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
@@ -115,7 +116,9 @@ def with_one_abscissa(table: Table, test: Test, notes: list[str]) -> Table:
     found = np.exp(np.interp(at[within], x[order], y[order])).tolist()
     out = np.count_nonzero(np.isfinite(at)) - len(within)
     said = f"{names[1]} was interpolated to the {_SWEPT[test]} of {names[0]}"
-    notes.append(Note("curves-interpolated", f"{said}; left out beyond: {out}." if out else f"{said}."))
+    said += f"; left out beyond: {out}" if out else ""
+    said += f"; its points that are not above zero were left out: {given - known.size}" if given > known.size else ""
+    notes.append(Note("curves-interpolated", f"{said}.", values={"not_positive": int(given - known.size)}))
     rows = [(*(row := table.rows[n])[:last], repr(one), *row[last + 1 :]) for n, one in zip(within, found, strict=True)]
     columns = tuple(replace(one, base=0.0) if n == last else one for n, one in enumerate(kept))
     block = None if table.block is None else table.block[within]
