@@ -65,6 +65,12 @@ def test_contacts_that_coincide_are_shown_once(tree: xr.DataTree) -> None:
     assert [contact.title for contact, _ in shown_contacts(tree)] == [""]
 
 
+def test_more_friction_than_in_the_kept_contacts_is_not_denied(tree: xr.DataTree) -> None:
+    del tree["fields"]["2"]
+    titles = [contact.title for contact, _ in shown_contacts(tree)]
+    assert titles == ["slowest", "most friction of those shown, fastest"]
+
+
 @pytest.mark.parametrize("missing", ["prediction", "fields"])
 def test_no_group_is_needed(tree: xr.DataTree, missing: str) -> None:
     del tree[missing]

@@ -34,7 +34,10 @@ def shown_contacts(tree: DataTree) -> list[Shown]:
     )
     titles: dict[int, list[str]] = {int(np.argmin(speed)): ["slowest"]}
     if np.isfinite(friction).any():
-        titles.setdefault(int(np.nanargmax(friction)), []).append("most friction")
+        most = int(np.nanargmax(friction))
+        cases = solved_cases(tree)
+        highest = cases is None or friction[most] >= np.nanmax(values(cases, "friction_coefficient"))
+        titles.setdefault(most, []).append("most friction" if highest else "most friction of those shown")
     titles.setdefault(int(np.argmax(speed)), []).append("fastest")
     order = sorted(titles, key=lambda index: speed[index])
     prediction, named = group(tree, "prediction"), _varied(found)
