@@ -97,6 +97,7 @@ const Found = view(() => {
   const of = contact.result;
   return html`<div ...${shown(of, "live-contact")}>
     <${Numbers} of=${of} />
+    <p class="help" hidden=${!of}>± is the numerical error alone. The bands of the curve show the material's uncertainty, where it is known.</p>
     <div class="why-box">
       <h3>Cause of the friction</h3>
       <p ...${shown(of, "why")} aria-live="off">${units.filled(of?.why)}</p>
