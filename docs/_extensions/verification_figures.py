@@ -11,8 +11,7 @@ from matplotlib.axes import Axes
 from viscofric.arrays import Array
 from viscofric.report.figures.style import BLUE, GREY, INK, decade_ticks, legend_above, looks
 from viscofric.units import shown_number
-from viscofric.verification.refinement import Refinement
-from viscofric.verification.windows import Windows
+from viscofric.verification.refinement import Refinement, Windows
 
 _LEAST_SHOWN = 1e-8
 

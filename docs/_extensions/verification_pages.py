@@ -25,8 +25,7 @@ from viscofric.verification.line import ACCURACY, MEMORY_LENGTHS, MODULUS_RATIOS
 from viscofric.verification.model_problems import SLOPE
 from viscofric.verification.published import PUBLISHED
 from viscofric.verification.published.contacts import BALL_POINTS, sliding_ball
-from viscofric.verification.refinement import REFINEMENTS, Refinement
-from viscofric.verification.windows import Windows, windows
+from viscofric.verification.refinement import REFINEMENTS, Refinement, Windows, windows
 
 #: Errors below this are called round-off: their digits differ from machine to machine.
 ROUND_OFF = 1e-9

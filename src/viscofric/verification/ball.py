@@ -11,7 +11,9 @@ from importlib.resources import files
 from viscofric.contact.reference import high_speed_friction, high_speed_line_friction, low_speed_friction
 from viscofric.rheology.material import Material
 from viscofric.verification import model_problems as model
-from viscofric.verification.check import Check, Comparison
+from viscofric.verification.check import Comparison, checks
+
+check = checks("viscoelastic point contact")
 
 ACCURACY = 1e-3
 QUANTITIES = ("friction", "indentation", "front", "rear", "half_width", "area", "max_pressure")
@@ -61,6 +63,13 @@ _FINER = 3e-4
 _BOUNDS = {"friction": _FINER, "indentation": 5e-4, "area": 5e-3, "max_pressure": 2e-3}
 
 
+@check(
+    "ball-reference",
+    "Ball: one retardation time, 25 and 37 modes over twelve decades",
+    "an independent dense solver with its own kernel and algorithm, extrapolated over several grids",
+    "Friction: the requested accuracy; the others converge with the same grids, the area to a quarter of a cell "
+    "all along its rim. The reference's own error is added.",
+)
 def _references() -> Iterator[Comparison]:
     for row in ball_references():
         found = model.InHertzUnits.of(model.solve_ball(row.material, accuracy=_FINER))
@@ -79,6 +88,12 @@ def _references() -> Iterator[Comparison]:
 _SLOW, _FAST = [1e-4, 5e-5, 1e-5], [1e7, 1e5, 1e6]
 
 
+@check(
+    "low-speed",
+    "Friction at very low speed",
+    "μ = (v/R) E0 Σ C_k τ_k: work of the lagging curvature on Hertz's pressure",
+    "The requested accuracy, and the law's next term, of the order (vτ/a0) ln(vτ/a0) = 1e-3.",
+)
 def _low_speed() -> Iterator[Comparison]:
     material = model.rubber(10.0, [1.0, 2.0, 3.0], _SLOW)
     spectrum = material.modes_at()
@@ -90,6 +105,12 @@ def _low_speed() -> Iterator[Comparison]:
     yield Comparison(f"ball, {case}", "friction μR/a0", ball, law, 7e-3)
 
 
+@check(
+    "high-speed",
+    "Friction at very high speed",
+    "μ = (4/5)(a∞²/R) E∞ Σ C_k/(v τ_k), and Hunter's limit for the cylinder",
+    "The requested accuracy, and the law's next term, of the order (k a∞/vτ) ln(vτ/k a∞), below 7e-3.",
+)
 def _high_speed() -> Iterator[Comparison]:
     material = model.rubber(100.0, [1.0, 2.0, 3.0], _FAST)
     spectrum = material.modes_at()
@@ -103,6 +124,13 @@ def _high_speed() -> Iterator[Comparison]:
     yield Comparison(f"cylinder, {case}", "friction μR/a0", cylinder, law, 1e-2)
 
 
+@check(
+    "energy-balance",
+    "The pressure's asymmetry against the dissipated energy, ball and cylinder",
+    "F_t v = dissipated power: another way to the same force, through −Im S",
+    "Both converge with the grid, the slower one to three times the requested accuracy; a solution in which "
+    "they differ by more is refused.",
+)
 def _energy() -> Iterator[Comparison]:
     for spectrum, ratio, memory in (
         ("one time", 2.0, 1.0),
@@ -120,43 +148,3 @@ def _energy() -> Iterator[Comparison]:
             found = solve(material, accuracy=ACCURACY, finest=finest)
             pressure, energy = found.pressure_friction_coefficient, found.energy_friction_coefficient
             yield Comparison(f"{name}, {case}", "dissipated over pressure", energy / pressure, 1.0, 3.0 * ACCURACY)
-
-
-_GROUP = "viscoelastic point contact"
-
-CHECKS = (
-    Check(
-        "ball-reference",
-        "Ball: one retardation time, 25 and 37 modes over twelve decades",
-        _GROUP,
-        "an independent dense solver with its own kernel and algorithm, extrapolated over several grids",
-        "Friction: the requested accuracy; the others converge with the same grids, the area to a quarter of a cell "
-        "all along its rim. The reference's own error is added.",
-        _references,
-    ),
-    Check(
-        "low-speed",
-        "Friction at very low speed",
-        _GROUP,
-        "μ = (v/R) E0 Σ C_k τ_k: work of the lagging curvature on Hertz's pressure",
-        "The requested accuracy, and the law's next term, of the order (vτ/a0) ln(vτ/a0) = 1e-3.",
-        _low_speed,
-    ),
-    Check(
-        "high-speed",
-        "Friction at very high speed",
-        _GROUP,
-        "μ = (4/5)(a∞²/R) E∞ Σ C_k/(v τ_k), and Hunter's limit for the cylinder",
-        "The requested accuracy, and the law's next term, of the order (k a∞/vτ) ln(vτ/k a∞), below 7e-3.",
-        _high_speed,
-    ),
-    Check(
-        "energy-balance",
-        "The pressure's asymmetry against the dissipated energy, ball and cylinder",
-        _GROUP,
-        "F_t v = dissipated power: another way to the same force, through −Im S",
-        "Both converge with the grid, the slower one to three times the requested accuracy; a solution in which "
-        "they differ by more is refused.",
-        _energy,
-    ),
-)

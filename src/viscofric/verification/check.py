@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from types import ModuleType
 from typing import Any, Literal, TypeAlias
 
 from viscofric.datasets import plain
@@ -98,6 +99,20 @@ class Check:
             except ViscofricError as error:
                 trouble = str(error)
         return Outcome(self, tuple(found), trouble, time.perf_counter() - began)
+
+
+def checks(group: str) -> Callable[..., Callable[[Callable[[], Iterable[Comparison]]], Check]]:
+    """Return what makes a decorator of a check's texts, which makes a function that compares a `Check` of the group."""
+
+    def described(name: str, title: str, source: str, reason: str, **origin: str) -> Any:
+        return lambda compare: Check(name, title, group, source, reason, compare, **origin)
+
+    return described
+
+
+def checks_in(*modules: ModuleType) -> tuple[Check, ...]:
+    """Return the checks of modules, in their order."""
+    return tuple(one for module in modules for one in vars(module).values() if isinstance(one, Check))
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,10 @@ from collections.abc import Iterator
 from viscofric.contact.indenters.shapes import Cone, Ellipsoid, FlatPunch
 from viscofric.contact.reference import flat_punch, hertz_ball, hertz_ellipse, hertz_line, sneddon_cone
 from viscofric.verification import model_problems as model
-from viscofric.verification.check import Check, Comparison
+from viscofric.verification.check import Comparison, checks
 from viscofric.verification.engine import solve_steady
+
+check = checks("elastic limits")
 
 _RATIO = 10.0
 _RUBBER = model.one_time(_RATIO, 1.0)
@@ -19,6 +21,13 @@ _ANGLE = math.radians(5.0)
 _ROUND_OFF = 1e-12
 
 
+@check(
+    "hertz-ball",
+    "Ball at rest and at infinite speed",
+    "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22-4.24, with E0 and with E∞",
+    "128 cells: an edge is accurate to a quarter of a cell, the mean edge along the rim to a tenth; depth and "
+    "pressure converge faster. The friction of a symmetric pressure is a rounding error.",
+)
 def _ball() -> Iterator[Comparison]:
     for case, speed, modulus in _LIMITS:
         known = hertz_ball(model.BALL_LOAD, model.RADIUS, modulus, model.POISSON_RATIO)
@@ -30,6 +39,12 @@ def _ball() -> Iterator[Comparison]:
         yield Comparison(case, "μ from the pressure", found.pressure_friction_coefficient, 0.0, _ROUND_OFF, "absolute")
 
 
+@check(
+    "hertz-cylinder",
+    "Cylinder at rest and at infinite speed",
+    "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.43-4.45",
+    "128 cells: an edge is accurate to a quarter of a cell.",
+)
 def _cylinder() -> Iterator[Comparison]:
     for case, speed, modulus in _LIMITS:
         known = hertz_line(model.CYLINDER_LOAD, model.RADIUS, modulus, model.POISSON_RATIO)
@@ -38,6 +53,12 @@ def _cylinder() -> Iterator[Comparison]:
         yield Comparison(case, "largest pressure (Pa)", found.max_pressure, known.max_pressure, 0.002)
 
 
+@check(
+    "hertz-ellipsoid",
+    "Ellipsoids at rest",
+    "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.24-4.27",
+    "An edge is accurate to a quarter of a cell; the shorter axis has 30 cells.",
+)
 def _ellipsoid() -> Iterator[Comparison]:
     for ratio in (0.25, 4.0):
         known = hertz_ellipse(
@@ -52,6 +73,12 @@ def _ellipsoid() -> Iterator[Comparison]:
         yield Comparison(case, "contact area (m²)", found.contact_area, area, 0.01)
 
 
+@check(
+    "sneddon-cone",
+    "Cone at rest and at infinite speed",
+    "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 5",
+    "128 cells, as for the ball; the infinite pressure at the tip hardly affects depth and area.",
+)
 def _cone() -> Iterator[Comparison]:
     for case, speed, modulus in _LIMITS:
         known = sneddon_cone(model.BALL_LOAD, math.tan(_ANGLE), modulus, model.POISSON_RATIO)
@@ -60,56 +87,15 @@ def _cone() -> Iterator[Comparison]:
         yield Comparison(case, "contact area (m²)", found.contact_area, math.pi * known.radius**2, 0.005)
 
 
+@check(
+    "flat-punch",
+    "Flat punch, depth given, at rest and at infinite speed",
+    "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 6: F = 2aE*δ",
+    "The edge is a staircase with an infinite pressure: first order in the cell size; the radius has 49 cells.",
+)
 def _punch() -> Iterator[Comparison]:
     depth = 1e-5
     for case, speed, modulus in _LIMITS:
         known = flat_punch(depth, model.HERTZ_RADIUS, modulus, model.POISSON_RATIO)
         found = solve_steady(_RUBBER, FlatPunch(model.HERTZ_RADIUS), speed=speed, indentation=depth)
         yield Comparison(case, "load (N)", found.load, known.load, 0.01)
-
-
-_GROUP = "elastic limits"
-
-CHECKS = (
-    Check(
-        "hertz-ball",
-        "Ball at rest and at infinite speed",
-        _GROUP,
-        "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.22-4.24, with E0 and with E∞",
-        "128 cells: an edge is accurate to a quarter of a cell, the mean edge along the rim to a tenth; depth and "
-        "pressure converge faster. The friction of a symmetric pressure is a rounding error.",
-        _ball,
-    ),
-    Check(
-        "hertz-cylinder",
-        "Cylinder at rest and at infinite speed",
-        _GROUP,
-        "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.43-4.45",
-        "128 cells: an edge is accurate to a quarter of a cell.",
-        _cylinder,
-    ),
-    Check(
-        "hertz-ellipsoid",
-        "Ellipsoids at rest",
-        _GROUP,
-        "Hertz; K. L. Johnson, Contact Mechanics (1985), Eqs. 4.24-4.27",
-        "An edge is accurate to a quarter of a cell; the shorter axis has 30 cells.",
-        _ellipsoid,
-    ),
-    Check(
-        "sneddon-cone",
-        "Cone at rest and at infinite speed",
-        _GROUP,
-        "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 5",
-        "128 cells, as for the ball; the infinite pressure at the tip hardly affects depth and area.",
-        _cone,
-    ),
-    Check(
-        "flat-punch",
-        "Flat punch, depth given, at rest and at infinite speed",
-        _GROUP,
-        "I. N. Sneddon, Int. J. Eng. Sci. 3 (1965) 47, Sec. 6: F = 2aE*δ",
-        "The edge is a staircase with an infinite pressure: first order in the cell size; the radius has 49 cells.",
-        _punch,
-    ),
-)

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 from viscofric.contact.reference import HunterContact, hunter_line
 from viscofric.verification import model_problems as model
-from viscofric.verification.check import Check, Comparison
+from viscofric.verification.check import Comparison, checks
+
+check = checks("viscoelastic line contact")
 
 MODULUS_RATIOS = (2.0, 10.0, 100.0, 1000.0)
 MEMORY_LENGTHS = (1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3)
@@ -27,6 +29,12 @@ def hunter(modulus_ratio: float, memory_length: float) -> HunterContact:
     )
 
 
+@check(
+    "hunter",
+    "Cylinder, one retardation time: k = 2 to 1000, six decades of speed",
+    "S. C. Hunter, J. Appl. Mech. 28 (1961) 611; closed form, exact",
+    "Friction: the requested accuracy. Edges: four tenths of a cell, of which there are 128 at least.",
+)
 def _hunter() -> Iterator[Comparison]:
     for modulus_ratio in MODULUS_RATIOS:
         for memory_length in MEMORY_LENGTHS:
@@ -40,15 +48,3 @@ def _hunter() -> Iterator[Comparison]:
             for edge in ("front", "rear"):
                 position = getattr(known, edge) / model.HERTZ_RADIUS
                 yield Comparison(case, f"{edge} edge/a0", getattr(found, edge), position, _EDGE * width, "absolute")
-
-
-CHECKS = (
-    Check(
-        "hunter",
-        "Cylinder, one retardation time: k = 2 to 1000, six decades of speed",
-        "viscoelastic line contact",
-        "S. C. Hunter, J. Appl. Mech. 28 (1961) 611; closed form, exact",
-        "Friction: the requested accuracy. Edges: four tenths of a cell, of which there are 128 at least.",
-        _hunter,
-    ),
-)

@@ -11,8 +11,10 @@ from viscofric.motion.history import History
 from viscofric.motion.impact import solve_impact
 from viscofric.motion.solve import solve_transient
 from viscofric.rheology.material import Material
-from viscofric.verification.check import Check, Comparison
+from viscofric.verification.check import Comparison, checks
 from viscofric.verification.model_problems import BALL, POISSON_RATIO, RADIUS, RUBBER_MODULUS, one_time, rising_modes
+
+check = checks("closed forms")
 
 _LOAD, _DEPTH = 1.0, 2e-4  # N, m
 _PLANE_STRAIN = 1.0 - POISSON_RATIO**2
@@ -20,6 +22,12 @@ _MASS, _SPEED = 0.03, 0.1  # kg, m/s
 _ACCURACY, _IMPACT_ACCURACY = 1e-3, 3e-6
 
 
+@check(
+    "lee-radok",
+    "Ball on which a load or a depth is put at once",
+    "a³ = (3/4)(1 − ν²) R F J(t), and F = (4/3) √R δ^1.5 E(t)/(1 − ν²) (E. H. Lee, J. R. M. Radok 1960)",
+    "The requested accuracy, of the largest depth and load.",
+)
 def _lee_radok() -> Iterator[Comparison]:
     for name, rubber in (("one time", one_time(10.0, 1.0)), ("37 modes", rising_modes(1e6))):
         spectrum = rubber.modes_at()
@@ -42,6 +50,14 @@ def _lee_radok() -> Iterator[Comparison]:
             yield Comparison(case, "load over the first load", computed, expected, _ACCURACY, "absolute")
 
 
+@check(
+    "impact",
+    "Ball that rebounds",
+    "loss to first order in the retardation times (R. Ramírez, T. Pöschel, N. V. Brilliantov, T. Schwager 1999); "
+    "contact time and depth of H. Hertz; energy balance",
+    "The next order of the loss is τ over the contact time, 1e-4 and its square; a restitution known to 3e-6, of a "
+    "loss of 5e-4, makes 0.6 %.",
+)
 def _impact() -> Iterator[Comparison]:
     kappa = 4.0 * math.sqrt(RADIUS) / (3.0 * _PLANE_STRAIN)
     depth = (1.25 * _MASS * _SPEED**2 / (kappa * RUBBER_MODULUS)) ** 0.4
@@ -57,25 +73,3 @@ def _impact() -> Iterator[Comparison]:
     yield Comparison("contact of 10⁴ times τ", "indentation (m)", hit.largest_indentation, depth, 2e-3)
     hit = solve_impact(rising_modes(1e6), BALL, mass=_MASS, speed=_SPEED)
     yield Comparison("37 modes", "work less stored and dissipated", hit.run.energy_imbalance, 0.0, 1e-4, "absolute")
-
-
-CHECKS = (
-    Check(
-        "lee-radok",
-        "Ball on which a load or a depth is put at once",
-        "closed forms",
-        "a³ = (3/4)(1 − ν²) R F J(t), and F = (4/3) √R δ^1.5 E(t)/(1 − ν²) (E. H. Lee, J. R. M. Radok 1960)",
-        "The requested accuracy, of the largest depth and load.",
-        _lee_radok,
-    ),
-    Check(
-        "impact",
-        "Ball that rebounds",
-        "closed forms",
-        "loss to first order in the retardation times (R. Ramírez, T. Pöschel, N. V. Brilliantov, T. Schwager 1999); "
-        "contact time and depth of H. Hertz; energy balance",
-        "The next order of the loss is τ over the contact time, 1e-4 and its square; a restitution known to 3e-6, of a "
-        "loss of 5e-4, makes 0.6 %.",
-        _impact,
-    ),
-)

@@ -12,7 +12,9 @@ from viscofric.contact.solution import ContactSolution
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.verification import model_problems as model
-from viscofric.verification.check import Check, Comparison
+from viscofric.verification.check import Comparison, checks
+
+check = checks("sensitivities")
 
 _STEP = 0.06  # of the logarithms: many cells come into contact, so that where edges lie within them evens out
 _CLOSED_STEP = 1e-4
@@ -63,6 +65,13 @@ def _closed_form(given: dict[str, Any]) -> float:
     ).friction_coefficient
 
 
+@check(
+    "derivatives",
+    "Derivatives of the friction coefficient with modes, glass, speed, load and indentation",
+    "those of Hunter's closed form, and differences of solutions 6 % up and down",
+    "On these grids derivatives are accurate to about 0.1 %; friction is accurate to 1e-4, an error that a "
+    "difference divides by its step.",
+)
 def _derivatives() -> Iterator[Comparison]:
     for memory_length in (0.1, 1.0, 10.0):
         modes = model.rubber(10.0, [1.0], [memory_length]).modes_at()
@@ -83,16 +92,3 @@ def _derivatives() -> Iterator[Comparison]:
         given = {"C": modes.C, "tau": modes.tau, "E_inf": modes.E_inf, "speed": model.SPEED} | held
         solution = _solve(True, given, derivatives=True)
         yield from _compare(case, solution, given, _STEP, lambda there: _solve(True, there).friction_coefficient)
-
-
-CHECKS = (
-    Check(
-        "derivatives",
-        "Derivatives of the friction coefficient with modes, glass, speed, load and indentation",
-        "sensitivities",
-        "those of Hunter's closed form, and differences of solutions 6 % up and down",
-        "On these grids derivatives are accurate to about 0.1 %; friction is accurate to 1e-4, an error that a "
-        "difference divides by its step.",
-        _derivatives,
-    ),
-)

@@ -23,8 +23,10 @@ from viscofric.contact.reference import (
 )
 from viscofric.rheology.material import Material
 from viscofric.verification import model_problems as model
-from viscofric.verification.check import Check, Comparison
+from viscofric.verification.check import Comparison, checks
 from viscofric.verification.engine import solve_periodic, solve_steady
+
+check = checks("waves and layers")
 
 _WAVELENGTH, _AMPLITUDE = 1e-3, 1e-6  # m: slopes of 0.006
 _RUBBER = model.one_time(10.0, 1.0)
@@ -35,6 +37,13 @@ def _wave(points: int) -> Array:
     return np.asarray(np.cos(2.0 * np.pi * (np.arange(points) / points - 0.5)))
 
 
+@check(
+    "full-contact-wave",
+    "Wave in full contact, six speeds, two spectra",
+    "the closed form μ p̄ = (qΔ)² E''(qv)/(4(1−ν²)), exact",
+    "Linear and exact on any grid: the solver's tolerance. The highest point of the pressure may lie half a cell "
+    "from a point of the grid.",
+)
 def _full_contact() -> Iterator[Comparison]:
     points = 32
     surface = PeriodicSurface(_AMPLITUDE * _wave(points), _WAVELENGTH / points)
@@ -52,6 +61,12 @@ def _full_contact() -> Iterator[Comparison]:
             yield Comparison(case, "largest pressure (Pa)", found.max_pressure, largest, bound)
 
 
+@check(
+    "westergaard",
+    "Parallel waves at rest, partial contact",
+    "H. M. Westergaard, J. Appl. Mech. 6 (1939) A49",
+    "The area is counted in cells, two of 2048.",
+)
 def _westergaard() -> Iterator[Comparison]:
     points = 2048
     surface = PeriodicSurface(_AMPLITUDE * _wave(points), _WAVELENGTH / points)
@@ -65,6 +80,12 @@ def _westergaard() -> Iterator[Comparison]:
         yield Comparison(case, "largest pressure (Pa)", found.max_pressure, known.max_pressure, 1e-3)
 
 
+@check(
+    "johnson-waves",
+    "Crossed waves at rest: full, nearly full and light contact",
+    "K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383",
+    "Full contact is linear: round-off. The two asymptotes neglect their next terms; areas are counted in cells.",
+)
 def _crossed() -> Iterator[Comparison]:
     points = 256
     wave = _wave(points)
@@ -82,6 +103,12 @@ def _crossed() -> Iterator[Comparison]:
     yield Comparison("lightly pressed", "area fraction", light.contact_area_fraction, area, 0.05)
 
 
+@check(
+    "thick-layer",
+    "Layer twice as thick as its waves are long, in motion",
+    "the half-space",
+    "The effect of the base is of the order (qH)² exp(−2qH), below 1e-8; the bound is the solver's tolerance.",
+)
 def _thick_layer() -> Iterator[Comparison]:
     points = 64
     wave = _wave(points)
@@ -108,6 +135,13 @@ def _parabola(periods: int = 1) -> PeriodicSurface:
     return PeriodicSurface(-0.5 * x**2, cell)
 
 
+@check(
+    "thin-layers",
+    "Cylinder on thin layers at rest: Winkler's foundation and the incompressible layer",
+    "K. L. Johnson, Contact Mechanics (1985), Sec. 5.8",
+    "The limits neglect terms of the order H/a, here 0.025, whose factor is small for pressures; widths are "
+    "counted in cells of 0.004 a.",
+)
 def _thin_layers() -> Iterator[Comparison]:
     for bonded in (True, False):
         modulus = foundation_modulus(1.0, _NU, "bonded" if bonded else "frictionless")
@@ -128,6 +162,12 @@ def _thin_layers() -> Iterator[Comparison]:
     yield Comparison(case, "indentation", found.indentation, squeezed.indentation, 5e-3)
 
 
+@check(
+    "rolling-on-layer",
+    "Cylinder rolling over a thin viscoelastic layer",
+    "W. D. May, E. L. Morris, D. Atack, J. Appl. Phys. 30 (1959) 1713",
+    "The limit of a thin layer: terms of the order H/a, and cells of 0.004 a.",
+)
 def _rolling_layer() -> Iterator[Comparison]:
     modulus = foundation_modulus(1.0, _NU)
     load = 2.0 * modulus * _HALF**3 / (3.0 * _THIN)
@@ -144,13 +184,18 @@ def _rolling_layer() -> Iterator[Comparison]:
         yield Comparison(case, "friction coefficient", friction, known.friction_coefficient, 2e-3)
 
 
-_GROUP = "waves and layers"
-
 # Radius, modulus and speed are one; the elastic contact reaches to ±_HALF.
 _RATIO = 10.0
 _DEEP = 100.0  # a0
 
 
+@check(
+    "single-layers",
+    "Single cylinder and ball on thin layers and on a thick one, at rest and in motion",
+    "D. G. Flom, A. M. Bueche, J. Appl. Phys. 30 (1959) 1725; W. D. May and others, the same, 1713; the half-space",
+    "Thin: the requested accuracy, and terms of the order (H/a)², with H/a = 0.025. Deep: the base bends the "
+    "surface of a contact by the order of (a/H)³.",
+)
 def _single_layers() -> Iterator[Comparison]:
     layer, modulus = Layer(_THIN), foundation_modulus(1.0, _NU)
     thin = f"a0/H = {_HALF / _THIN:g}"
@@ -173,66 +218,3 @@ def _single_layers() -> Iterator[Comparison]:
     half_space = model.solve_ball(model.one_time(_RATIO, 1.0)).friction_coefficient
     deep = model.solve_ball(model.one_time(_RATIO, 1.0), layer=Layer(_DEEP * model.HERTZ_RADIUS)).friction_coefficient
     yield Comparison(f"ball, H = {_DEEP:g} a0, vτ/a0 = 1", "friction coefficient", deep, half_space, 1e-4)
-
-
-CHECKS = (
-    Check(
-        "full-contact-wave",
-        "Wave in full contact, six speeds, two spectra",
-        _GROUP,
-        "the closed form μ p̄ = (qΔ)² E''(qv)/(4(1−ν²)), exact",
-        "Linear and exact on any grid: the solver's tolerance. The highest point of the pressure may lie half a cell "
-        "from a point of the grid.",
-        _full_contact,
-    ),
-    Check(
-        "westergaard",
-        "Parallel waves at rest, partial contact",
-        _GROUP,
-        "H. M. Westergaard, J. Appl. Mech. 6 (1939) A49",
-        "The area is counted in cells, two of 2048.",
-        _westergaard,
-    ),
-    Check(
-        "johnson-waves",
-        "Crossed waves at rest: full, nearly full and light contact",
-        _GROUP,
-        "K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383",
-        "Full contact is linear: round-off. The two asymptotes neglect their next terms; areas are counted in cells.",
-        _crossed,
-    ),
-    Check(
-        "thick-layer",
-        "Layer twice as thick as its waves are long, in motion",
-        _GROUP,
-        "the half-space",
-        "The effect of the base is of the order (qH)² exp(−2qH), below 1e-8; the bound is the solver's tolerance.",
-        _thick_layer,
-    ),
-    Check(
-        "thin-layers",
-        "Cylinder on thin layers at rest: Winkler's foundation and the incompressible layer",
-        _GROUP,
-        "K. L. Johnson, Contact Mechanics (1985), Sec. 5.8",
-        "The limits neglect terms of the order H/a, here 0.025, whose factor is small for pressures; widths are "
-        "counted in cells of 0.004 a.",
-        _thin_layers,
-    ),
-    Check(
-        "rolling-on-layer",
-        "Cylinder rolling over a thin viscoelastic layer",
-        _GROUP,
-        "W. D. May, E. L. Morris, D. Atack, J. Appl. Phys. 30 (1959) 1713",
-        "The limit of a thin layer: terms of the order H/a, and cells of 0.004 a.",
-        _rolling_layer,
-    ),
-    Check(
-        "single-layers",
-        "Single cylinder and ball on thin layers and on a thick one, at rest and in motion",
-        _GROUP,
-        "D. G. Flom, A. M. Bueche, J. Appl. Phys. 30 (1959) 1725; W. D. May and others, the same, 1713; the half-space",
-        "Thin: the requested accuracy, and terms of the order (H/a)², with H/a = 0.025. Deep: the base bends the "
-        "surface of a contact by the order of (a/H)³.",
-        _single_layers,
-    ),
-)

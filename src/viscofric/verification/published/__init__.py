@@ -3,10 +3,10 @@
 ``viscofric verify --published`` and the page "Published results" run them.
 """
 
-from viscofric.verification.check import Check
+from viscofric.verification.check import checks_in
 from viscofric.verification.published import cards, closed_forms, contacts, persson
 
 #: All checks, in the order of the page.
-PUBLISHED: tuple[Check, ...] = (*contacts.CHECKS, *closed_forms.CHECKS, *persson.CHECKS, *cards.CHECKS)
+PUBLISHED = checks_in(contacts, closed_forms, persson, cards)
 
 __all__ = ["PUBLISHED"]

@@ -12,7 +12,9 @@ from viscofric.rheology.cards.card import Writing
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import WLF
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum
-from viscofric.verification.check import Check, Comparison
+from viscofric.verification.check import Comparison, checks
+
+check = checks("material cards in other programs")
 
 _NU = 0.49
 
@@ -77,6 +79,16 @@ _FRONTISTR = (
 )
 
 
+@check(
+    "frontistr-card",
+    "Abaqus card with WLF: stress of one element at constant strain, three temperatures",
+    "FrontISTR 5.9 (finite elements, input close to Abaqus)",
+    "The five digits that FrontISTR prints.",
+    obtained="Run by hand with the card's E, g, τ and TRS: E0 3 MPa, E∞ 528 MPa, Maxwell terms of 400, 100, 20, 4 "
+    "and 1 MPa at 1e-6, 1e-4, 0.01, 1 and 100 s, ν 0.49, WLF 12, 60 K at 303 K; the strain of 1e-6 rises in the "
+    "first of 100 increments. FrontISTR relaxes the deviator only (the card's k is not used).",
+    unstated="The single terms, ν and the increments were not recorded with the numbers; these reproduce all six.",
+)
 def _frontistr() -> Iterator[Comparison]:
     for kelvin, seconds, stress in _FRONTISTR:
         found = held_element(seconds, kelvin)
@@ -94,6 +106,14 @@ _SIMCOON = (
 )
 
 
+@check(
+    "simcoon-relaxation",
+    "Abaqus card: relaxation of shear and bulk at constant strain over ten decades",
+    "simcoon 2.2.0 (generalised Maxwell law, point-level integration)",
+    "Backward differences of first order, 1000 increments a decade: 1.15e-3 of a decade each, below 4e-4.",
+    obtained="Computed for the same rubber, `Viscoelasticity` with the viscosities E τ/(2(1+ν)) and E τ/(3(1−2ν)); "
+    "with 100 increments a decade the differences are ten times larger (`tests/verification/test_finite_elements.py`).",
+)
 def _simcoon() -> Iterator[Comparison]:
     modulus, ratio, prony, _ = card_numbers()
     for seconds, shear, bulk in _SIMCOON:
@@ -102,32 +122,3 @@ def _simcoon() -> Iterator[Comparison]:
         case = f"{seconds:g} s"
         yield Comparison(case, "shear modulus (MPa)", float(found[0]), shear, 5e-4)
         yield Comparison(case, "bulk modulus (MPa)", float(found[1]), bulk, 5e-4)
-
-
-_GROUP = "material cards in other programs"
-
-CHECKS = (
-    Check(
-        "frontistr-card",
-        "Abaqus card with WLF: stress of one element at constant strain, three temperatures",
-        _GROUP,
-        "FrontISTR 5.9 (finite elements, input close to Abaqus)",
-        "The five digits that FrontISTR prints.",
-        _frontistr,
-        obtained="Run by hand with the card's E, g, τ and TRS: E0 3 MPa, E∞ 528 MPa, Maxwell terms of 400, 100, 20, 4 "
-        "and 1 MPa at 1e-6, 1e-4, 0.01, 1 and 100 s, ν 0.49, WLF 12, 60 K at 303 K; the strain of 1e-6 rises in the "
-        "first of 100 increments. FrontISTR relaxes the deviator only (the card's k is not used).",
-        unstated="The single terms, ν and the increments were not recorded with the numbers; these reproduce all six.",
-    ),
-    Check(
-        "simcoon-relaxation",
-        "Abaqus card: relaxation of shear and bulk at constant strain over ten decades",
-        _GROUP,
-        "simcoon 2.2.0 (generalised Maxwell law, point-level integration)",
-        "Backward differences of first order, 1000 increments a decade: 1.15e-3 of a decade each, below 4e-4.",
-        _simcoon,
-        obtained="Computed for the same rubber, `Viscoelasticity` with the viscosities E τ/(2(1+ν)) and "
-        "E τ/(3(1−2ν)); with 100 increments a decade the differences are ten times larger "
-        "(`tests/verification/test_finite_elements.py`).",
-    ),
-)

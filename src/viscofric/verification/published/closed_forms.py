@@ -16,9 +16,11 @@ from viscofric.motion import solve as motion
 from viscofric.motion.history import History
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
-from viscofric.verification.check import Check, Comparison
+from viscofric.verification.check import Comparison, checks
 from viscofric.verification.engine import solve_steady
 from viscofric.verification.model_problems import SLOPE, one_time, solve_ball
+
+check = checks("published closed forms")
 
 
 def belt(relaxation: RelaxationSpectrum, radius: float, thickness: float, front: float, speed: float) -> Array:
@@ -50,6 +52,15 @@ _COVERS = {
 _IDLER, _COVER, _FRONT = 0.05, 0.1e-3, 10e-3  # m
 
 
+@check(
+    "conveyor-belt",
+    "Idler on the thin cover of a conveyor belt: one and four relaxation times, 1 to 200 m/s",
+    "T. J. Rudolphi, A. V. Reicks, Rubber Chem. Technol. 79 (2006) 307 (generalised Maxwell); "
+    "W. D. May, E. L. Morris, D. Atack, J. Appl. Phys. 30 (1959) 1713, doi:10.1063/1.1735042 (three parameters)",
+    "The requested accuracy; strips hold for covers much thinner than the contact, here 70 to 200 times.",
+    obtained="The strips' closed form, evaluated with ν = 0, for which they are exact in the thin limit.",
+    unstated="Only the model was available, not the paper's example numbers; radius, cover and moduli are chosen.",
+)
 def _belts() -> Iterator[Comparison]:
     for name, relaxation in _COVERS.items():
         material = Material(relaxation.to_retardation(), poisson_ratio=0.0)
@@ -61,6 +72,13 @@ def _belts() -> Iterator[Comparison]:
             )
 
 
+@check(
+    "slow-ball",
+    "Ball at low speed, one retardation time: μR/v = τ (1 − E0/E∞)",
+    "the limit of low speed for any indenter that is a paraboloid; exact",
+    "The requested accuracy, and the law's next term, of the order (vτ/a0) ln(a0/vτ).",
+    obtained="Closed form.",
+)
 def _slow_ball() -> Iterator[Comparison]:
     for ratio in (2.0, 10.0):
         for memory in (1e-4, 1e-3):
@@ -102,6 +120,14 @@ def power_law_line(exponent: float, radius: float) -> tuple[float, float]:
 _LARGE = 100.0  # m: a/R = 0.01
 
 
+@check(
+    "power-law-cylinder",
+    "Cylinder sliding on a power-law solid, E ∝ (iω)ⁿ",
+    "R. A. Schapery, Tire Sci. Technol. 6 (1978) 3 (exact results for power-law solids)",
+    "Friction: the requested accuracy. Width: four tenths of a cell at each edge, 128 cells at least.",
+    obtained="Closed form, derived again here: a singular integral equation with a homogeneous kernel.",
+    unstated="Only the abstract of the paper was available.",
+)
 def _power_law() -> Iterator[Comparison]:
     for exponent in (0.05, 0.1, 0.2, 0.3, 0.4):
         load, friction = power_law_line(exponent, _LARGE)
@@ -118,6 +144,16 @@ def weak_loss_factor(loss_tangent: float) -> float:
     return found.friction_coefficient * _LARGE / (loss_tangent * math.sqrt(found.contact_area / math.pi))
 
 
+@check(
+    "greenwood-tabor",
+    "Ball on a solid with the same small loss tangent at all frequencies: μ = c tan δ a/R",
+    "J. A. Greenwood, D. Tabor, Proc. Phys. Soc. 71 (1958) 989, doi:10.1088/0370-1328/71/6/312",
+    "c = 6/π² is the limit of small tan δ, from Hertz's pressure; terms of the order n = 2 atan(tan δ)/π are left "
+    "out, and modes stand for the continuous spectrum.",
+    obtained="Closed form. Greenwood and Tabor's own estimate from the work on the leading half, μ = (3/16) α a/R, "
+    "gives c = 3π/16 = 0.589 with a loss α = π tan δ per cycle.",
+    unstated="Their measured α exceeds that of simple cycles; it is no input here.",
+)
 def _weak_loss() -> Iterator[Comparison]:
     law = 6.0 / math.pi**2
     for loss_tangent in (0.003, 0.03, 0.1, 0.32):
@@ -149,6 +185,15 @@ def unloading(
     return float(2.0 * weights @ (modulus * exponent * s ** (exponent - 0.5))) * math.sqrt(same), same
 
 
+@check(
+    "ting-unloading",
+    "Ball and cone that are drawn back: load and contact radius while the contact shrinks, and after it is lost",
+    "T. C. T. Ting, J. Appl. Mech. 33 (1966) 845",
+    "The requested accuracy, of the largest load and radius.",
+    obtained="Closed form of a growing and then shrinking contact, evaluated for a depth that rises and falls "
+    "steadily; the integral by Gauss's rule.",
+    unstated="Only the formulae were available, not the paper's example numbers; the material is chosen.",
+)
 def _unloading() -> Iterator[Comparison]:
     relaxation = RelaxationSpectrum(1e6, [4e6, 3e6], [0.03, 0.5])
     material = Material(relaxation.to_retardation(), poisson_ratio=0.5)
@@ -175,62 +220,3 @@ def _unloading() -> Iterator[Comparison]:
                 yield Comparison(case, "load over the one at the turn", computed, wanted, 1e-3, "absolute")
                 computed, wanted = float(contact) / widest, (max(same, 0.0) / rise) ** (exponent - 1.0)
                 yield Comparison(case, "radius over the one at the turn", computed, wanted, 1e-3, "absolute")
-
-
-_GROUP = "published closed forms"
-
-CHECKS = (
-    Check(
-        "conveyor-belt",
-        "Idler on the thin cover of a conveyor belt: one and four relaxation times, 1 to 200 m/s",
-        _GROUP,
-        "T. J. Rudolphi, A. V. Reicks, Rubber Chem. Technol. 79 (2006) 307 (generalised Maxwell); "
-        "W. D. May, E. L. Morris, D. Atack, J. Appl. Phys. 30 (1959) 1713, doi:10.1063/1.1735042 (three parameters)",
-        "The requested accuracy; strips hold for covers much thinner than the contact, here 70 to 200 times.",
-        _belts,
-        obtained="The strips' closed form, evaluated with ν = 0, for which they are exact in the thin limit.",
-        unstated="Only the model was available, not the paper's example numbers; radius, cover and moduli are chosen.",
-    ),
-    Check(
-        "slow-ball",
-        "Ball at low speed, one retardation time: μR/v = τ (1 − E0/E∞)",
-        _GROUP,
-        "the limit of low speed for any indenter that is a paraboloid; exact",
-        "The requested accuracy, and the law's next term, of the order (vτ/a0) ln(a0/vτ).",
-        _slow_ball,
-        obtained="Closed form.",
-    ),
-    Check(
-        "power-law-cylinder",
-        "Cylinder sliding on a power-law solid, E ∝ (iω)ⁿ",
-        _GROUP,
-        "R. A. Schapery, Tire Sci. Technol. 6 (1978) 3 (exact results for power-law solids)",
-        "Friction: the requested accuracy. Width: four tenths of a cell at each edge, 128 cells at least.",
-        _power_law,
-        obtained="Closed form, derived again here: a singular integral equation with a homogeneous kernel.",
-        unstated="Only the abstract of the paper was available.",
-    ),
-    Check(
-        "greenwood-tabor",
-        "Ball on a solid with the same small loss tangent at all frequencies: μ = c tan δ a/R",
-        _GROUP,
-        "J. A. Greenwood, D. Tabor, Proc. Phys. Soc. 71 (1958) 989, doi:10.1088/0370-1328/71/6/312",
-        "c = 6/π² is the limit of small tan δ, from Hertz's pressure; terms of the order n = 2 atan(tan δ)/π are left "
-        "out, and modes stand for the continuous spectrum.",
-        _weak_loss,
-        obtained="Closed form. Greenwood and Tabor's own estimate from the work on the leading half, μ = (3/16) α a/R, "
-        "gives c = 3π/16 = 0.589 with a loss α = π tan δ per cycle.",
-        unstated="Their measured α exceeds that of simple cycles; it is no input here.",
-    ),
-    Check(
-        "ting-unloading",
-        "Ball and cone that are drawn back: load and contact radius while the contact shrinks, and after it is lost",
-        _GROUP,
-        "T. C. T. Ting, J. Appl. Mech. 33 (1966) 845",
-        "The requested accuracy, of the largest load and radius.",
-        _unloading,
-        obtained="Closed form of a growing and then shrinking contact, evaluated for a depth that rises and falls "
-        "steadily; the integral by Gauss's rule.",
-        unstated="Only the formulae were available, not the paper's example numbers; the material is chosen.",
-    ),
-)

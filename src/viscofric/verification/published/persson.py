@@ -17,7 +17,9 @@ from viscofric.rheology.shifts.laws import Arrhenius
 from viscofric.roughness.persson import persson_theory
 from viscofric.roughness.spectrum import PowerSpectrum
 from viscofric.thermal import ThermalProperties
-from viscofric.verification.check import Check, Comparison
+from viscofric.verification.check import Comparison, checks
+
+check = checks("theory of rough contacts")
 
 _HURST, _FIRST, _LAST, _SLOPE = 0.8, 500.0, 1e6, 1.3  # q in rad/m; rms slope
 _PRESSURE, _NU, _GAMMA = 0.3e6, 0.5, 0.5
@@ -50,6 +52,17 @@ def integrals(material: Material, speed: float) -> tuple[float, float]:
     return float(area[-1]), float(friction[-1])
 
 
+@check(
+    "persson-theory",
+    "Persson's theory on a self-affine surface, γ = ½",
+    "B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626, with the factor S of "
+    "B. Lorenz et al., J. Chem. Phys. 142 (2015) 194701",
+    "The requested accuracy, 1e-5, and the error of the dense grids: 4001 wave numbers, 181 directions.",
+    obtained="The printed integrals on dense grids, written without viscofric's quadrature. The program "
+    "perssonmodelling (k100kan35-dotcom on GitHub) agreed within 4e-4 on the same surface; its numbers may not be "
+    "copied (no licence), and are not shipped.",
+    unstated="The rubber is chosen here.",
+)
 def _theory() -> Iterator[Comparison]:
     material = Material.standard_linear_solid(3e6, 300e6, 1e-5, _NU)
     surface = PowerSpectrum.self_affine(
@@ -98,6 +111,16 @@ def heated_wave(material: Material, speed: float) -> tuple[float, float]:
     return rise, lost(rise) / _FULL_CONTACT
 
 
+@check(
+    "persson-flash",
+    "Flash temperature in Persson's theory, waves of one length in full contact",
+    "B. N. J. Persson, J. Phys.: Condens. Matter 18 (2006) 7789, doi:10.1088/0953-8984/18/32/025",
+    "The width of the band: waves are spread over 1e-4 of their wave number. A rubber that does not warm rubs as "
+    "without heating, to rounding.",
+    obtained="With waves of one length the temperature is the root of one equation; the integral over the depth of "
+    "the heat is a scaled complementary error function. Written without viscofric's quadrature.",
+    unstated="Rubber and surface are chosen here.",
+)
 def _flash() -> Iterator[Comparison]:
     solid = Material.standard_linear_solid(3e6, 300e6, 1e-5, _NU)
     material = Material(solid.spectrum, Arrhenius(80e3, _KELVIN), _NU)
@@ -115,32 +138,3 @@ def _flash() -> Iterator[Comparison]:
     same = persson_theory(material, surface, speeds=1.0, **asked, thermal=sink)
     values = float(same.friction_coefficient[0, 0]), float(cold.friction_coefficient[0, 0])
     yield Comparison("a rubber that does not warm, 1 m/s", "friction coefficient", *values, 1e-9)
-
-
-CHECKS = (
-    Check(
-        "persson-theory",
-        "Persson's theory on a self-affine surface, γ = ½",
-        "theory of rough contacts",
-        "B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840, doi:10.1063/1.1388626, with the factor S of "
-        "B. Lorenz et al., J. Chem. Phys. 142 (2015) 194701",
-        "The requested accuracy, 1e-5, and the error of the dense grids: 4001 wave numbers, 181 directions.",
-        _theory,
-        obtained="The printed integrals on dense grids, written without viscofric's quadrature. The program "
-        "perssonmodelling (k100kan35-dotcom on GitHub) agreed within 4e-4 on the same surface; its numbers may not be "
-        "copied (no licence), and are not shipped.",
-        unstated="The rubber is chosen here.",
-    ),
-    Check(
-        "persson-flash",
-        "Flash temperature in Persson's theory, waves of one length in full contact",
-        "theory of rough contacts",
-        "B. N. J. Persson, J. Phys.: Condens. Matter 18 (2006) 7789, doi:10.1088/0953-8984/18/32/025",
-        "The width of the band: waves are spread over 1e-4 of their wave number. A rubber that does not warm rubs as "
-        "without heating, to rounding.",
-        _flash,
-        obtained="With waves of one length the temperature is the root of one equation; the integral over the depth of "
-        "the heat is a scaled complementary error function. Written without viscofric's quadrature.",
-        unstated="Rubber and surface are chosen here.",
-    ),
-)
