@@ -564,14 +564,14 @@ def test_a_new_shape_is_offered_by_run_files_commands_and_page() -> None:
     from viscofric.contact.indenters import shapes
     from viscofric.contact.indenters.indenter import Indenter
     from viscofric.study.run_file.contact import SHAPES
-    from viscofric.web.forms import contact
+    from viscofric.web import start
 
     kinds = {name for name, one in vars(shapes).items() if isinstance(one, type) and issubclass(one, Indenter)}
     assert {name for name in kinds if name[0] != "_"} - {"Indenter"} == set(KINDS.values())
     sliding = {name for name, kind in KINDS.items() if not getattr(shapes, kind).has_walls}
     assert {name: table.KIND.__name__ for name, table in SHAPES.items()} == {name: KINDS[name] for name in sliding}
-    assert sliding <= set(contact.SHAPES)
-    page = str(contact.SHAPE)
+    assert sliding <= set(start.SHAPES)
+    page = str(start.FORMS["shape"])
     assert all(f"'{name}'" in page for name in sliding)
     assert all(f"'indenter.{axis}'" in page for table in SHAPES.values() for axis in table.AXES)
     for table in SHAPES.values():  # similarity at all loads: both or none
@@ -585,14 +585,15 @@ def test_a_new_shift_law_is_offered_by_run_files_commands_and_page() -> None:
     from viscofric.cli.master import _LAWS
     from viscofric.rheology.shifts.law_fitting import LAWS, TITLES
     from viscofric.study.run_file.material import RAMP_LAWS, MaterialTable
-    from viscofric.web.forms import others
     from viscofric.web.jobs import master
+    from viscofric.web.start import FORMS
 
     laws = set(LAWS)
     assert set(TITLES) == laws
     assert set(RAMP_LAWS) < laws
     assert set(get_args(MaterialTable.model_fields["shift"].annotation)) == laws | {"measured", "best"}
-    assert {value for value, _ in others._LAWS} == laws | {"best"}
+    (form,) = (one for one in FORMS["shift"] if one["path"] == "material.shift")
+    assert {value for value, _ in form["options"]} == laws | {"measured", "best"}
     assert set(_LAWS) == set(get_args(master.Options.model_fields["law"].annotation)) == laws | {"best", "none"}
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from viscofric.web.forms import FORMS
+from viscofric.web.start import FORMS
 from web.browser_tab import tab as opened_tab
 from web.every_input import INPUTS, OTHERS, STATE, STEPS, STUDY, at_rest, example, wrong_figures
 from web.run_file_schema import keys

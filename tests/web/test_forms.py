@@ -7,9 +7,8 @@ from typing import Any
 
 import pytest
 
-from viscofric.web.forms import FORMS
-from viscofric.web.forms.contact import SHAPES
 from viscofric.web.jobs import export_card, export_study, identify, master, motion
+from viscofric.web.start import FORMS, SHAPES
 from viscofric.web.study_text import study_of
 from web.run_file_schema import found, keys
 

@@ -10,8 +10,8 @@ import pytest
 
 import viscofric as vf
 from refusals import refused
-from viscofric.web.forms import FORMS
 from viscofric.web.jobs.context import Context, JobError
+from viscofric.web.start import FORMS
 from web.friction_workspace import STUDY, done, workspace
 
 CONDITIONS = {**STUDY["conditions"], "temperature": ["40 degC", "60 degC"]}

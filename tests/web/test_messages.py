@@ -15,8 +15,8 @@ from viscofric.study.make_rubber import make_rubber
 from viscofric.study.run_file.errors import keys
 from viscofric.study.run_file.material import MaterialTable
 from viscofric.study.run_file.study import TABLES
-from viscofric.web.forms import FORMS
 from viscofric.web.jobs.context import beside_field
+from viscofric.web.start import FORMS
 from viscofric.web.study_text import DocumentError, study_of
 from viscofric.web.workspace import Workspace
 

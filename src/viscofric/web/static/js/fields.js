@@ -1,7 +1,7 @@
 // Fields of the study's document: each edits one path (state.js), and shows beside itself the errors whose `field` is that path,
 // of the check of the document and of the jobs.
 //
-// <${Form} of=${[field, …]} />   a grid of fields, which are data (web/forms.py):
+// <${Form} of=${[field, …]} />   a grid of fields, which are data (web/start.toml):
 //   path, label, help, id        the path may be that of a view, "@card.program" (state.js)
 //   as         "text" if it is not given; "number", "range" (one value, a list or a range), "choice", "switch", "ticks" (some of
 //              a list of words)
