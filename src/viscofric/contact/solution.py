@@ -4,18 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from viscofric.arrays import Array
 from viscofric.contact.derivatives.friction import FrictionDerivatives
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.heat.result import ContactHeating
 from viscofric.notes import Warned
 from viscofric.showing import Plotted, Rows, Shown
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Unit and long name of a number.
 Meaning: TypeAlias = tuple[str, str]
@@ -95,7 +91,7 @@ def number_rows(meaning: dict[str, Meaning], values: dict[str, Any]) -> dict[str
     }
 
 
-def labelled_numbers(meaning: dict[str, Meaning], values: dict[str, Any]) -> xarray.Dataset:
+def labelled_numbers(meaning: dict[str, Meaning], values: dict[str, Any]) -> Dataset:
     """Return numbers with units, long names and the names of their errors (``ancillary_variables``); None: absent."""
     found = dataset((), {name: (values[name], *words) for name, words in meaning.items() if values[name] is not None})
     for name, error in ERRORS.items():
@@ -348,11 +344,11 @@ class ContactSolution(Warned, Plotted):
         return number_rows(LINE_NUMBERS if self.geometry == "line" else NUMBERS, self.number_values)
 
     @property
-    def numbers(self) -> xarray.Dataset:
+    def numbers(self) -> Dataset:
         """All numbers and errors with units and long names; ``ancillary_variables`` names the error of each."""
         return labelled_numbers(LINE_NUMBERS if self.geometry == "line" else NUMBERS, self.number_values)
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return pressure and displacement over x and y, and all `numbers`; the main results also as attributes."""
         fields = dataset(
             ("x", "y"),

@@ -14,12 +14,10 @@ from viscofric.contact.derivatives.moving_cells import Motion, friction_gradient
 from viscofric.contact.free.estimates import Way
 from viscofric.contact.free.scale import Scale
 from viscofric.contact.free.stage import Stage
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.showing import Plotted, Rows
 
 if TYPE_CHECKING:
-    import xarray
-
     from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 
@@ -106,7 +104,7 @@ class FrictionDerivatives(Plotted):
             ("by ln τ", self.logarithmic.tau),
         )
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the derivatives along ``mode`` and as single numbers, those by logarithms as ``log_…``.
 
         That by the load is given by its logarithm only, since its unit is that of the contact (1/N or m/N).

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,13 +10,9 @@ from numpy.typing import ArrayLike
 from viscofric.arrays import Array
 from viscofric.contact.fields.stress import pressure_on, spacing
 from viscofric.contact.fields.subsurface import line_stress, stress_layer
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.units import in_si
-
-if TYPE_CHECKING:
-    import xarray
-
 
 # Depths at which the highest stress is first looked for, in radii of a circle of the contact's area.
 _DEPTHS = np.geomspace(0.02, 2.5, 22)
@@ -40,7 +35,7 @@ class HighestStress:
     y: float
     depth: float
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the stress and its place as single numbers."""
         return dataset(
             (),

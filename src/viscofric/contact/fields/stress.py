@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from viscofric.arrays import Array
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, brief
 from viscofric.units import in_si
-
-if TYPE_CHECKING:
-    import xarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +43,7 @@ class Stress:
         principal = self.principal
         return np.asarray(0.5 * (principal[..., -1] - principal[..., 0]))
 
-    def to_dataset(self, **coordinates: ArrayLike) -> xarray.Dataset:
+    def to_dataset(self, **coordinates: ArrayLike) -> Dataset:
         """Return the components and von Mises' stress over the coordinates of the points.
 
         One coordinate (m) for each axis of the components, in their order, such as ``x=contact.x, depth=depths``;

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,13 +16,9 @@ from viscofric.contact.influence.layer_potentials import THINNEST, LayerCell, La
 from viscofric.contact.influence.line import line_memory_influence, strip_potential
 from viscofric.contact.influence.mixtures import memory_influence
 from viscofric.contact.influence.potentials import CellPotential, HalfSpaceCell
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.units import checked_modes, checked_poisson_ratio, in_si, positive, to_si, velocity
-
-if TYPE_CHECKING:
-    import xarray
-
 
 #: Most cells of the window.
 LARGEST = 2**24
@@ -51,7 +46,7 @@ class SurfaceDisplacement:
     y: Array
     displacement: Array
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return the displacement over x and y."""
         return dataset(
             ("x", "y"),

@@ -14,19 +14,15 @@ d = κ K₀₀ (1/√s − 1); K₀₀ is the displacement of a block under its 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscofric.contact.arrays.backend import AnyArray, Cells
 from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.extension import Extension
 from viscofric.contact.periodic.operator import PeriodicOperator
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from viscofric.contact.arrays.backend import AnyArray, Cells
 
 _FILLED = 1.5  # κ, by which the fewest steps are left
 _LEAST_SHARE = 1e-3  # of a block's cells in contact

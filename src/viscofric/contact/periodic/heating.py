@@ -14,25 +14,22 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from viscofric.contact.fields.dissipation import Dissipation
+from viscofric.arrays import Array, ComplexArray
+from viscofric.contact.fields.dissipation import Dissipation, Modes
 from viscofric.contact.fields.periodic_dissipation import periodic_dissipation
 from viscofric.contact.heated import ThermalContact, insist_on_heatable, solve_heated
 from viscofric.contact.heated_result import Heat
 from viscofric.contact.heating import Cells
+from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.errors import InputError
-from viscofric.heat.heating import ThermalResistances
+from viscofric.heat.heating import Heating, NominalResistances, ThermalResistances
 from viscofric.heat.influence import Diffusion
-from viscofric.heat.layers import MovingHeat, Waves
+from viscofric.heat.layers import LayeredHeat, MovingHeat, Waves
 from viscofric.notes import Note
+from viscofric.units import Quantity
 
 if TYPE_CHECKING:
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.contact.fields.dissipation import Modes
-    from viscofric.contact.periodic.solution import PeriodicSolution
-    from viscofric.heat.heating import Heating, NominalResistances
-    from viscofric.heat.layers import LayeredHeat
     from viscofric.rheology.material import Material
-    from viscofric.units import Quantity
 
 
 #: Relative change of friction by the rise of temperature that may be left: points join and leave the spots.

@@ -6,27 +6,21 @@ Everything here is dimensionless: depths in rms heights of the surface, complian
 from __future__ import annotations
 
 import logging
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from viscofric.contact.periodic.one_grid import OneGrid
+from viscofric.arrays import Array
+from viscofric.contact.arrays.backend import AnyArray, Backend
+from viscofric.contact.complementarity import ComplementaritySolution
+from viscofric.contact.periodic.one_grid import OneGrid, Stage
 from viscofric.contact.periodic.surface import interpolated
 from viscofric.errors import ConvergenceError
 from viscofric.notes import Remedy
 from viscofric.threads import in_parts
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array
-    from viscofric.contact.arrays.backend import AnyArray, Backend
-    from viscofric.contact.complementarity import ComplementaritySolution
-    from viscofric.contact.periodic.one_grid import Stage
-
 
 logger = logging.getLogger(__name__)
 

@@ -8,25 +8,20 @@ Everything here is dimensionless: depths in rms heights of the surface, complian
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
+from viscofric.arrays import Array
+from viscofric.contact.arrays.backend import AnyArray, Backend
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity, solve_many_spots
 from viscofric.contact.extension import BLOCK, Extension, lag
 from viscofric.contact.periodic.blocks import BlockExtension
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.splitting import split_steps
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array
-    from viscofric.contact.arrays.backend import AnyArray, Backend
-
 
 _PATIENCE = 3  # looks at the contact set without a smaller residual before another method takes over
 _FEW_DIRECTIONS = (6, 12)  # changes that are kept, for elastic and viscoelastic solids; enough for most contacts

@@ -5,14 +5,11 @@ from __future__ import annotations
 import operator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from viscofric.contact.arrays.backend import Backend
-
-if TYPE_CHECKING:
-    from viscofric.contact.arrays.backend import AnyArray
+from viscofric.contact.arrays.backend import AnyArray, Backend
 
 
 @dataclass

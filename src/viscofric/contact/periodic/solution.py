@@ -4,19 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
+from viscofric.arrays import Array
 from viscofric.contact.solution import SHARED_NUMBERS, Meaning, labelled_numbers, number_rows
-from viscofric.datasets import dataset
+from viscofric.datasets import Dataset, dataset
+from viscofric.heat.result import ContactHeating
 from viscofric.notes import Warned
-from viscofric.showing import Plotted, Shown
-
-if TYPE_CHECKING:
-    import xarray
-
-    from viscofric.arrays import Array
-    from viscofric.heat.result import ContactHeating
-    from viscofric.showing import Rows
+from viscofric.showing import Plotted, Rows, Shown
 
 #: Numbers of a contact on a rough surface.
 NUMBERS: dict[str, Meaning] = SHARED_NUMBERS | {
@@ -192,7 +186,7 @@ class PeriodicSolution(Warned, Plotted):
         return number_rows(NUMBERS, self._number_values)
 
     @property
-    def numbers(self) -> xarray.Dataset:
+    def numbers(self) -> Dataset:
         """All numbers with units and long names; ``ancillary_variables`` names the error of the friction."""
         found = labelled_numbers(NUMBERS, self._number_values)
         return found if self.heating is None else found.assign(self.heating.to_dataset().data_vars)
@@ -210,7 +204,7 @@ class PeriodicSolution(Warned, Plotted):
             "cells": max(self.pressure.shape),
         }
 
-    def to_dataset(self) -> xarray.Dataset:
+    def to_dataset(self) -> Dataset:
         """Return pressure, displacement and gap over x and y, and all `numbers`; main results also as attributes."""
         fields = dataset(
             ("x", "y"),

@@ -6,13 +6,16 @@ import functools
 import logging
 import math
 import os
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import scipy.fft
+from numpy.typing import NDArray
 
 from viscofric.arguments import exactly_one, whole_number
+from viscofric.arrays import Array, ComplexArray
 from viscofric.contact.arrays.backend import Backend
 from viscofric.contact.bodies import (
     LITTLE_INERTIA,
@@ -24,28 +27,21 @@ from viscofric.contact.bodies import (
     shear_wave_speed,
     unit_direction,
 )
+from viscofric.contact.complementarity import ComplementaritySolution
 from viscofric.contact.indenters.indenter import too_steep
 from viscofric.contact.periodic.heating import PeriodicThermalContact, insist_on_heated_surface, solve_heated_surface
-from viscofric.contact.periodic.levels import coarser_shapes, solve_on_levels
+from viscofric.contact.periodic.levels import Work, coarser_shapes, solve_on_levels
 from viscofric.contact.periodic.one_grid import Stage
 from viscofric.contact.periodic.solution import PeriodicDiagnostics, PeriodicSolution
-from viscofric.contact.periodic.surface import PeriodicSurface, Topographic, flattening_pressure, wave_number
+from viscofric.contact.periodic.surface import Coarser, PeriodicSurface, Topographic, flattening_pressure, wave_number
 from viscofric.contact.periodic.transfer import SlidingSolid, dissipation, losses
 from viscofric.errors import InputError, wrong_argument
+from viscofric.heat.heating import Heating
+from viscofric.notes import Note
 from viscofric.threads import in_parts, one_blas_thread, so_many, threads_for
 from viscofric.units import Quantity, checked_poisson_ratio, number, positive, to_si, velocity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from numpy.typing import NDArray
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.contact.complementarity import ComplementaritySolution
-    from viscofric.contact.periodic.levels import Work
-    from viscofric.contact.periodic.surface import Coarser
-    from viscofric.heat.heating import Heating
-    from viscofric.notes import Note
     from viscofric.rheology.material import Material
 
 

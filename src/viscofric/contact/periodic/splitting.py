@@ -19,14 +19,11 @@ from __future__ import annotations
 
 import math
 from operator import imul
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from viscofric.contact.arrays.backend import AnyArray, Backend
-    from viscofric.contact.periodic.operator import PeriodicOperator
-
+from viscofric.contact.arrays.backend import AnyArray, Backend
+from viscofric.contact.periodic.operator import PeriodicOperator
 
 _MEMORY = 12  # earlier steps that the acceleration uses
 _GROWTH = 2.0  # of the best residual, at which the acceleration restarts from it

@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeVar, runtime_checkable
+from typing import NamedTuple, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 import scipy.fft
+from numpy.typing import ArrayLike
 
 from viscofric.arguments import LARGEST, SMALLEST
+from viscofric.arrays import Array, ComplexArray
 from viscofric.errors import InputError
-from viscofric.showing import Shown
+from viscofric.showing import Rows, Shown
 from viscofric.threads import in_parts, threads_for
 from viscofric.units import Quantity, in_si, two_lengths
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.showing import Rows
 
 Result = TypeVar("Result")
 

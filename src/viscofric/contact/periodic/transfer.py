@@ -7,16 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from viscofric.contact.bodies import half_space_coupling
+from viscofric.arrays import Array, ComplexArray
+from viscofric.contact.bodies import Layer, half_space_coupling
 from viscofric.contact.periodic.surface import hermitian_factor, wave_number, without_nyquist
 from viscofric.threads import in_parts
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from viscofric.arrays import Array, ComplexArray
-    from viscofric.contact.bodies import Layer
     from viscofric.rheology.spectra.quality import KnownFrequencies
 
 
