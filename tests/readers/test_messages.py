@@ -153,6 +153,14 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
         "does not state the spacing of its points; give spacing = '5 um', for instance.",
     ),
     (
+        lambda path: vf.read_topography(path, unit="um", spacing="1 um"),
+        ["0,1,2,3,4,5", "3,1,4,1,5,9", "2,6,5,3,5,8"],
+        (
+            "has a first row that rises evenly, as numbers or positions of its lines do; delete it, or leave the "
+            "corner empty if the first row and column are both positions."
+        ),
+    ),
+    (
         lambda path: vf.read_topography(path, unit="um"),
         ["x (um),z (um)", "1,2", "2,3"],
         "its headings state their units; leave unit = 'um' out.",

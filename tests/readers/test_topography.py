@@ -163,6 +163,25 @@ def test_a_line_scan_with_uneven_positions_is_interpolated_and_says_so(tmp_path)
     assert found.history[1].values == {"positions": 5, "even": 6}
 
 
+@pytest.mark.parametrize("which", ["row", "column", "both"])
+def test_numbers_of_lines_are_not_taken_for_heights(tmp_path, which):
+    heights = np.random.default_rng(1).normal(size=(7, 8))
+    if which != "column":
+        heights[0] = np.arange(8)
+    if which != "row":
+        heights[:, 0] = 0.5 * np.arange(7)
+    path = write(tmp_path, "\n".join(",".join(map(str, row)) for row in heights))
+    with pytest.raises(vf.DataFileError) as caught:
+        vf.read_topography(path, spacing="1 um", unit="um")
+    assert caught.value.code == "positions-in-matrix"
+
+
+def test_a_tilted_plane_is_no_matrix_of_positions(tmp_path):
+    plane = np.add.outer(np.arange(7.0), 2.0 * np.arange(8.0))
+    path = write(tmp_path, "\n".join(",".join(map(str, row)) for row in plane))
+    assert vf.read_topography(path, spacing="1 um", unit="um").heights == pytest.approx(1e-6 * plane)
+
+
 def test_missing_heights_are_reported_by_words_or_by_a_number(tmp_path):
     path = write(tmp_path, "1,2,NaN\n4,-9999,6\n7,8,\n")
     found = vf.read_topography(path, spacing="1 um", missing=-9999)

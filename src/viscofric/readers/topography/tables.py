@@ -65,6 +65,7 @@ def insist_on_need(path: str, options: ScanOptions, unit: str = "", spacing: str
 _SAME = 0.05
 #: Positions of a line scan are even up to this part of their distance; others are interpolated.
 _EVEN = 0.02
+_FEW = 6  # of fewer heights some rise evenly by chance
 #: A grid with fewer of its points than this is no grid.
 _LEAST_FILLED = 0.25
 
@@ -282,6 +283,8 @@ def _matrix(source: Source, table: Array, options: ScanOptions, remarks: dict[st
     unit = options.unit or stated_unit or remarks.get("corner", "m")
     factor, _ = conversion(unit, "m", "unit")
     table, notes, step = _without_positions(_read(table, options))
+    if step is None:
+        _insist_on_no_positions(source.path, table)
     distances = None if step is None else (factor * step[0], factor * step[1])
     heights = np.atleast_2d(table.T).T if min(np.shape(table)) > 1 or table.ndim == 1 else table.reshape(-1, 1)
     # Such remarks precede an image, whose lines follow one another along y.
@@ -310,6 +313,21 @@ def _without_positions(table: Array) -> tuple[Array, list[Note], tuple[float, fl
         return table, [], None
     said = Note("positions-in-matrix", "first row and first column, evenly spaced, taken as positions")
     return table[1:, 1:], [said], (float(steps[0].mean()), float(steps[1].mean()))
+
+
+def _insist_on_no_positions(path: str, table: Array) -> None:
+    """Refuse a matrix whose first row or column, and no other, rises evenly: numbers or positions of its lines."""
+    for which, lines in (("row", table), ("column", table.T)):
+        if lines.ndim != 2 or len(lines) < 3 or lines.shape[1] < _FEW:
+            continue
+        steps = np.diff(lines[:, 1:], axis=1)
+        even = np.all(steps > 0.0, axis=1) & (np.ptp(steps, axis=1) < _EVEN * steps.mean(axis=1))
+        if even[0] and not even[1:].any():
+            problem = (
+                f"has a first {which} that rises evenly, as numbers or positions of its lines do; delete it, or leave "
+                "the corner empty if the first row and column are both positions."
+            )
+            raise DataFileError(path, problem, code="positions-in-matrix")
 
 
 def _is_length(unit: str) -> bool:
