@@ -273,7 +273,7 @@ def test_processes_without_work_are_ended_after_a_while(
     monkeypatch.setattr(module, "_LONGEST_REST", 0.5)
 
     async def work(bench: Bench) -> None:
-        used = await asyncio.gather(*(bench.last("rest", 1.5, key=key) for key in "abcd"))
+        used = await asyncio.gather(*(bench.last("rest", 4.0, key=key) for key in "abcd"))
         processes = {one["result"]["process"] for one in used}
         assert len(processes) == 4
         long = asyncio.create_task(bench.last("rest", 2.5, key="a"))  # one that has work stays
