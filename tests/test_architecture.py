@@ -594,8 +594,9 @@ def test_a_new_shift_law_is_offered_by_run_files_commands_and_page() -> None:
     assert set(TITLES) == laws
     assert set(RAMP_LAWS) < laws
     assert set(get_args(MaterialTable.model_fields["shift"].annotation)) == laws | {"measured", "best"}
-    (form,) = (one for one in FORMS["shift"] if one["path"] == "material.shift")
-    assert {value for value, _ in form["options"]} == laws | {"measured", "best"}
+    for name, path, others in (("shift", "material.shift", "measured"), ("master", "@friction.law", "none")):
+        (form,) = (one for one in FORMS[name] if one["path"] == path)
+        assert {value for value, _ in form["options"]} == laws | {"best", others}
     assert set(_LAWS) == set(get_args(master.Options.model_fields["law"].annotation)) == laws | {"best", "none"}
 
 

@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Iterable, Iterator
 from functools import cache
+from itertools import chain
 from pathlib import Path
 
 import pytest
@@ -58,12 +59,13 @@ def fragments(text: str) -> Iterator[tuple[str, ...]]:
 def sentences() -> tuple[frozenset[tuple[str, ...]], frozenset[str]]:
     """Return the fragments of all sentences in the source, and all texts in it that are no sentences."""
     found, labels = set(), set()
-    for path in SOURCE.rglob("*.py"):
-        for text in texts(ast.walk(ast.parse(path.read_text("utf-8")))).values():
-            if len(re.findall(r"[A-Za-z]+", text)) < SENTENCE:
-                labels.add(text.strip())
-            else:
-                found.update(fragments(text))
+    modules = (texts(ast.walk(ast.parse(path.read_text("utf-8")))).values() for path in SOURCE.rglob("*.py"))
+    page = re.findall(r'"([^"]*)"', (SOURCE / "web" / "start.toml").read_text("utf-8"))
+    for text in chain(*modules, page):
+        if len(re.findall(r"[A-Za-z]+", text)) < SENTENCE:
+            labels.add(text.strip())
+        else:
+            found.update(fragments(text))
     return frozenset(found), frozenset(labels)
 
 

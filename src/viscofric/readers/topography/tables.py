@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import Array, Integers
+from viscofric.arrays import Array, Integers, Mask
 from viscofric.errors import DataFileError, InputError
 from viscofric.files import saved_array
 from viscofric.notes import Note, Remedy, setting
@@ -308,11 +308,11 @@ def _without_positions(table: Array) -> tuple[Array, list[Note], tuple[float, fl
     """Return a matrix without a first row and column of even positions about an empty corner, and their distances."""
     if table.ndim != 2 or min(table.shape) < 3 or not math.isnan(table[0, 0]):
         return table, [], None
-    steps = [np.diff(positions) for positions in (table[1:, 0], table[0, 1:])]
-    if not all(np.all(step > 0.0) and np.ptp(step) < _EVEN * step.mean() for step in steps):
+    both = table[1:, 0], table[0, 1:]
+    if not all(map(_rising_evenly, both)):
         return table, [], None
     said = Note("positions-in-matrix", "first row and first column, evenly spaced, taken as positions")
-    return table[1:, 1:], [said], (float(steps[0].mean()), float(steps[1].mean()))
+    return table[1:, 1:], [said], (float(np.diff(both[0]).mean()), float(np.diff(both[1]).mean()))
 
 
 def _insist_on_no_positions(path: str, table: Array) -> None:
@@ -320,14 +320,19 @@ def _insist_on_no_positions(path: str, table: Array) -> None:
     for which, lines in (("row", table), ("column", table.T)):
         if lines.ndim != 2 or len(lines) < 3 or lines.shape[1] < _FEW:
             continue
-        steps = np.diff(lines[:, 1:], axis=1)
-        even = np.all(steps > 0.0, axis=1) & (np.ptp(steps, axis=1) < _EVEN * steps.mean(axis=1))
-        if even[0] and not even[1:].any():
+        first, *others = _rising_evenly(lines[:, 1:])
+        if first and not any(others):
             problem = (
                 f"has a first {which} that rises evenly, as numbers or positions of its lines do; delete it, or leave "
                 "the corner empty if the first row and column are both positions."
             )
             raise DataFileError(path, problem, code="positions-in-matrix")
+
+
+def _rising_evenly(lines: Array) -> Mask:
+    """Return whether the numbers of each line (last axis) rise in even steps."""
+    steps = np.diff(lines)
+    return np.asarray(np.all(steps > 0.0, axis=-1) & (np.ptp(steps, axis=-1) < _EVEN * steps.mean(axis=-1)))
 
 
 def _is_length(unit: str) -> bool:

@@ -26,7 +26,8 @@ class Shown(NamedTuple):
 
 def shown_contacts(tree: DataTree) -> list[Shown]:
     """Return the slowest contact, that of the most friction and the fastest, of those whose fields are kept."""
-    found = _kept(tree)
+    cases = solved_cases(tree)
+    found = _kept(tree, cases)
     if not found:
         return []
     speed, friction = (
@@ -35,7 +36,6 @@ def shown_contacts(tree: DataTree) -> list[Shown]:
     titles: dict[int, list[str]] = {int(np.argmin(speed)): ["slowest"]}
     if np.isfinite(friction).any():
         most = int(np.nanargmax(friction))
-        cases = solved_cases(tree)
         highest = cases is None or friction[most] >= np.nanmax(values(cases, "friction_coefficient"))
         titles.setdefault(most, []).append("most friction" if highest else "most friction of those shown")
     titles.setdefault(int(np.argmax(speed)), []).append("fastest")
@@ -49,12 +49,11 @@ def shown_contacts(tree: DataTree) -> list[Shown]:
     ]
 
 
-def _kept(tree: DataTree) -> list[tuple[Dataset, dict[str, Any]]]:
+def _kept(tree: DataTree, cases: Dataset | None) -> list[tuple[Dataset, dict[str, Any]]]:
     """Return the fields that the results keep, each with the conditions of its case and its friction."""
     if FIELDS not in tree.children:
         return []
     kept = []
-    cases = solved_cases(tree)
     for child in tree.children[FIELDS].children.values():
         fields = child.to_dataset()
         if "y" not in fields.dims:  # a line contact
