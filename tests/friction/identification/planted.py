@@ -10,7 +10,7 @@ import viscofric as vf
 from friction.synthetic_curves import curves_of
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.forward import FirstOrder
-from viscofric.friction.identification.solving import friction_response
+from viscofric.friction.identification.solving import Contacts
 
 BALL = vf.Ball(radius=10e-3)
 LOAD = 5.0
@@ -31,8 +31,9 @@ def planted_curves(*kelvin: float, accuracy: float = 1e-3) -> FrictionCurves:
     temperature = np.repeat(kelvin, len(SPEEDS))
     reduced = np.tile(SPEEDS, len(kelvin)) * RUBBER.shift(temperature)
     spectrum = RUBBER.modes_at()
-    response = friction_response(spectrum, 0.5, BALL, reduced, LOAD, accuracy=accuracy)
-    return curves_of(np.tile(SPEEDS, len(kelvin)), temperature, response.friction, 1e-6, load=LOAD)
+    compliances = np.log([1.0 / spectrum.E_inf, *spectrum.C])
+    solved = Contacts(BALL, 0.5, LOAD, 1).at(compliances, spectrum, np.log(reduced), 1, accuracy)
+    return curves_of(np.tile(SPEEDS, len(kelvin)), temperature, np.exp(solved.log_friction), 1e-6, load=LOAD)
 
 
 def closed_form_curves(*kelvin: float, rubber: vf.Material = RUBBER) -> FrictionCurves:

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Unpack
 
 import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
-from viscofric.contact.settings import ContactOptions
 from viscofric.contact.steady import friction_and_derivatives
 from viscofric.errors import ConvergenceError
 from viscofric.friction.identification.anchors import ContactAnchor, SolvedContact
@@ -28,77 +26,15 @@ BEYOND = 0.15
 FEWEST_NODES = 5
 
 
-@dataclass(frozen=True, eq=False)
-class FrictionResponse:
-    """Friction coefficients of one material in n contacts, and their derivatives with respect to its m modes."""
-
-    friction: Array  # (n,), viscoelastic friction coefficient
-    error: Array  # (n,), its error estimate
-    C: Array  # (n, m), ∂μ/∂C_k at fixed E_inf, so that E0 falls as C_k grows, Pa; finite where C_k is zero
-    log_C: Array  # noqa: N815 - (n, m), C_k ∂μ/∂C_k likewise; the symbols of the equations
-    log_E_inf: Array  # noqa: N815 - (n,), E_inf ∂μ/∂E_inf at fixed C
-    log_speed: Array  # (n,), v ∂μ/∂v
-    log_load: Array  # (n,), F ∂μ/∂F
-
-
-def friction_response(
-    spectrum: RetardationSpectrum,
-    poisson_ratio: float,
-    indenter: Indenter,
-    speeds: Array,
-    load: Array | float,
-    *,
-    accuracy: float = 1e-3,
-    workers: int | Workers = 1,
-    progress: Callable[[int, int], object] | None = None,
-    **settings: Unpack[ContactOptions],
-) -> FrictionResponse:
-    """Solve a contact at each speed (n,), m/s, with derivatives of friction by every mode, E_inf, speed and load."""
-    # The spectrum is that at the temperature to which the speeds are reduced; the load, N or N/m, is one or (n,).
-    # `progress(done, total)` is called after every contact. ConvergenceError names the speed and load that failed.
-    material = Material(spectrum, poisson_ratio=poisson_ratio)
-    calls = [
-        {
-            "material": material,
-            "indenter": indenter,
-            "speed": float(velocity),
-            "load": float(force),
-            "accuracy": accuracy,
-            "settings": settings,
-        }
-        for velocity, force in np.broadcast(speeds, load)
-    ]
-
-    def report(done: int) -> None:
-        if progress is not None:
-            progress(done, len(calls))
-
-    rows = np.array(call_all(respond, calls, workers=workers, progress=report))
-    C = rows[:, 5:]
-    return FrictionResponse(
-        friction=rows[:, 0],
-        error=rows[:, 1],
-        C=C,
-        log_C=C * spectrum.C,
-        log_E_inf=rows[:, 2],
-        log_speed=rows[:, 3],
-        log_load=rows[:, 4],
-    )
-
-
-def respond(
-    material: Material, indenter: Indenter, speed: float, load: float, accuracy: float, settings: ContactOptions
-) -> Array:
-    """Solve one contact: friction coefficient, its error, its derivatives by ln E_inf, ln v, ln F and each C_k."""
+def respond(material: Material, indenter: Indenter, speed: float, load: float, accuracy: float) -> Array:
+    """Solve one contact: friction coefficient, its error, its derivatives by ln F, ln(1/E_inf) and each ln C."""
     try:
-        friction, error, found = friction_and_derivatives(
-            material, indenter, speed=speed, load=load, accuracy=accuracy, **settings
-        )
+        friction, error, found = friction_and_derivatives(material, indenter, speed=speed, load=load, accuracy=accuracy)
     except ConvergenceError as failure:
         unit = indenter.geometry.load_unit
         raise failure.at(f"speed {speed:g} m/s under {load:g} {unit}") from failure
     logarithmic = found.logarithmic
-    return np.array([friction, error, logarithmic.E_inf, logarithmic.speed, logarithmic.load, *found.C])
+    return np.array([friction, error, logarithmic.load, -logarithmic.E_inf, *(found.C * material.modes_at().C)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,31 +57,7 @@ class Contacts:
         reduced = points.log_speed + log_alpha[points.number]
         low, high = reduced.min() - BEYOND * LN10, reduced.max() + BEYOND * LN10
         count = max(FEWEST_NODES, int(np.ceil(NODES_PER_DECADE * (high - low) / LN10)) + 1)
-        nodes = np.linspace(low, high, count)
-        response = friction_response(
-            spectrum,
-            self.poisson_ratio,
-            self.indenter,
-            np.exp(nodes),
-            self.load,
-            accuracy=accuracy,
-            workers=self.workers,
-            progress=lambda done, total: None if self.progress is None else self.progress(step, done, total),
-        )
-        friction = response.friction
-        if not np.all(friction > 0.0):
-            raise ConvergenceError(
-                "the friction of a contact came out negative; solve more accurately.", code="negative-friction"
-            )
-        by_glass = np.column_stack([-response.log_E_inf, response.log_C])
-        solved = Solved(
-            compliances,
-            nodes,
-            np.log(friction),
-            response.error / friction,
-            by_glass / friction[:, None],
-            response.log_load / friction,
-        )
+        solved = self.at(compliances, spectrum, np.linspace(low, high, count), step, accuracy)
         sizes = tuple(
             SolvedContact.of(
                 anchor,
@@ -159,6 +71,28 @@ class Contacts:
             for anchor in self.anchors
         )
         return replace(problem, friction=CorrectedFriction(problem.friction.first, solved), contacts=sizes)
+
+    def at(
+        self, compliances: Array, spectrum: RetardationSpectrum, log_speed: Array, step: int, accuracy: float
+    ) -> Solved:
+        """Return the contacts at each ln v (k,), m/s, of a material whose `compliances` are those of `spectrum`."""
+        material = Material(spectrum, poisson_ratio=self.poisson_ratio)
+        common = {"material": material, "indenter": self.indenter, "load": float(self.load), "accuracy": accuracy}
+        calls = [common | {"speed": speed} for speed in np.exp(log_speed).tolist()]
+
+        def report(done: int) -> None:
+            if self.progress is not None:
+                self.progress(step, done, len(calls))
+
+        rows = np.array(call_all(respond, calls, workers=self.workers, progress=report))
+        friction = rows[:, :1]
+        if not np.all(friction > 0.0):
+            raise ConvergenceError(
+                "the friction of a contact came out negative; solve more accurately.", code="negative-friction"
+            )
+        relative = rows[:, 1:] / friction
+        error, load_slope = relative[:, 0], relative[:, 1]
+        return Solved(compliances, log_speed, np.log(friction[:, 0]), error, relative[:, 2:], load_slope)
 
 
 def spectrum_of(compliances: Array, tau: Array) -> RetardationSpectrum:
