@@ -102,6 +102,14 @@ def test_errors_name_the_file_and_the_line(tmp_path: Path, code: str, line: int 
     assert caught.value.row == line
 
 
+@pytest.mark.parametrize(
+    ("head", "time"), [("t (s),F (N),t (s),x (mm)", "#1"), ("t1 (s),F (N),t2 (s),x (mm)", "t1 (s)")]
+)
+def test_digitised_histories_with_times_of_their_own_are_refused(tmp_path: Path, head: str, time: str) -> None:
+    with refused("ambiguous-columns", DataFileError):
+        vf.motion.read_history(written(tmp_path, f"{head}\n0,1,0,0\n1,1,1.5,2\n"), columns={"time": time})
+
+
 def test_a_value_for_a_column_that_is_there_is_refused(tmp_path: Path) -> None:
     with refused("give-one", naming="load"):
         vf.motion.read_history(written(tmp_path, WIPER), load="3 N/m")

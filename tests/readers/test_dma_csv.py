@@ -993,6 +993,8 @@ def test_a_column_that_may_be_the_temperature_is_asked_for(tmp_path):
     ("head", "columns"),
     [
         (["f (Hz),E' (MPa),f (Hz),E'' (MPa)"], {}),
+        (["f1 (Hz),E' (MPa),f2 (Hz),E'' (MPa)"], {}),
+        (["f1 (Hz),E' (MPa),f2 (Hz),E'' (MPa)"], {"frequency": "f1 (Hz)"}),
         (["E',,E'',", "X,Y,X,Y"], {"frequency": "#1 (Hz)", "storage_modulus": "#2 (MPa)", "loss_modulus": "#4 (MPa)"}),
     ],
 )
@@ -1008,6 +1010,47 @@ def test_digitised_curves_of_both_moduli_may_have_their_own_frequencies(tmp_path
     # Power laws are straight lines between logarithms.
     assert one.storage_modulus == pytest.approx(2e6 * frequency**0.2, rel=1e-8)
     assert one.loss_modulus == pytest.approx(7e5 * frequency**0.3, rel=1e-8)
+
+
+def test_each_of_three_digitised_curves_may_have_its_own_frequencies(tmp_path):
+    f = np.logspace(-1.0, 2.0, 13)
+    columns = zip(f, 2.0 * f**0.2, 1.1 * f, (1.1 * f) ** 0.3, 1.2 * f, 0.5 * (1.2 * f) ** 0.1, strict=True)
+    lines = [
+        "f (Hz),E' (MPa),f (Hz),E'' (MPa),f (Hz),tan δ",
+        *(",".join(map(repr, map(float, row))) for row in columns),
+    ]
+    one = read_dma(write(tmp_path, *lines), temperature="20 degC").isotherms[0]
+    frequency = one.angular_frequency / (2.0 * math.pi)
+    assert frequency == pytest.approx(f[1:], rel=1e-8)
+    assert one.loss_modulus == pytest.approx(1e6 * frequency**0.3, rel=1e-8)  # tan δ agrees, or it would be refused
+
+
+@pytest.mark.parametrize(
+    ("header", "columns"),
+    [
+        ("f storage (Hz),E' (MPa),f loss (Hz),E'' (MPa)", {"frequency": "f storage (Hz)"}),
+        ("f (Hz),E' (MPa),f loss (Hz),E'' (MPa)", {}),
+        ("f (Hz),E' (MPa),ω (rad/s),E'' (MPa)", {"frequency": "f (Hz)"}),
+        ("f1 (Hz),f2 (Hz),E' (MPa),E'' (MPa)", {}),
+    ],
+)
+def test_frequencies_of_which_some_may_be_those_of_another_modulus_are_refused(tmp_path, header, columns):
+    with refused("ambiguous-columns"):
+        read_dma(
+            write(tmp_path, header, *(f"{f},5,{1.5 * f},0.5" for f in (1, 2, 4))),
+            temperature="20 degC",
+            columns=columns,
+        )
+    behind = "E' (MPa),f (Hz),E'' (MPa),f (Hz)"
+    with refused("ambiguous-columns"):
+        read_dma(write(tmp_path, behind, "5,1,0.5,2", "6,2,0.7,4"), temperature="20 degC", columns={"frequency": "#2"})
+
+
+@pytest.mark.parametrize(("given", "missing"), [(None, ["frequency", "temperature"]), ("20 degC", ["frequency"])])
+def test_a_missing_frequency_is_named_first_and_a_given_temperature_is_not(tmp_path, given, missing):
+    with pytest.raises(DataFileError) as caught:
+        read_dma(write(tmp_path, "x,E' (MPa),E'' (MPa)", "1,5,0.5", "2,6,0.7"), temperature=given)
+    assert (caught.value.code, caught.value.note.values["missing"]) == ("missing-columns", missing)
 
 
 def test_points_of_a_digitised_curve_that_are_not_above_zero_are_counted(tmp_path):

@@ -174,6 +174,13 @@ class Column:
         match = _NUMBERED.fullmatch(self.name)
         return match["name"] if match else ""
 
+    def is_like(self, other: Column) -> bool:
+        """Return whether its heading is that of another column, but for a number at the ends of the names."""
+        if self.quantity not in ("", other.quantity):
+            return False
+        numbered = self.unnumbered == other.unnumbered != "" and self.unit in ("", other.unit)
+        return bool(self.heading) and (self.heading == other.heading or numbered)
+
     def with_unit(self, unit: str, *, logarithms: bool = False) -> Column:
         """Return the column with a unit, of logarithms where these are known and it is written so: ``log Hz``."""
         of = _logarithm(unit) if logarithms and not self.base else None

@@ -274,7 +274,20 @@ class Table:
     def place(self, what: str) -> int | None:
         """Return the place of the one column of a quantity, or None; several such columns are an error."""
         found = [place for place, column in enumerate(self.columns) if column.quantity == what]
-        return self._one_of(found, what)
+        place = self._one_of(found, what)
+        if place is not None and self.columns[place].given:
+            read = [n for n, column in enumerate(self.columns) if column.quantity]
+            for n in (n for n, column in enumerate(self.columns) if column.is_like(self.columns[place])):
+                within = any(place < one < n for one in read) and n < max(read)
+                if within and any(row[n].strip() != row[place].strip() for row in self.rows):
+                    raise self.of_others(n, place, what)
+        return place
+
+    def of_others(self, place: int, read: int, what: str) -> DataFileError:
+        """Return the error of a second column of a quantity, which those behind it may belong to: ``f, E', f, E''``."""
+        problem = f"column {self.columns[place].heading!r} may hold the {what} of some columns, other than "
+        right = f"{self.columns[read].heading!r}; give all in the same rows, or delete it if it is something else."
+        return self.refused("ambiguous-columns", problem + right)
 
     def has(self, what: str) -> bool:
         """Return whether a column holds a quantity."""

@@ -13,7 +13,7 @@ from viscofric.arrays import Array, Integers
 from viscofric.errors import DataFileError
 from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.dma import names
-from viscofric.readers.dma.checks import HELD_FREQUENCY, PRINTED, doubts, insist_on_agreement
+from viscofric.readers.dma.checks import HELD_FREQUENCY, PRINTED, WIDE, doubts, insist_on_agreement
 from viscofric.readers.dma.names import (
     COMPLIANCES,
     DMA,
@@ -27,6 +27,7 @@ from viscofric.readers.dma.names import (
 )
 from viscofric.readers.dma.readings import AS_MASTER_CURVE, Readings, of_one_file
 from viscofric.readers.header_rows import is_number
+from viscofric.readers.headings import Column
 from viscofric.readers.source import PRINTED_FREQUENCY, Source, Test, converted, fraction_of, to_rad_per_second
 from viscofric.readers.table import MISSING, Table, or_name_it
 from viscofric.readers.tables import find_tables, holds_table
@@ -59,8 +60,8 @@ def read(source: Source) -> Readings:
     return read_points(find_tables(source, names.DMA)[""], source, NAME, source.stem)
 
 
-def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
-    """Return the places of the columns by quantity."""
+def find_columns(table: Table, temperature: float | None = None, *, master_curve: bool = False) -> dict[str, int]:
+    """Return the places of the columns by quantity; a temperature of all rows may be given, K."""
     # Reduced frequencies have priority over measured ones in a master curve; `is_reduced` distinguishes the two.
     stated = MODULI if any(map(table.has, MODULI)) else COMPLIANCES
     wanted = ("temperature", *stated, "tan delta")
@@ -80,49 +81,96 @@ def find_columns(table: Table, *, master_curve: bool = False) -> dict[str, int]:
         missing += MODULI[:2]
     elif not places.keys() & {"tan delta", "phase angle"}:
         missing += [one for one in stated[:2] if one not in places]
-    if missing and "temperature" not in places and not master_curve:
-        missing.insert(0, "temperature")
+    if missing and "temperature" not in places and temperature is None and not master_curve:
+        missing.append("temperature")
     if missing:
         raise table.lacking(missing)
     return places
 
 
 def with_one_abscissa(table: Table, test: Test, notes: list[str]) -> Table:
-    """Return the table with the second of two digitised curves at the abscissas of the first: ``f, E', f, E''``."""
+    """Return the table with digitised curves at the abscissas of the first: ``f, E', f, E''`` or ``f1, E', f2, …``."""
+    named = [one.quantity or DMA.quantity(one.unnumbered) for one in table.columns]
+    swept = [n for n, what in enumerate(named) if _SWEPT[test] in what]
     columns, of = table.columns, (*MODULI, *COMPLIANCES, "tan delta", "phase angle")
-    first = next((place for place, one in enumerate(columns) if _SWEPT[test] in one.quantity), len(columns))
-    curves = [place for place, one in enumerate(columns) if one.quantity in of and place > first]
-    own = [
-        n for n, one in enumerate(columns) if curves[:1] < [n] < curves[-1:] and one.heading == columns[first].heading
-    ]
-    if len(curves) != 2 or len(own) != 1:
+    curves = [n for n, one in enumerate(columns) if one.quantity in of]
+    if not swept or len({named[n] for n in curves}) < len(curves):  # of several sweeps
         return table
-    kept = tuple(replace(one, quantity="") if n == own[0] else one for n, one in enumerate(columns))
-    table, names, last = replace(table, columns=kept), [repr(columns[place].heading) for place in curves], curves[1]
-    x, at, y = (table.numbers_or_missing(place) for place in (own[0], first, last))
-    if np.array_equal(x, at, equal_nan=True):
-        return table
-    given = np.count_nonzero(np.isfinite(x) & np.isfinite(y))
-    with np.errstate(all="ignore"):
-        x, at, y = (one if test == "temperature" and one is not y else np.log(one) for one in (x, at, y))
-    known = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
-    others = [n for n, one in enumerate(kept) if n != first and any(what in one.quantity for what in _SWEPT.values())]
-    steps, varied = np.diff(x[known]), any(len({row[n] for row in table.rows}) > 1 for n in others)
-    if varied or known.size < 2 or len({*np.sign(steps)}) > 1:
-        problem = f"{columns[first].heading!r} is not the same for {' and '.join(names)}; give both in the same rows."
-        raise table.refused("ambiguous-columns", problem)
-    order = known if steps[0] > 0.0 else known[::-1]
-    within = np.flatnonzero((at >= x[order[0]]) & (at <= x[order[-1]]))
-    found = np.exp(np.interp(at[within], x[order], y[order])).tolist()
+    first = next((n for n in swept if columns[n].quantity), swept[0])
+    columns = tuple(replace(one, quantity=named[n]) if n == first else one for n, one in enumerate(columns))
+    table, leads = replace(table, columns=columns), bool(curves) and first < curves[0]
+    own: dict[int, int] = {}  # of each curve
+    for n in range(len(columns)):
+        like, between = columns[n].is_like(columns[first]), leads and curves[0] < n < curves[-1] and n not in curves
+        if n == first:
+            continue
+        if like and between:
+            own |= {curve: n for curve in curves if curve > n}
+        elif (between or (like and not (leads and columns[first].given))) and _differs(
+            table, n, first, test, like=like
+        ):
+            raise table.of_others(n, first, _SWEPT[test])
+    kept = tuple(Column("", "", "") if n in own.values() else one for n, one in enumerate(columns))
+    others = {curve: n for curve, n in own.items() if _differs(table, n, first, test, like=True)}
+    table = replace(table, columns=kept)
+    return _interpolated(table, first, curves[0], others, test, notes) if others else table
+
+
+def _differs(table: Table, place: int, first: int, test: Test, *, like: bool) -> bool:
+    """Return whether a column holds other abscissas than the first one, by its heading or its unit."""
+    if like:
+        return not np.array_equal(table.numbers_or_missing(place), table.numbers_or_missing(first), equal_nan=True)
+    one, other = (table.columns[n] for n in (place, first))
+    units = [_in_si(column, test) for column in (one, other)]
+    if (one.quantity and not other.given) or "reduced" in DMA.column(one.heading).quantity or None in units:
+        return False
+    pairs = zip((place, first), filter(None, units), strict=True)
+    x, at = (factor * table.numbers_or_missing(n) + zero for n, (factor, zero) in pairs)
+    return bool(np.any(np.abs(x - at) > (WIDE if test == "temperature" else PRINTED_FREQUENCY * np.abs(at))))
+
+
+def _in_si(column: Column, test: Test) -> tuple[float, float] | None:
+    """Return the factor and the offset of abscissas to rad/s or K, None for the unit of anything else."""
+    if test == "frequency":
+        factor = to_rad_per_second(column.unit, angular="angular" in DMA.column(column.heading).quantity)
+        return None if factor is None else (factor, 0.0)
+    zero, one = (converted(number, column.unit, "K") for number in "01")
+    return None if test == "amplitude" or zero is None or one is None else (one - zero, zero)
+
+
+def _interpolated(table: Table, first: int, before: int, others: dict[int, int], test: Test, notes: list[str]) -> Table:
+    """Return the table with curves, each with the place of its own abscissas, at those of the first."""
+    columns, headings = table.columns, [repr(table.columns[place].heading) for place in (before, *others)]
+    apart = [n for n, one in enumerate(columns) if n != first and any(what in one.quantity for what in _SWEPT.values())]
+    varied = any(len({row[n] for row in table.rows}) > 1 for n in apart)
+    at, missing, found = table.numbers_or_missing(first), 0, {}
+    for curve, place in others.items():
+        x, y = (table.numbers_or_missing(n) for n in (place, curve))
+        printed = np.count_nonzero(np.isfinite(x) & np.isfinite(y))
+        with np.errstate(all="ignore"):
+            x, to, y = (one if test == "temperature" and one is not y else np.log(one) for one in (x, at, y))
+        known = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
+        steps = np.diff(x[known])
+        if varied or known.size < 2 or len({*np.sign(steps)}) > 1:
+            problem = f"{columns[first].heading!r} is not the same for {' and '.join(headings)}; give all in the same "
+            raise table.refused("ambiguous-columns", f"{problem}rows.")
+        order = known if steps[0] > 0.0 else known[::-1]
+        found[curve] = np.exp(np.interp(to, x[order], y[order], np.nan, np.nan))
+        missing += int(printed) - known.size
+    within = np.flatnonzero(np.isfinite([at, *found.values()]).all(axis=0))
     out = np.count_nonzero(np.isfinite(at)) - len(within)
-    said = f"{names[1]} was interpolated to the {_SWEPT[test]} of {names[0]}"
+    said = f"{' and '.join(headings[1:])} {'were' if len(others) > 1 else 'was'} interpolated to the "
+    said += f"{_SWEPT[test]} of {headings[0]}"
     said += f"; left out beyond: {out}" if out else ""
-    said += f"; its points that are not above zero were left out: {given - known.size}" if given > known.size else ""
-    notes.append(Note("curves-interpolated", f"{said}.", values={"not_positive": int(given - known.size)}))
-    rows = [(*(row := table.rows[n])[:last], repr(one), *row[last + 1 :]) for n, one in zip(within, found, strict=True)]
-    columns = tuple(replace(one, base=0.0) if n == last else one for n, one in enumerate(kept))
+    said += f"; its points that are not above zero were left out: {missing}" if missing else ""
+    notes.append(Note("curves-interpolated", f"{said}.", values={"not_positive": missing}))
+    rows = [
+        tuple(repr(float(found[n][row])) if n in found else cell for n, cell in enumerate(table.rows[row]))
+        for row in within
+    ]
+    plain = tuple(replace(one, base=0.0) if n in found else one for n, one in enumerate(columns))
     block = None if table.block is None else table.block[within]
-    return replace(table, rows=tuple(rows), columns=columns, lines=table.lines[within], block=block)
+    return replace(table, rows=tuple(rows), columns=plain, lines=table.lines[within], block=block)
 
 
 def _frequency_place(table: Table, *, master_curve: bool) -> int | None:
@@ -324,7 +372,7 @@ def read_points(
     # joined (`checks.usable`). `tools` as for `deformation`.
     notes: list[str] = []
     table = with_one_abscissa(table, source.test, notes)
-    places = find_columns(table)
+    places = find_columns(table, source.temperature)
     if is_reduced(table, places):
         problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
         raise DataFileError(table.path, problem, code="master-curve", remedy=AS_MASTER_CURVE)
@@ -387,11 +435,11 @@ def _temperature(
     known = known_temperatures(table, places.get("temperature"), source, notes)
     if known is not None:
         return known
-    other = next((one for one in table.columns if not one.quantity and converted("1", one.unit, "K") is not None), None)
-    if other is not None:
-        problem = f"no column is called temperature; if {other.heading!r} is not one, give "
+    others = [one.heading for one in table.columns if not one.quantity and converted("1", one.unit, "K") is not None]
+    if others:
+        problem = f"no column is called temperature; if {' or '.join(map(repr, others))} is not one, give "
         remedy = setting("material.temperature", "Temperature of the sweep", "'25 degC'") + "; if it is, rename it"
-        remedy += or_name_it(table.vocabulary.key, "temperature", other.heading)
+        remedy += or_name_it(table.vocabulary.key, "temperature", others[0])
         raise table.refused("missing-columns", problem, remedy, ["temperature"])
     found, named = temperature_in_name(name), "file's" if name == source.stem else "sheet's"
     swept = angular[angular > 0.0]
