@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -166,7 +166,7 @@ class IndenterCase(Case):
         """Yield the records of the cases of a closed interval; failures where they would be wider than the indenter."""
         here, ends = [places[number] for number in between.cases], between.ends
         modes, units = rubbers.modes(self, at_reference=True), self._units(rubbers)
-        sensitivities = Sensitivities.between(between.nodes, here, modes, units)
+        sensitivities = _sensitivities(between.nodes, here, modes, units)
         shared = between.shared
         for row, (number, place) in enumerate(zip(between.cases, here, strict=True)):
             case, numbers = cases[number], _with_units(between.found, row, place)
@@ -184,7 +184,7 @@ class IndenterCase(Case):
             )  # fmt: skip
             known = {"speed": case.speed, "temperature": case.temperature, "load": case.load}
             record = Record.of(**(known | numbers | shared), warnings=doubts)
-            yield number, record if sensitivities is None else sensitivities.complete(record, row)
+            yield number, _complete(record, sensitivities[row], modes, place) if sensitivities else record
 
 
 def node_of(record: Record, scale: Scale) -> Node:
@@ -226,70 +226,41 @@ def _extent(numbers: dict[str, float]) -> Extent:
     return Extent(numbers["rear"], numbers["front"], 0.0 if math.isinf(side) else side)
 
 
-@dataclass(frozen=True, eq=False)
-class Sensitivities:
-    """The derivatives of friction by the material's compliance of the cases in one interval.
+def _sensitivities(
+    nodes: Sequence[tuple[float, Record]], places: Sequence[Place], modes: RetardationSpectrum, units: Scale
+) -> list[ComplianceSensitivity]:
+    """Interpolate the derivatives of friction between nodes, (s, record), in their `units`; none if a node has none."""
+    # `modes` are those at the reference temperature, where all nodes are. Without units, g is a function of vτ over the
+    # length of the contact that varies smoothly along the curve. Numbers of a contact itself are left to `_complete`.
+    found = [record.sensitivity for _, record in nodes if record.sensitivity is not None]
+    if len(found) < len(nodes):
+        return []
+    at = np.array([s for s, _ in nodes])
+    shares = lagrange(at, np.array([place.s for place in places]))
+    log_tau = [log_times(modes, np.exp(-place.s)) for place in places]
+    # vτ over the length is the same in the case and in the node.
+    contact = np.concatenate([one + place.s for one, place in zip(log_tau, places, strict=True)])
+    table = np.array([one.at(contact - s) for one, s in zip(found, at, strict=True)])
+    slopes = np.split(table, np.cumsum([len(one) for one in log_tau])[:-1], axis=1)
+    glass, load = (shares @ np.array([getattr(one, name) for one in found]) for name in ("glass", "load"))
+    each = []
+    for row, place in enumerate(places):
+        own, lean = place.units, place.units.slope / units.slope
+        factor = own.slope * own.stiffness * place.b / (units.slope * units.stiffness)
+        slope, glassy = factor * (shares[row] @ slopes[row]), float(factor * glass[row])
+        times = log_tau[row] + place.log_alpha
+        each.append(ComplianceSensitivity(0.0, 0.0, times, slope, glassy, float(lean * load[row]), 0.0))
+    return each
 
-    Without units, g is a function of vτ over the length of the contact that varies smoothly along the curve.
-    """
 
-    modes: RetardationSpectrum  # at the reference temperature
-    places: Sequence[Place]  # of the cases
-    log_tau: tuple[Array, ...]  # ln τ (times,) of each case at its temperature, of s
-    slope: tuple[Array, ...]  # g (times,) of each case, Pa
-    glass: Array  # (cases,), see `ComplianceSensitivity`
-    load: Array  # (cases,)
-
-    @classmethod
-    def between(
-        cls, nodes: Sequence[tuple[float, Record]], places: Sequence[Place], modes: RetardationSpectrum, units: Scale
-    ) -> Self | None:
-        """Interpolate between nodes, (s, record), in their `units`; None if a node has no derivatives."""
-        known = [record.sensitivity for _, record in nodes]
-        found = [one for one in known if one is not None]
-        if len(found) < len(known):
-            return None
-        at = np.array([s for s, _ in nodes])
-        shares = lagrange(at, np.array([place.s for place in places]))
-        # At the reference temperature, where all nodes are.
-        log_tau = [log_times(modes, np.exp(-place.s)) for place in places]
-        # vτ over the length is the same in the case and in the node.
-        contact = np.concatenate([one + place.s for one, place in zip(log_tau, places, strict=True)])
-        table = np.array([one.at(contact - s) for one, s in zip(found, at, strict=True)])
-        ends = np.cumsum([len(one) for one in log_tau])[:-1]
-        unit, scales = units.slope * units.stiffness, [place.units for place in places]
-        per_case = np.array([own.slope * own.stiffness * place.b for own, place in zip(scales, places, strict=True)])
-        per_case /= unit
-        slopes = [
-            factor * (share @ part)
-            for factor, share, part in zip(per_case, shares, np.split(table, ends, axis=1), strict=True)
-        ]
-        lean = np.array([own.slope for own in scales]) / units.slope
-        return cls(
-            modes,
-            places,
-            tuple(one + place.log_alpha for one, place in zip(log_tau, places, strict=True)),
-            tuple(slopes),
-            per_case * (shares @ np.array([one.glass for one in found])),
-            lean * (shares @ np.array([one.load for one in found])),
-        )
-
-    def complete(self, record: Record, row: int) -> Record:
-        """Return the record of a case with its derivatives."""
-        modes, place = self.modes, self.places[row]
-        sensitivity = ComplianceSensitivity(
-            friction=record.friction_coefficient,
-            compliance_part=0.0,
-            log_tau=self.log_tau[row],
-            slope=self.slope[row],
-            glass=float(self.glass[row]),
-            load=float(self.load[row]),
-            frequency=record.frequency,
-        )
-        # From the sensitivity itself, so that the material's own modes change nothing.
-        own = _values_at(np.log(modes.tau) + place.log_alpha, sensitivity)
-        part = (float(own @ modes.C) + sensitivity.glass / modes.E_inf) / place.b
-        return replace(record, sensitivity=replace(sensitivity, compliance_part=part))
+def _complete(record: Record, part: ComplianceSensitivity, modes: RetardationSpectrum, place: Place) -> Record:
+    """Return the record of a case with its derivatives."""
+    # From the sensitivity itself, so that the material's own modes change nothing.
+    own = _values_at(np.log(modes.tau) + place.log_alpha, part)
+    compliance_part = (float(own @ modes.C) + part.glass / modes.E_inf) / place.b
+    friction, frequency = record.friction_coefficient, record.frequency
+    found = replace(part, friction=friction, compliance_part=compliance_part, frequency=frequency)
+    return replace(record, sensitivity=found)
 
 
 def _values_at(log_tau: Array, sensitivity: ComplianceSensitivity) -> Array:
