@@ -40,60 +40,55 @@ class Scatter:
         return self.factor * float(np.sum(self.deviations**2)) / self.freedom
 
 
-@dataclass(frozen=True, eq=False)
-class BetweenRuns:
-    """Standard errors and degrees of freedom (k, 4) of the four values of an `Entry`."""
+def between_runs(fits: list[Fit], weights: Array) -> tuple[Array, Array, list[Note]]:
+    """Return standard errors and degrees of freedom (k, 4) of the four values of an `Entry`, and notes on them.
 
-    error: Array  # infinite where it is not known
-    freedom: Array  # zero there
-    notes: list[Note]
-
-    @classmethod
-    def of(cls, fits: list[Fit], weights: Array) -> BetweenRuns:
-        """Estimate them; `weights` (4,) are those of force and corrections."""
-        scatters = [_scatters(fit, weights) for fit in fits]
-        variance = np.array([[one.variance for one in several] for several in scatters])
-        freedom = np.array([[one.freedom for one in several] for several in scatters], dtype=np.float64)
-        sizes = np.array([_size(fit, weights) for fit in fits])
-        alike: dict[tuple[object, ...], list[int]] = defaultdict(list)
-        for place, fit in enumerate(fits):
-            if sizes[place] > 0.0:
-                alike[fit.paired, fit.by_steps, fit.fits_offset, fit.slides, fit.coulomb is None].append(place)
-        common: dict[int, float] = {}
-        shared = False  # whether the speeds of a run share a part of their residuals
-        for places in alike.values():
-            isotherms = np.array([fits[place].group.temperature for place in places])
-            for number in (_VISCOELASTIC, _COULOMB, _CONSISTENCY):
-                some = [scatters[place][number] for place in places]
-                pool = Pool.of(some, sizes[places], isotherms)
-                shared |= number == _CONSISTENCY and pool.common > 0.0
-                for place, one in zip(places, some, strict=True):
-                    if number == _VISCOELASTIC and pool.common:
-                        level = sizes[place] * np.sqrt(one.factor * pool.common)
-                        common[place] = float(level / abs(fits[place].mean(weights)[number]))
-                    if one.freedom < _ENOUGH and one.freedom < pool.freedom:
-                        own = variance[place, number] if one.freedom else 0.0
-                        variance[place, number] = max(own, one.factor * pool.variance * sizes[place] ** 2)
-                        freedom[place, number] = pool.freedom
-        # Not for the consistency: it also varies from run to run, which readings within a run do not show.
-        lacking = (freedom <= 0.0) & (np.arange(4) != _CONSISTENCY)
-        found, autocorrelation = of_readings(fits, weights, lacking)
-        for at, (some_variance, some_freedom) in found.items():
-            variance[at], freedom[at] = some_variance, some_freedom
-        residual = _with_residual(fits, weights, variance, freedom, shared)
-        unrepeated = [place for place, number in found if number == _VISCOELASTIC]
-        # Exact forces, such as made ones, leave a residual of their rounding.
-        rounding = [ROUNDING * np.abs(fit.mean(weights) / [fit.group.load, 1.0, 1.0, 1.0]).sum() for fit in fits]
-        error = np.sqrt(variance[:, _VISCOELASTIC])
-        left_over = np.isfinite(error) & (error > rounding)
-        once = [place for place, fit in enumerate(fits) if _measured_once(fit) and left_over[place]]
-        once = [place for place in once if place not in unrepeated]
-        notes = [
-            *_on_residual(fits, residual),
-            *_on_few(fits, unrepeated, autocorrelation, once, freedom),
-            *_on_runs(fits, common),
-        ]
-        return cls(np.sqrt(variance), freedom, notes)
+    Errors are infinite where they are not known, their freedom is then zero; `weights` (4,) are those of force and
+    corrections.
+    """
+    scatters = [_scatters(fit, weights) for fit in fits]
+    variance = np.array([[one.variance for one in several] for several in scatters])
+    freedom = np.array([[one.freedom for one in several] for several in scatters], dtype=np.float64)
+    sizes = np.array([_size(fit, weights) for fit in fits])
+    alike: dict[tuple[object, ...], list[int]] = defaultdict(list)
+    for place, fit in enumerate(fits):
+        if sizes[place] > 0.0:
+            alike[fit.paired, fit.by_steps, fit.fits_offset, fit.slides, fit.coulomb is None].append(place)
+    common: dict[int, float] = {}
+    shared = False  # whether the speeds of a run share a part of their residuals
+    for places in alike.values():
+        isotherms = np.array([fits[place].group.temperature for place in places])
+        for number in (_VISCOELASTIC, _COULOMB, _CONSISTENCY):
+            some = [scatters[place][number] for place in places]
+            pool = Pool.of(some, sizes[places], isotherms)
+            shared |= number == _CONSISTENCY and pool.common > 0.0
+            for place, one in zip(places, some, strict=True):
+                if number == _VISCOELASTIC and pool.common:
+                    level = sizes[place] * np.sqrt(one.factor * pool.common)
+                    common[place] = float(level / abs(fits[place].mean(weights)[number]))
+                if one.freedom < _ENOUGH and one.freedom < pool.freedom:
+                    own = variance[place, number] if one.freedom else 0.0
+                    variance[place, number] = max(own, one.factor * pool.variance * sizes[place] ** 2)
+                    freedom[place, number] = pool.freedom
+    # Not for the consistency: it also varies from run to run, which readings within a run do not show.
+    lacking = (freedom <= 0.0) & (np.arange(4) != _CONSISTENCY)
+    found, autocorrelation = of_readings(fits, weights, lacking)
+    for at, (some_variance, some_freedom) in found.items():
+        variance[at], freedom[at] = some_variance, some_freedom
+    residual = _with_residual(fits, weights, variance, freedom, shared)
+    unrepeated = [place for place, number in found if number == _VISCOELASTIC]
+    # Exact forces, such as made ones, leave a residual of their rounding.
+    rounding = [ROUNDING * np.abs(fit.mean(weights) / [fit.group.load, 1.0, 1.0, 1.0]).sum() for fit in fits]
+    error = np.sqrt(variance[:, _VISCOELASTIC])
+    left_over = np.isfinite(error) & (error > rounding)
+    once = [place for place, fit in enumerate(fits) if _measured_once(fit) and left_over[place]]
+    once = [place for place in once if place not in unrepeated]
+    notes = [
+        *_on_residual(fits, residual),
+        *_on_few(fits, unrepeated, autocorrelation, once, freedom),
+        *_on_runs(fits, common),
+    ]
+    return np.sqrt(variance), freedom, notes
 
 
 def _where(fits: list[Fit], places: list[int]) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple
 
@@ -152,58 +151,49 @@ def _sentence(groups: list[Condition], found: dict[int, _Split], places: list[in
     )
 
 
-@dataclass(frozen=True, eq=False)
-class Grouping:
-    """The conditions that are separated, and notes on their grouping."""
-
-    groups: list[Condition]
-    notes: list[str]
-
-    @classmethod
-    def of(
-        cls, runs: TractionRuns, zeros: Zeros, assumed: Assumed, speed_tolerance: float, temperature_tolerance: float
-    ) -> Grouping:
-        """Group the readings by the speed of the disc, or by that of disc and ball where this puts more together.
-
-        Loads up to 15 % apart are those of one condition where nothing can be separated otherwise.
-        """
-        problem: InputError | None = None
-        groups: list[Condition] = []
-        poor: list[Condition] = []
-        notes: list[str] = []
-        # Slip separates the disc's speeds by as much as nominal speeds may differ only at some of them.
-        for load_tolerance, course in product((SAME_LOAD, _LOADS_TOGETHER), (of_the_disc, of_both)):
-            separated = len(groups) - len(poor)
-            if (groups and not poor) or (load_tolerance > SAME_LOAD and (separated or not groups)):
-                break
-            try:
-                others, said = conditions(runs, course(runs), speed_tolerance, temperature_tolerance, load_tolerance)
-            except InputError as error:
-                if not groups:
-                    problem = problem or error
-                continue
-            still_poor = [group for group in others if not assumed.suffices(group, zeros)]
-            if not groups or _readings(others) - _readings(still_poor) > _readings(groups) - _readings(poor):
-                groups, poor, notes = others, still_poor, [*said, *_of_loads(runs, others, load_tolerance)]
-        if problem and (not groups or len(poor) == len(groups)):
-            raise problem
-        if not groups:
-            raise InputError(
-                "traction runs contain no reading with the disc in motion: nothing to separate.", code="no-readings"
-            )
-        split = _two_groups(runs, groups, zeros)
-        mixed = {id(groups[place]) for place, two in split.items() if two.opposite}
-        if mixed and mixed.union(map(id, poor)) == set(map(id, groups)):
-            raise InputError(_unsigned(groups, split))
-        if len(poor) == len(groups):
-            raise InputError(_refused(poor, len(groups), zeros, assumed))
-        noted = [*notes, *_two_groups_kept(groups, split)]
-        if mixed:
-            noted.append(_unsigned(groups, split, left_out=True))
-        if poor:
-            noted.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
-        out = mixed.union(map(id, poor))
-        return cls([group for group in groups if id(group) not in out], noted)
+def grouped(
+    runs: TractionRuns, zeros: Zeros, assumed: Assumed, speed_tolerance: float, temperature_tolerance: float
+) -> tuple[list[Condition], list[str]]:
+    """Return the conditions that are separated, and notes on their grouping."""
+    # By the speed of the disc, or by that of disc and ball where this puts more together. Loads up to 15 % apart are
+    # those of one condition where nothing can be separated otherwise.
+    problem: InputError | None = None
+    groups: list[Condition] = []
+    poor: list[Condition] = []
+    notes: list[str] = []
+    # Slip separates the disc's speeds by as much as nominal speeds may differ only at some of them.
+    for load_tolerance, course in product((SAME_LOAD, _LOADS_TOGETHER), (of_the_disc, of_both)):
+        separated = len(groups) - len(poor)
+        if (groups and not poor) or (load_tolerance > SAME_LOAD and (separated or not groups)):
+            break
+        try:
+            others, said = conditions(runs, course(runs), speed_tolerance, temperature_tolerance, load_tolerance)
+        except InputError as error:
+            if not groups:
+                problem = problem or error
+            continue
+        still_poor = [group for group in others if not assumed.suffices(group, zeros)]
+        if not groups or _readings(others) - _readings(still_poor) > _readings(groups) - _readings(poor):
+            groups, poor, notes = others, still_poor, [*said, *_of_loads(runs, others, load_tolerance)]
+    if problem and (not groups or len(poor) == len(groups)):
+        raise problem
+    if not groups:
+        raise InputError(
+            "traction runs contain no reading with the disc in motion: nothing to separate.", code="no-readings"
+        )
+    split = _two_groups(runs, groups, zeros)
+    mixed = {id(groups[place]) for place, two in split.items() if two.opposite}
+    if mixed and mixed.union(map(id, poor)) == set(map(id, groups)):
+        raise InputError(_unsigned(groups, split))
+    if len(poor) == len(groups):
+        raise InputError(_refused(poor, len(groups), zeros, assumed))
+    noted = [*notes, *_two_groups_kept(groups, split)]
+    if mixed:
+        noted.append(_unsigned(groups, split, left_out=True))
+    if poor:
+        noted.append(_refused(poor, len(groups), zeros, assumed, left_out=True))
+    out = mixed.union(map(id, poor))
+    return [group for group in groups if id(group) not in out], noted
 
 
 def _of_loads(runs: TractionRuns, groups: list[Condition], tolerance: float) -> Iterator[Note]:

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
 from viscofric.arguments import insist_on
-from viscofric.arrays import Array
 from viscofric.errors import check_choice
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.measurement.assumed_coulomb import Assumed
-from viscofric.friction.measurement.conditions import Condition
 from viscofric.friction.measurement.doubts import constant_force, doubts, outlier_notes, without_unnoticed_slip
 from viscofric.friction.measurement.doubts import outliers as far_readings
 from viscofric.friction.measurement.drift import Drift
-from viscofric.friction.measurement.errors import BetweenRuns
+from viscofric.friction.measurement.errors import between_runs
 from viscofric.friction.measurement.fit import Entry, Fit
-from viscofric.friction.measurement.grouping import Grouping
+from viscofric.friction.measurement.grouping import grouped
 from viscofric.friction.measurement.uneven import Uneven
 from viscofric.friction.measurement.zeros import Zeros, another_zero
 from viscofric.notes import Note
@@ -161,111 +157,84 @@ def separate(
     gap = share(speed_tolerance, "speed_tolerance", example=0.05)
     assumed = Assumed.of(coulomb)
     kelvin = positive(temperature_tolerance, "delta_degC", "temperature_tolerance")
-    found = _Separation.of(runs, zero, assumed, gap, kelvin)
-    far = far_readings(runs, found.entries)
+    entries, found_notes = _separated(runs, zero, assumed, gap, kelvin)
+    far = far_readings(runs, entries)
     notes = outlier_notes(runs, far, left_out=outliers == "leave out")
     if far and outliers == "leave out":
         rest = runs.select(np.setdiff1d(np.arange(len(runs)), [row for _, row in far]))
-        found = _Separation.of(rest, zero, assumed, gap, kelvin)
-    return found.curves(runs, assumed, notes)
+        entries, found_notes = _separated(rest, zero, assumed, gap, kelvin)
+    return _curves(runs, entries, assumed, [*found_notes, *notes])
 
 
-@dataclass(frozen=True, eq=False)
-class _Separation:
-    """Results by condition, and notes."""
-
-    entries: list[Entry]
-    notes: list[str]
-
-    @classmethod
-    def of(
-        cls,
-        runs: TractionRuns,
-        zero: Quantity | tuple[Quantity, Quantity] | None,
-        assumed: Assumed,
-        speed_tolerance: float,
-        temperature_tolerance: float,
-    ) -> _Separation:
-        """Separate a test without a search for outliers."""
-        zeros = Zeros.known(runs, zero)
-        grouping = Grouping.of(runs, zeros, assumed, speed_tolerance, temperature_tolerance)
-        uneven = Uneven.of(runs, grouping.groups, speed_tolerance)
-        found = _fitted(runs, grouping.groups, zeros, assumed, uneven)
-        for _ in range(_ROUNDS if uneven else 0):
-            uneven = uneven.with_growths(found.bare, found.entries)
-            found = _fitted(runs, grouping.groups, zeros, assumed, uneven)
-        entries, slip_notes = without_unnoticed_slip(found.entries)
-        entries = assumed.completed(entries)
-        groups = [entry.group for entry in entries]
-        resting = [entry.group for entry in entries if not entry.fit.fits_offset]
-        load = float(np.mean([group.load for group in groups]))
-        notes = [
-            *grouping.notes,
-            *uneven.notes(found.entries),
-            *slip_notes,
-            *zeros.notes(groups, resting),
-            *zeros.drift(load),
-            *found.drift.notes([entry.fit for entry in entries]),
-            *found.errors.notes,
-            *constant_force(runs),
-            *doubts(entries, zeros),
-            *another_zero(runs, groups, zeros),
-        ]
-        return cls(entries, notes)
-
-    def curves(self, runs: TractionRuns, assumed: Assumed, notes: Sequence[str]) -> FrictionCurves:
-        """Return one entry for each condition."""
-        groups = [entry.group for entry in self.entries]
-        sliding = any(entry.fit.slides for entry in self.entries)
-        checked = any(entry.fit.checks for entry in self.entries)
-        without = [entry.group for entry in self.entries if entry.fit.coulomb is not None]
-        assumption = assumed.sentence(without, len(groups))
-        if not assumption and not assumed.nothing:
-            unused = "The given Coulomb friction is not used: the signs of the speeds determine it."
-            notes = [*notes, Note("coulomb-not-used", unused)]
-
-        def column(number: int, kind: str) -> Array:
-            return np.array([getattr(entry, kind)[number] for entry in self.entries])
-
-        return FrictionCurves(
-            speed=np.array([group.speed for group in groups]),
-            temperature=np.array([group.temperature for group in groups]),
-            load=np.array([group.load for group in groups]),
-            viscoelastic=column(1, "value"),
-            viscoelastic_error=column(1, "error"),
-            viscoelastic_scatter=column(1, "scatter"),
-            viscoelastic_freedom=column(1, "freedom"),
-            replicates=np.array([entry.fit.replicates for entry in self.entries]),
-            coulomb=column(2, "value") if sliding else None,
-            coulomb_error=column(2, "error") if sliding else None,
-            coulomb_scatter=column(2, "scatter") if sliding else None,
-            coulomb_freedom=column(2, "freedom") if sliding else None,
-            consistency=column(3, "value") if checked else None,
-            consistency_error=column(3, "error") if checked else None,
-            source=runs.source,
-            notes=(*runs.notes, *([assumption] if assumption else []), *self.notes, *notes),
-            slip=np.array([group.slip for group in groups]),
-            offset=column(0, "value"),
-            assumption=assumption,
-        )
-
-
-class _Fitted(NamedTuple):
-    """Results of all conditions without and with the error of friction's change over speed, drift, and errors."""
-
-    drift: Drift
-    errors: BetweenRuns
-    bare: list[Entry]
-    entries: list[Entry]
-
-
-def _fitted(runs: TractionRuns, groups: list[Condition], zeros: Zeros, assumed: Assumed, uneven: Uneven) -> _Fitted:
-    """Fit all conditions with the change of friction over speed as known so far."""
-    fits = [
-        Fit.of(runs, group, zeros, assumed.at(group, zeros), growth)
-        for group, growth in zip(groups, uneven.growths, strict=True)
+def _separated(
+    runs: TractionRuns,
+    zero: Quantity | tuple[Quantity, Quantity] | None,
+    assumed: Assumed,
+    speed_tolerance: float,
+    temperature_tolerance: float,
+) -> tuple[list[Entry], list[str]]:
+    """Separate a test without a search for outliers; return results by condition, and notes."""
+    zeros = Zeros.known(runs, zero)
+    groups, notes = grouped(runs, zeros, assumed, speed_tolerance, temperature_tolerance)
+    uneven = Uneven.of(runs, groups, speed_tolerance)
+    bare, entries = list[Entry](), list[Entry]()  # without and with the error of friction's change over speed
+    for number in range(1 + _ROUNDS if uneven else 1):
+        if number:
+            uneven = uneven.with_growths(bare, entries)
+        both = zip(groups, uneven.growths, strict=True)
+        fits = [Fit.of(runs, group, zeros, assumed.at(group, zeros), growth) for group, growth in both]
+        drift = Drift.of(fits)
+        errors, freedom, error_notes = between_runs(fits, drift.weights)
+        bare = [drift.entry(fit, zeros, *one) for fit, *one in zip(fits, errors, freedom, strict=True)]
+        entries = [uneven.widened(place, one) for place, one in enumerate(bare)]
+    notes += uneven.notes(entries)
+    entries, slip_notes = without_unnoticed_slip(entries)
+    entries = assumed.completed(entries)
+    groups = [entry.group for entry in entries]
+    resting = [entry.group for entry in entries if not entry.fit.fits_offset]
+    return entries, [
+        *notes,
+        *slip_notes,
+        *zeros.notes(groups, resting),
+        *zeros.drift(float(np.mean([group.load for group in groups]))),
+        *drift.notes([entry.fit for entry in entries]),
+        *error_notes,
+        *constant_force(runs),
+        *doubts(entries, zeros),
+        *another_zero(runs, groups, zeros),
     ]
-    drift = Drift.of(fits)
-    errors = BetweenRuns.of(fits, drift.weights)
-    bare = [drift.entry(fit, zeros, *one) for fit, *one in zip(fits, errors.error, errors.freedom, strict=True)]
-    return _Fitted(drift, errors, bare, [uneven.widened(place, one) for place, one in enumerate(bare)])
+
+
+def _curves(runs: TractionRuns, entries: list[Entry], assumed: Assumed, notes: list[str]) -> FrictionCurves:
+    """Return one entry for each condition."""
+    groups = [entry.group for entry in entries]
+    sliding = any(entry.fit.slides for entry in entries)
+    checked = any(entry.fit.checks for entry in entries)
+    assumption = assumed.sentence([entry.group for entry in entries if entry.fit.coulomb is not None], len(groups))
+    if not assumption and not assumed.nothing:
+        unused = "The given Coulomb friction is not used: the signs of the speeds determine it."
+        notes = [*notes, Note("coulomb-not-used", unused)]
+
+    numbers = np.array([[entry.value, entry.error, entry.scatter, entry.freedom] for entry in entries])
+    value, error, scatter, freedom = np.moveaxis(numbers, 1, 0)  # (k, 4) each
+    return FrictionCurves(
+        speed=np.array([group.speed for group in groups]),
+        temperature=np.array([group.temperature for group in groups]),
+        load=np.array([group.load for group in groups]),
+        viscoelastic=value[:, 1],
+        viscoelastic_error=error[:, 1],
+        viscoelastic_scatter=scatter[:, 1],
+        viscoelastic_freedom=freedom[:, 1],
+        replicates=np.array([entry.fit.replicates for entry in entries]),
+        coulomb=value[:, 2] if sliding else None,
+        coulomb_error=error[:, 2] if sliding else None,
+        coulomb_scatter=scatter[:, 2] if sliding else None,
+        coulomb_freedom=freedom[:, 2] if sliding else None,
+        consistency=value[:, 3] if checked else None,
+        consistency_error=error[:, 3] if checked else None,
+        source=runs.source,
+        notes=(*runs.notes, *([assumption] if assumption else []), *notes),
+        slip=np.array([group.slip for group in groups]),
+        offset=value[:, 0],
+        assumption=assumption,
+    )
