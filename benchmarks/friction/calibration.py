@@ -22,7 +22,7 @@ from identify import BALL, FREQUENCY, KELVIN, MATERIALS, SPEEDS, measured
 
 import viscofric as vf
 from viscofric.errors import InputError
-from viscofric.friction.identification.drawn_materials import Posterior
+from viscofric.friction.identification.drawn_materials import drawn_from
 from viscofric.friction.identification.identify import problem_of, shifts_of
 from viscofric.friction.identification.iteration import identify, most_evident, weighed
 from viscofric.friction.identification.moduli import ModulusObservation
@@ -64,9 +64,9 @@ class Frozen:
         points, shifts = self.observed(seed)
         problem: Problem = replace(self.problem, points=points, shifts=shifts)
         fits = weighed(problem, self.place)
-        place, posterior = most_evident(fits).minimum.place, Posterior.of(fits, 1, np.random.default_rng(0))
+        place, (_, covariance) = most_evident(fits).minimum.place, drawn_from(fits, 1, np.random.default_rng(0))
         compliances, log_alpha = problem.split(place)
-        variance = np.diag(posterior.covariance)[problem.modes :]
+        variance = np.diag(covariance)[problem.modes :]
         kelvin = shifts.temperatures
         away = log_alpha - np.log(10.0) * self.rubber.shift.log10(kelvin)
         reduced = points.log_speed + log_alpha[points.number]
@@ -74,7 +74,7 @@ class Frozen:
         omega = np.geomspace(*np.exp(ends - problem.friction.first(compliances, ends).log_radius), 13)
         found = self.moduli_of(compliances, omega)
         slope = np.array([self.moduli_of(compliances + STEP * one, omega) - found for one in np.eye(problem.modes)])
-        spread = np.einsum("i...,ij,j...->...", slope, posterior.covariance[: problem.modes, : problem.modes], slope)
+        spread = np.einsum("i...,ij,j...->...", slope, covariance[: problem.modes, : problem.modes], slope)
         E = self.rubber.complex_modulus(omega, KELVIN[0])
         off = (found - logarithms(E)) / (np.sqrt(spread) / STEP)
         measured_ones = np.abs(kelvin - KELVIN[0]) > 1.0

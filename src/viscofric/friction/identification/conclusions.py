@@ -22,7 +22,7 @@ from viscofric.friction.curve_checks import (
 )
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.finite_thickness import check_half_space
-from viscofric.friction.identification.drawn_materials import Findings, Posterior, level_family, limits
+from viscofric.friction.identification.drawn_materials import Findings, level_family, limits
 from viscofric.friction.identification.iteration import Weighed, freedom_of, leverage_of, misfit, most_evident, weighed
 from viscofric.friction.identification.posterior import correlation, too_small
 from viscofric.friction.identification.problem import Problem
@@ -97,7 +97,7 @@ def conclude(outcome: Outcome, *, limit: float, samples: int, seed: int, levels:
     if not anchored:
         family = level_family(found, outcome.contacts, levels, outcome.iterations + 1, outcome.accuracy)
     of_anchors = _anchor_notes(best, drawn, middle, limit) if anchored else ()
-    fitted, residuals = _fitted(outcome, found.posterior)
+    fitted, residuals = _fitted(outcome, found)
     common = found.common(bands, residuals, error_scale)
     thickness, coupling = _contacts(outcome, common["material"])
     level_range = limits(np.abs([one.complex_modulus(middle) for one in drawn.materials]))
@@ -235,12 +235,12 @@ def _frequencies(best: Weighed[Problem]) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def _fitted(outcome: Outcome, posterior: Posterior[Problem]) -> tuple[FrictionCurves, Array]:
+def _fitted(outcome: Outcome, findings: Findings[Problem]) -> tuple[FrictionCurves, Array]:
     """Return the friction of the identified material at the points, and the residuals over the standard errors."""
-    problem, place = posterior.best.problem, posterior.best.minimum.place
+    problem, place = findings.best.problem, findings.best.minimum.place
     points = problem.points
     value, _ = problem.modelled(place)
-    drawn = np.array([problem.modelled(row)[0] for row in posterior.drawn])
+    drawn = np.array([problem.modelled(row)[0] for row in findings.rows])
     lower, upper = np.exp(limits(drawn) + points.raised)
     friction = np.exp(value + points.raised)
     measured = outcome.curves.select(points.rows)

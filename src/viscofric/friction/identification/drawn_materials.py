@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Generic
 
 import numpy as np
@@ -26,37 +26,27 @@ LEAST_SHARE = 0.05
 BAND_STEPS = 20
 
 
-@dataclass(frozen=True, eq=False)
-class Posterior(Generic[AnyProblem]):
-    """The fits under every roughness combined."""
-
-    best: Weighed[AnyProblem]  # of the roughness with most evidence
-    drawn: Array  # (samples, p), unknowns
-    covariance: Array  # (p, p), of the normal densities about every fit, weighted by their evidence
-
-    @classmethod
-    def of(
-        cls, fits: Sequence[Weighed[AnyProblem]], samples: int, random: np.random.Generator
-    ) -> Posterior[AnyProblem]:
-        """Draw from fits, each by its part of the evidence."""
-        evidence = np.array([fit.log_evidence for fit in fits])
-        shares = np.exp(evidence - evidence.max())
-        shares /= shares.sum()
-        shares = np.where(shares < LEAST_SHARE, 0.0, shares)
-        shares /= shares.sum()
-        counts = np.diff(np.round(samples * np.concatenate([[0.0], np.cumsum(shares)]))).astype(int)
-        drawn = [
-            draws(fit.problem, fit.minimum, int(count), random, fit.problem.metric)
-            for fit, count in zip(fits, counts, strict=True)
-            if count
-        ]
-        best = most_evident(list(fits))
-        covariance = np.zeros_like(best.minimum.normal)
-        for fit, share in zip(fits, shares, strict=True):
-            if share > 0.0:
-                away = fit.minimum.place - best.minimum.place
-                covariance += share * (np.linalg.inv(fit.minimum.normal) + np.outer(away, away))
-        return cls(best, np.concatenate(drawn), covariance)
+def drawn_from(fits: Sequence[Weighed[AnyProblem]], samples: int, random: np.random.Generator) -> tuple[Array, Array]:
+    """Draw unknowns (samples, p) from fits, each by its part of the evidence; return their covariance (p, p) too."""
+    # The covariance is that of the normal densities about every fit, weighted by their evidence.
+    evidence = np.array([fit.log_evidence for fit in fits])
+    shares = np.exp(evidence - evidence.max())
+    shares /= shares.sum()
+    shares = np.where(shares < LEAST_SHARE, 0.0, shares)
+    shares /= shares.sum()
+    counts = np.diff(np.round(samples * np.concatenate([[0.0], np.cumsum(shares)]))).astype(int)
+    drawn = [
+        draws(fit.problem, fit.minimum, int(count), random, fit.problem.metric)
+        for fit, count in zip(fits, counts, strict=True)
+        if count
+    ]
+    best = most_evident(list(fits))
+    covariance = np.zeros_like(best.minimum.normal)
+    for fit, share in zip(fits, shares, strict=True):
+        if share > 0.0:
+            away = fit.minimum.place - best.minimum.place
+            covariance += share * (np.linalg.inv(fit.minimum.normal) + np.outer(away, away))
+    return np.concatenate(drawn), covariance
 
 
 def limits(drawn: Array) -> Array:
@@ -79,14 +69,15 @@ class Findings(Generic[AnyProblem]):
         seed: int,
     ) -> None:
         random = np.random.default_rng(seed)
-        self.posterior = Posterior.of(fits, samples, random)
-        self.best = self.posterior.best
+        #: Of the roughness with most evidence; unknowns (samples, p) drawn from all, and their covariance (p, p).
+        self.best = most_evident(list(fits))
+        self.rows, self.covariance = drawn_from(fits, samples, random)
         self.poisson_ratio, self.name, self.frequency_range = poisson_ratio, name, frequency_range
         self.middle = float(np.sqrt(frequency_range[0] * frequency_range[1]))
         shifts = self.best.problem.shifts
         #: Known exactly; None where the factors are among the unknowns, or there is one temperature only.
         self.shift = shift.at_reference(shifts.reference) if shift is not None and shifts.exact else None
-        self.drawn = _samples([self.material(row) for row in self.posterior.drawn], frequency_range)
+        self.drawn = _samples([self.material(row) for row in self.rows], frequency_range)
         self.expected = _samples(self._prior_materials(samples, random), (0.0, np.inf))
 
     def material(self, unknowns: Array, covariance: Array | None = None) -> Material:
@@ -134,7 +125,7 @@ class Findings(Generic[AnyProblem]):
 
     def common(self, bands: Sequence[IdentifiedBand], residuals: Array, error_scale: float) -> dict[str, Any]:
         """Return what the results of all identifications have in common, by its name in `Identified`."""
-        material, problem = self.material(self.best.minimum.place, self.posterior.covariance), self.best.problem
+        material, problem = self.material(self.best.minimum.place, self.covariance), self.best.problem
         names = ("identified", "identified_storage", "identified_loss")
         return {
             **dict(zip(names, bands, strict=True)),

@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.friction.identification.conclusions import FOLLOWING
-from viscofric.friction.identification.drawn_materials import Findings, Posterior, limits
+from viscofric.friction.identification.drawn_materials import Findings, limits
 from viscofric.friction.identification.indentation.impacts import Impacts
 from viscofric.friction.identification.indentation.problem import IndentationProblem
 from viscofric.friction.identification.indentation.result import FittedRecord, MaterialFromIndentation
@@ -49,11 +49,11 @@ def conclude(
     findings = Findings(
         fits, (low, high), shift=shift, poisson_ratio=poisson_ratio, name=name, samples=samples, seed=seed
     )
-    middle, posterior = findings.middle, findings.posterior
+    middle = findings.middle
     highest = {"magnitude": fastest, "storage": fastest, "loss": max(high, middle)}
     bands = [findings.band(part, (low / BEYOND, end), limit, relative=False) for part, end in highest.items()]
     residuals = -problem.measured(best.minimum.place)[0]
-    fitted = _fitted(usable, posterior)
+    fitted = _fitted(usable, findings)
     narrow = _narrow(problem)
     if narrow:
         bands[2] = IdentifiedBand(middle, middle, limit, relative=False)
@@ -63,7 +63,7 @@ def conclude(
         **findings.common(bands, residuals, error_scale),
         anchored=True,
         records=fitted,
-        common_errors=_common_errors(usable, posterior),
+        common_errors=_common_errors(usable, findings),
         notes=(*made_up, *usable.notes, *_doubts(fitted, error_scale), *_shared(best, residuals, error_scale), *narrow),
     )
     notes = (*found.notes, *_fastest(found.material, problem))
@@ -80,17 +80,16 @@ def _ends(problem: IndentationProblem, place: Array) -> tuple[float, float, floa
     return float(low.min()), float(max(high.max(), low.min())), float(fastest.max())
 
 
-def _common_errors(usable: Usable, posterior: Posterior[IndentationProblem]) -> dict[str, tuple[float, float]]:
+def _common_errors(usable: Usable, findings: Findings[IndentationProblem]) -> dict[str, tuple[float, float]]:
     """Return the errors in common that were given a standard deviation: what was found, and its standard error."""
-    problem = posterior.best.problem
+    problem, place, covariance = findings.best.problem, findings.best.minimum.place, findings.covariance
     if not problem.others:
         return {}
-    first = len(posterior.best.minimum.place) - problem.others
+    first = len(place) - problem.others
     named = {"radius": (0, problem.shared.radius), "load": (1, problem.shared.gain)}
     for number, record in enumerate(usable.records):
         if hasattr(record, "indentation") and not isinstance(record, ReboundRecord):
             named[f"zero {number + 1}"] = 2 + number, problem.shared.zero
-    place, covariance = posterior.best.minimum.place, posterior.covariance
     return {
         name: (size * float(place[first + at]), size * float(np.sqrt(covariance[first + at, first + at])))
         for name, (at, size) in named.items()
@@ -98,11 +97,11 @@ def _common_errors(usable: Usable, posterior: Posterior[IndentationProblem]) -> 
     }
 
 
-def _fitted(usable: Usable, posterior: Posterior[IndentationProblem]) -> tuple[FittedRecord, ...]:
+def _fitted(usable: Usable, findings: Findings[IndentationProblem]) -> tuple[FittedRecord, ...]:
     """Return the measured and fitted responses of every record, with 95 % limits of the fit."""
-    problem, place = posterior.best.problem, posterior.best.minimum.place
+    problem, place = findings.best.problem, findings.best.minimum.place
     value, _ = problem.modelled(place)
-    lower, upper = limits(np.array([problem.modelled(row)[0] for row in posterior.drawn]))
+    lower, upper = limits(np.array([problem.modelled(row)[0] for row in findings.rows]))
     found = []
     for record, contact, rows in zip(usable.records, problem.contacts, problem.rows, strict=True):
         for quantity, part in contact.parts:
