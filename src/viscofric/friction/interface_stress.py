@@ -129,7 +129,9 @@ class ShearStress(Plotted):
         intervals then hold 92 to 97 % with five temperatures and 85 to 95 % with three; with errors in common of half
         the scatter of a point, which are not seen, 80 to 90 %.
         """
-        return fit_stress(kind, self._table, *self._way).law
+        found = fit_stress(kind, self._table, *self._way).law
+        assert found is not None
+        return found
 
     def compare_laws(self) -> LawComparison[InterfaceLaw]:
         """Fit every law and choose by Akaike's criterion, as laws of shift factors are chosen; see `LawComparison`.

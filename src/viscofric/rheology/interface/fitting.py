@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -57,6 +57,9 @@ _ALIKE_LEVELS = 0.1
 _ROUNDS = 5
 #: Most fits with stresses near zero about those of the fit before, and the relative change of these that is none.
 _SETTLING, _SETTLED = 50, 1e-3
+
+
+StressRow: TypeAlias = LawRow[InterfaceLaw]
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,23 +223,13 @@ class _LinearFamily(_Family):
         return super()._made(parameters, **rest)
 
 
-class FittedStress(NamedTuple):
-    """A law, its χ² by the stated errors alone, the scatter (decades) that explains its misfit, and Akaike's AIC."""
-
-    law: InterfaceLaw
-    chi2: float
-    scatter: float
-    level: float  # of temperatures, decades, beyond the stated one
-    aic: float
-    constants: int
-
-
-def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> FittedStress:
+def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> StressRow:
     """Fit one law; see `ShearStress.law`."""
     found, stress = _fitted(kind, table, shift, reference, energy), np.empty(0)
     if table.about is None:
         return found
     for _ in range(_SETTLING):
+        assert found.law is not None
         last, stress = stress, found.law(10.0**table.speed, table.kelvin)
         if last.size and np.max(np.abs(np.log(stress / last))) < _SETTLED:
             return found
@@ -244,7 +237,7 @@ def fit_stress(kind: str, table: StressTable, shift: ShiftLaw | None, reference:
     raise _not_described(kind)
 
 
-def _fitted(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> FittedStress:
+def _fitted(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> StressRow:
     check_choice(kind, "law", *KINDS)
     linear = kind in ("constant", "power")
     family = (_LinearFamily if linear else _Family)(kind, table, shift, reference, energy)
@@ -269,7 +262,7 @@ def _fitted(kind: str, table: StressTable, shift: ShiftLaw | None, reference: fl
     if family.positive:
         notes += undetermined(law, found.parameters, law.covariance)
     law = replace(law, notes=tuple(notes))
-    return FittedStress(law, chi2, scatter, level, aic, family.size)
+    return LawRow(kind, law.title, law, family.size, chi2, freedom, scatter, aic, level=level)
 
 
 def _level(family: _Family, table: StressTable, first: Array, chi2: float) -> tuple[float, float]:
@@ -359,18 +352,14 @@ def compare_stress_laws(
     return LawComparison(tuple(rows), chosen, tuple(notes))
 
 
-def _row(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> LawRow[InterfaceLaw]:
-    title = KINDS[kind].title
+def _row(kind: str, table: StressTable, shift: ShiftLaw | None, reference: float, energy: bool) -> StressRow:
     try:
-        found = fit_stress(kind, table, shift, reference, energy)
+        return fit_stress(kind, table, shift, reference, energy)
     except InputError as error:
-        return LawRow(kind, title, None, 0, refusal=str(error))
-    freedom = len(table) - found.constants
-    rest = found.chi2, freedom, found.scatter, found.aic
-    return LawRow(kind, title, found.law, found.constants, *rest, level=found.level)
+        return LawRow(kind, KINDS[kind].title, None, 0, refusal=str(error))
 
 
-def _notes(chosen: LawRow[InterfaceLaw], rows: list[LawRow[InterfaceLaw]], table: StressTable) -> Iterator[Note]:
+def _notes(chosen: StressRow, rows: list[StressRow], table: StressTable) -> Iterator[Note]:
     """Yield why a law was chosen, which others cannot be excluded, and the remaining misfit."""
     others = [row for row in rows if row is not chosen]
     better = [row for row in others if row.aic < chosen.aic]
@@ -398,7 +387,7 @@ def _misfit(level: float, scatter: float) -> Iterator[Note]:
         yield Note("law-scatter", text, values={"scatter": scatter})
 
 
-def _rivalry(chosen: LawRow[InterfaceLaw], rival: LawRow[InterfaceLaw], table: StressTable) -> Note:
+def _rivalry(chosen: StressRow, rival: StressRow, table: StressTable) -> Note:
     """Return a sentence on the difference of a law that cannot be excluded."""
     assert chosen.law is not None
     assert rival.law is not None
