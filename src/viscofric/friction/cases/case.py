@@ -53,9 +53,9 @@ class Case(ABC):
     LOGARITHMIC: ClassVar[Mask]
 
     @property
-    @abstractmethod
-    def alike(self) -> tuple[object, ...]:
-        """What is common to cases that differ by temperature and speed at most."""
+    def alike(self) -> Case:
+        """The same for cases that differ by temperature and speed at most."""
+        return moved(self, temperature=0.0, speed=0.0)
 
     @property
     @abstractmethod
@@ -91,11 +91,17 @@ class Case(ABC):
     def reach(self, record: Record) -> float:
         """Return the number that ranks contacts with a warning; the largest is reported."""
 
-    @abstractmethod
     def task(
         self, modes: RetardationSpectrum, poisson_ratio: float, settings: Settings, *, fields: bool, label: str
     ) -> Task:
         """Return what is to be solved; `modes` are those of its material at its temperature."""
+        verb, contact = self.solving(settings)
+        rubber = {"modes": modes, "poisson_ratio": poisson_ratio, "temperature": self.temperature}
+        return Task(verb, rubber | contact | {"fields": fields}, label)
+
+    @abstractmethod
+    def solving(self, settings: Settings) -> tuple[Callable[..., Record], dict[str, Any]]:
+        """Return the function that solves it, and its arguments besides the material and what is stored."""
 
     @abstractmethod
     def solution(

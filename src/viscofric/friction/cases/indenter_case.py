@@ -9,7 +9,7 @@ all other numbers over their units (see `viscofric.contact.free.scale`).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
@@ -28,7 +28,7 @@ from viscofric.errors import InputError
 from viscofric.friction.cases.case import Case, Place, Rubbers, Settings
 from viscofric.friction.cases.interpolation import FRICTION, Between, Interpolated, Node
 from viscofric.friction.cases.record import Failure, Record, indenter_record
-from viscofric.friction.cases.solving import Task, solve_indenter
+from viscofric.friction.cases.solving import solve_indenter
 from viscofric.friction.sensitivity import ROUNDING, ComplianceSensitivity, log_times
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -69,11 +69,6 @@ class IndenterCase(Case):
     LOGARITHMIC: ClassVar[Mask] = LOGARITHMIC
 
     @property
-    def alike(self) -> tuple[object, ...]:
-        """What is common to cases that differ by temperature and speed at most."""
-        return (self.material, self.sample, self.indenter, self.load, self.layer)
-
-    @property
     def geometry(self) -> str:
         """Geometry of the contact: "point" or "line"."""
         return "line" if self.indenter.geometry is LINE else "point"
@@ -101,15 +96,10 @@ class IndenterCase(Case):
         size = self.indenter.reach
         return float(farthest / size) if np.isfinite(size) else float(farthest)
 
-    def task(
-        self, modes: RetardationSpectrum, poisson_ratio: float, settings: Settings, *, fields: bool, label: str
-    ) -> Task:
-        """Return what is to be solved; see `Case.task`."""
-        kept = {"temperature": self.temperature, "fields": fields}
+    def solving(self, settings: Settings) -> tuple[Callable[..., Record], dict[str, Any]]:
+        """Return the function that solves it, and its arguments; see `Case.solving`."""
         sensitive = settings.sensitive and self.sample is None
-        rubber = {"modes": modes, "poisson_ratio": poisson_ratio}
-        contact = self._contact(settings.accuracy)
-        return Task(solve_indenter, rubber | contact | kept | {"sensitive": sensitive}, label)
+        return solve_indenter, self._contact(settings.accuracy) | {"sensitive": sensitive}
 
     def solution(self, rubbers: Rubbers, accuracy: float, most_points: int | None = None) -> ContactSolution:
         """Solve the contact and return the whole solution; see `solve_steady`."""

@@ -8,7 +8,7 @@ surfaces and pressures are not similar.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
@@ -21,9 +21,8 @@ from viscofric.contact.periodic.surface import PeriodicSurface
 from viscofric.friction.cases.case import Case, Place, Rubbers, Settings
 from viscofric.friction.cases.interpolation import FRICTION, SHARE, Between, Node
 from viscofric.friction.cases.record import Record, surface_record
-from viscofric.friction.cases.solving import Task, solve_surface, surface_solution
+from viscofric.friction.cases.solving import solve_surface, surface_solution
 from viscofric.friction.cases.surfaces import SurfaceSource, surface_of
-from viscofric.rheology.spectra.retardation import RetardationSpectrum
 
 # Number of a record, and whether it is interpolated by its logarithm: forces across the motion have either sign.
 _COLUMNS = (
@@ -59,21 +58,8 @@ class SurfaceCase(Case):
     FREQUENCIES: ClassVar[str] = "some reduced frequencies 2παv/λ of the surface's waves lie"
     HAS_MASTER_CURVE: ClassVar[bool] = False
     LOGARITHMIC: ClassVar[Mask] = _LOGARITHMIC
-
-    @property
-    def alike(self) -> tuple[object, ...]:
-        """What is common to cases that differ by temperature and speed at most."""
-        return (self.material, self.sample, self.surface, self.pressure, self.direction, self.layer)
-
-    @property
-    def geometry(self) -> str:
-        """Geometry of the contact: "rough"."""
-        return "rough"
-
-    @property
-    def cost(self) -> str:
-        """Its kind in the estimates of computing time."""
-        return "surface"
+    geometry: ClassVar[str] = "rough"
+    cost: ClassVar[str] = "surface"
 
     @property
     def points(self) -> int:
@@ -95,13 +81,9 @@ class SurfaceCase(Case):
         """Return the highest pressure."""
         return float(record.max_pressure)
 
-    def task(
-        self, modes: RetardationSpectrum, poisson_ratio: float, settings: Settings, *, fields: bool, label: str
-    ) -> Task:
-        """Return what is to be solved; see `Case.task`."""
-        rubber = {"modes": modes, "poisson_ratio": poisson_ratio, "surface": self.surface}
-        kept = {"temperature": self.temperature, "direction": self.direction, "fields": fields}
-        return Task(solve_surface, rubber | self._contact | kept, label)
+    def solving(self, settings: Settings) -> tuple[Callable[..., Record], dict[str, Any]]:
+        """Return the function that solves it, and its arguments; see `Case.solving`."""
+        return solve_surface, {"surface": self.surface, "direction": self.direction, **self._contact}
 
     def solution(self, rubbers: Rubbers, accuracy: float, most_points: int | None = None) -> PeriodicSolution:
         """Solve the contact and return the whole solution; see `solve_periodic`."""
