@@ -94,7 +94,9 @@ class Gapless:
     runs: TractionRuns
     values: Array  # (n,), of each reading, to be grouped
     expression: str  # their name in Python
-    shown: Callable[[float, float], str]  # returns a range of them in words
+    noun: str
+    shown: Callable[[float], str]
+    shown_unit: str
     gap: float  # between nominal values, absolute or relative
     relative: bool = True
     # field and label of the tolerance, see `viscofric.notes.setting`; empty where it is fixed
@@ -115,7 +117,8 @@ class Gapless:
             "within": float(allowed),
         }
         selection = self._selection(moving, f"{middle:.4g}", f"{allowed:.2g}")
-        words = f"{self.shown(low, high)} has no gaps and cannot be grouped into nominal values"
+        span = f"{self.shown(low)} to {self.shown(high)} {self.shown_unit}"
+        words = f"{self.noun} from {span} has no gaps and cannot be grouped into nominal values"
         if not self.option:
             words += f" (a gap is {100 * self.gap:g} %); "
             return Note("no-gap", words, remedy=selection + ".", values=values)
@@ -126,6 +129,11 @@ class Gapless:
         several = f"; if there are several, one below {self.gap:g}{self.unit}; or "
         remedy = ": if there is one nominal value, give " + one + several + selection + "."
         return Note("no-gap", words, remedy=remedy, values={**values, "tolerance": wide})
+
+    def numbered(self, rows: Integers) -> Integers:
+        """Return the numbers of the nominal values of readings, ascending; InputError where they have no gaps."""
+        values = self.values[rows]
+        return clusters(values, self.gap * (values if self.relative else np.ones(values.size)), self)
 
     def _unsteady(self, inside: Mask, allowed: float) -> list[int]:
         """Return the steps whose values change by more than is allowed, if these are some and few."""
@@ -192,6 +200,10 @@ class Condition:
         """Whether another condition has the same temperature, and a load within the tolerance."""
         return self.temperature == other.temperature and abs(other.load - self.load) <= SAME_LOAD * self.load
 
+    def beside(self, other: Condition) -> bool:
+        """Whether another condition has the same speed, too, at whatever slip."""
+        return self.speed == other.speed and self.alike(other)
+
     def regressors(self, *, offset: bool, coulomb: bool) -> Array:
         """Return the signs (n, 3) of zero, viscoelastic and Coulomb friction; zeros for what is not fitted."""
         count = self.rows.size
@@ -237,45 +249,19 @@ def conditions(
     if not moving.size:
         return [], tuple(notes)
     temperature, speed, load = runs.temperature[moving], course.speed[moving], runs.load[moving]
-    isotherm = clusters(
-        temperature,
-        np.full(temperature.size, temperature_tolerance),
-        Gapless(
-            runs,
-            runs.temperature,
-            "runs.temperature",
-            lambda low, high: f"temperature from {shown_celsius(low)} to {shown_celsius(high)} °C",
-            temperature_tolerance,
-            relative=False,
-            option=("measurement.temperature_tolerance", "Gap between temperatures"),
-            unit=" K",
-        ),
+    of_temperature = Gapless(
+        *(runs, runs.temperature, "runs.temperature", "temperature", shown_celsius, "°C", temperature_tolerance),
+        relative=False,
+        option=("measurement.temperature_tolerance", "Gap between temperatures"),
+        unit=" K",
     )
-    loading = clusters(
-        load,
-        load_tolerance * load,
-        Gapless(
-            runs,
-            runs.load,
-            "runs.load",
-            lambda low, high: f"load from {shown_number(low, '.4g')} to {shown_number(high, '.4g')} N",
-            gap=load_tolerance,
-        ),
+    of_load = Gapless(runs, runs.load, "runs.load", "load", lambda one: shown_number(one, ".4g"), "N", load_tolerance)
+    of_speed = Gapless(
+        *(runs, course.speed, "abs(runs.disc_speed)", "disc_speed", lambda one: shown_number(1e3 * one, ".4g"), "mm/s"),
+        speed_tolerance,
+        option=SPEED_TOLERANCE,
     )
-    pace = clusters(
-        speed,
-        speed_tolerance * speed,
-        Gapless(
-            runs,
-            course.speed,
-            "abs(runs.disc_speed)",
-            lambda low, high: (
-                f"disc_speed from {shown_number(1e3 * low, '.4g')} to {shown_number(1e3 * high, '.4g')} mm/s"
-            ),
-            speed_tolerance,
-            option=SPEED_TOLERANCE,
-        ),
-    )
+    isotherm, loading, pace = (one.numbered(moving) for one in (of_temperature, of_load, of_speed))
     mean_speed = np.bincount(pace, speed) / np.bincount(pace)
     mean_temperature = np.bincount(isotherm, temperature) / np.bincount(isotherm)
     jitter = _jitter(speed / mean_speed[pace], np.stack([pace, course.slip[moving] > 0.0], axis=1))

@@ -46,14 +46,16 @@ def _where(some: Iterable[Entry], entries: list[Entry]) -> str:
 
 def _negative(entries: list[Entry]) -> Iterator[Note]:
     """Yield notes on negative coefficients, one for each possible reason."""
+    sure = threshold(np.inf, CHANCE / len(entries))
     for number, name, reason in ((1, "viscoelastic", _why_viscoelastic), (2, "Coulomb", _why_coulomb)):
         deviation = np.array([-entry.value[number] for entry in entries])
         reasons = defaultdict(list)
-        places = _significant(entries, number, deviation)
-        if number == 1:
-            places += _assumed_too_large(entries, deviation)
-        for place in sorted(set(places)):
-            reasons[reason(entries[place])].append(entries[place])
+        places = set(_significant(entries, number, deviation))
+        for place, entry in enumerate(entries):
+            # An assumed Coulomb friction may exceed that measured, however few the readings are.
+            beyond = number == 1 and entry.fit.assumes and deviation[place] > sure * entry.error[1] + ROUNDING
+            if beyond or place in places:
+                reasons[reason(entry)].append(entry)
         for (causes, why), some in reasons.items():
             yield Note(
                 "negative-friction",
@@ -61,16 +63,6 @@ def _negative(entries: list[Entry]) -> Iterator[Note]:
                 f"{why}.",
                 values={"coefficient": name, "conditions": len(some), "reasons": list(causes)},
             )
-
-
-def _assumed_too_large(entries: list[Entry], deviation: Array) -> list[int]:
-    """Return the conditions where an assumed Coulomb friction exceeds that measured, however few the readings are."""
-    sure = threshold(np.inf, CHANCE / len(entries))
-    return [
-        place
-        for place, entry in enumerate(entries)
-        if entry.fit.assumes and deviation[place] > sure * entry.error[1] + ROUNDING
-    ]
 
 
 _CAUSES = {
@@ -147,9 +139,10 @@ def _another_zero(entries: list[Entry], zeros: Zeros) -> Iterator[Note]:
 
 def _incomplete(entries: list[Entry]) -> Iterator[Note]:
     """Yield notes on conditions where replicates lack configurations, or are too few."""
-    groups, total = [entry.group for entry in entries], len(entries)
-    together = [entry.group for entry in entries if entry.fit.together]
-    beside = _rolling_beside(together, groups)
+    total, together = len(entries), [entry.group for entry in entries if entry.fit.together]
+    rolling = [entry.group for entry in entries if not entry.fit.slides]
+    # Readings in pure rolling at each condition's temperature and speed, whatever its own slip.
+    beside = [sum(one.rows.size for one in rolling if group.beside(one)) for group in together]
     rolled = [(group, readings) for group, readings in zip(together, beside, strict=True) if readings]
     if rolled:
         readings = rolled[0][1]
@@ -197,15 +190,6 @@ def _shown(entry: Entry, number: int) -> str:
     return f"{shown_number(float(entry.value[number]), '.2g')}{error}"
 
 
-def _rolling_beside(some: list[Condition], groups: list[Condition]) -> list[int]:
-    """Count the readings in pure rolling at each condition's temperature and speed, whatever its own slip."""
-    rolling = defaultdict(list)
-    for group in groups:
-        if not np.any(group.slip_sign):
-            rolling[group.temperature, group.speed].append(group)
-    return [sum(one.rows.size for one in rolling[group.temperature, group.speed] if group.alike(one)) for group in some]
-
-
 def constant_force(runs: TractionRuns) -> Iterator[Note]:
     """Yield a note if all readings of the force are the same, as those of a force cell that was not recorded."""
     force = runs.traction_force
@@ -222,14 +206,11 @@ def without_unnoticed_slip(entries: list[Entry]) -> tuple[list[Entry], list[Note
     """Compare viscoelastic friction in pure rolling with that of the largest slip at the same speed."""
     # Slip too small to be measured can still transmit much of Coulomb friction, with one sign. Returns the conditions
     # where it does not, and notes on the others.
-    sliding = defaultdict(list)
-    for entry in entries:
-        if entry.fit.slides and entry.fit.coulomb is None:
-            sliding[entry.group.temperature, entry.group.speed].append(entry)
+    sliding = [entry for entry in entries if entry.fit.slides and entry.fit.coulomb is None]
     kept, notes = [], []
     for entry in entries:
         group = entry.group
-        alike = [one for one in sliding[group.temperature, group.speed] if group.alike(one.group)]
+        alike = [one for one in sliding if group.beside(one.group)]
         kept.append(entry)
         if entry.fit.slides or not alike:
             continue
