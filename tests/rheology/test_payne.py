@@ -142,6 +142,21 @@ def test_a_sweep_that_starts_beyond_the_linear_range_is_noted():
     assert vf.rheology.fit_kraus(sweep).notes == ()
 
 
+@pytest.mark.parametrize("seed", [4, 7])
+def test_a_sweep_that_ends_before_the_second_plateau_does_not_determine_it(seed):
+    """Where the best G'∞ is near zero, it had an error of 0.006 Pa, and γc was off by up to four of its errors."""
+    law, strain = replace(LAW, storage_large=1e6), np.geomspace(1e-4, 0.01, 25)
+    scatter, moduli = 1.0 + 0.01 * np.random.default_rng(seed).standard_normal((2, 25)), law.complex_modulus(strain)
+    sweep = vf.readers.AmplitudeSweep(
+        strain, scatter[0] * moduli.real, scatter[1] * moduli.imag, "10 Hz", "60 degC", "shear"
+    )
+    fit = vf.rheology.fit_kraus(sweep)
+    assert fit.law.storage_large < 1e3
+    assert fit.law.standard_errors[1] > 1e6
+    assert np.all(np.abs(fit.law.constants - law.constants) < 2.0 * np.array(fit.law.standard_errors))
+    assert "constants-undetermined" in codes(fit.notes)
+
+
 def test_a_law_that_misses_the_sweep_is_named():
     sweep = planted(1)
     bent = replace(sweep, loss_modulus=sweep.loss_modulus * (1.0 + 0.5 * np.sin(np.arange(25.0))))

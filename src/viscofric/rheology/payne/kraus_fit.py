@@ -15,6 +15,7 @@ from viscofric.errors import InputError
 from viscofric.notes import Note
 from viscofric.rheology.payne.kraus import CONSTANTS, KrausLaw, kraus_moduli
 from viscofric.rheology.ramps.common_law import EQUALLY_LIKELY, CorrelatedSmoother, correlation, whitened
+from viscofric.rheology.shifts.law_fitting import undetermined
 from viscofric.rheology.shifts.parametric_law import student_factor
 from viscofric.showing import Plotted, Rows, Shown
 from viscofric.threads import one_blas_thread
@@ -29,6 +30,8 @@ PASSES = 4
 WIDEST = math.log(1e4)
 #: Scatter about the law above which it does not describe the sweep, decades.
 LARGEST_SCATTER = 0.03
+#: Combinations of constants with less effect on the sweep than this part of the largest are not determined.
+_UNSEEN = 1e-7
 #: Parts of the storage modulus by whose fall a sweep's linear ranges are stated.
 DROPS = (0.05, 0.1)
 #: Fall below the smallest amplitude that widens linear ranges by more than a sixth: a fifth of the smaller drop.
@@ -47,7 +50,7 @@ class LinearRange(Shown):
     drop : float
         By which part the storage modulus has fallen there, 0.05 or 0.1.
     strain : float
-        The amplitude, a fraction; infinite where the modulus falls by less within the sweep.
+        The amplitude, a fraction; infinite where the modulus is not seen to fall as much within the sweep.
     standard_error : float
         Of the strain: the distance of the farthest one at which the modulus has fallen as much within its own standard
         error, from the scatter of the points.
@@ -66,7 +69,7 @@ class LinearRange(Shown):
     def __str__(self) -> str:
         """Return the range as a line of text."""
         if not math.isfinite(self.strain):
-            return f"the storage modulus falls by less than {100 * self.drop:.0f} % within the sweep"
+            return f"the storage modulus is not seen to fall by {100 * self.drop:.0f} % within the sweep"
         return (
             f"the storage modulus has fallen by {100 * self.drop:.0f} % at a strain of {100 * self.strain:.3g} ± "
             f"{100 * self.standard_error:.1g} %"
@@ -211,7 +214,7 @@ def fit_kraus(sweep: AmplitudeSweep) -> PayneFit:
 
 
 def _doubts(sweep: AmplitudeSweep, law: KrausLaw, scatter: Array) -> list[Note]:
-    notes = []
+    notes: list[Note] = []
     letter = "G" if sweep.deformation == "shear" else "E"
     for mark, one in zip(("'", "''"), scatter, strict=True):
         if one > LARGEST_SCATTER:
@@ -223,6 +226,7 @@ def _doubts(sweep: AmplitudeSweep, law: KrausLaw, scatter: Array) -> list[Note]:
         said = f"{letter}' falls by {100.0 * part:.0f} % only: the sweep does not determine the law."
         notes.append(Note("hardly-nonlinear", said, values={"fall": part}))
         return notes
+    notes += undetermined(law, law.constants, law.covariance)
     first = float(sweep.strain_amplitude[0])
     before = 1.0 - float(law.complex_modulus(first).real) / law.storage_linear
     if before > LARGEST_FALL_BEFORE:
@@ -257,8 +261,9 @@ def _fitted(sweep: AmplitudeSweep) -> tuple[Array, Array, Array]:
 
     middle = float(np.log(strain[np.argmin(np.abs(measured[0] - measured[0].mean()))]))
     starts = [
-        [measured[0, 0], measured[0, -1] - 0.1, middle, math.log(m), measured[1].max(), measured[1].min() - 0.2]
+        [measured[0, 0], measured[0, -1] - 0.1, critical, math.log(m), measured[1].max(), measured[1].min() - 0.2]
         for m in EXPONENTS
+        for critical in (middle, float(ends[1]))
     ]
     best = min((least_squares(away, start, bounds=bounds) for start in starts), key=lambda one: float(one.cost))
     design = np.asarray(best.jac).reshape(2, len(strain), -1)
@@ -268,10 +273,13 @@ def _fitted(sweep: AmplitudeSweep) -> tuple[Array, Array, Array]:
         scatter = np.maximum(np.sqrt(np.sum(residual**2, axis=1) / _freedom(np.asarray(best.jac))), 1e-9)
         best = least_squares(away, best.x, bounds=bounds)
     slope = np.asarray(best.jac)
-    inverse = np.linalg.pinv(slope.T @ slope, rcond=1e-12)
+    # Each constant in units of its own effect: a plateau far from the data, near zero, has hardly any on logarithms.
+    unit = np.maximum(np.linalg.norm(slope, axis=0), 1e-12 * np.linalg.norm(slope))
+    _, parts, modes = np.linalg.svd(slope / unit, full_matrices=False)
+    back = modes.T / np.maximum(parts, _UNSEEN * parts[0]) / unit[:, None]
     # So that normal 95 % intervals are those of Student's t, by the freedom of the modulus that has less.
     wider = student_factor(float(_freedom(slope).min()))
-    return best.x, scatter / math.log(10.0), wider**2 * inverse
+    return best.x, scatter / math.log(10.0), wider**2 * back @ back.T
 
 
 def _freedom(slope: Array) -> Array:

@@ -380,7 +380,7 @@ def undetermined(law: object, constants: Array, covariance: Array | None) -> Ite
     """Yield a note if the standard error of a constant, which is above zero, exceeds it."""
     if covariance is not None and np.any(np.diag(covariance) > np.square(constants)):
         text = f"The data do not determine the constants of this law, {law}: it is known where they were measured, and "
-        yield Note("constants-undetermined", text + "not beyond; more temperatures, or a wider range, would.")
+        yield Note("constants-undetermined", text + "not beyond; a wider range would.")
 
 
 def criterion(law: ParametricLaw, table: FactorTable) -> float:
