@@ -12,6 +12,7 @@ from matplotlib.container import ErrorbarContainer
 import viscofric as vf
 from refusals import refused
 from viscofric import report
+from viscofric.datasets import dataset
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,6 +64,14 @@ def legend_of(axes: Axes) -> tuple[str, list[str]]:
     legend = axes.get_legend()
     assert legend is not None
     return legend.get_title().get_text(), [text.get_text() for text in legend.get_texts()]
+
+
+def test_friction_of_a_surface_under_a_mean_pressure_is_drawn(axes: Axes) -> None:
+    found = curves()  # as of a study: without a load
+    given = {"speed": found.speed, "temperature": found.temperature, "friction_coefficient": found.viscoelastic}
+    report.plot_friction_curves(axes, dataset("case", {name: (one, "", name) for name, one in given.items()}))
+    for kelvin, line in zip(KELVIN, axes.lines, strict=True):
+        np.testing.assert_array_equal(line.get_ydata(), found.at_temperature(kelvin).viscoelastic)
 
 
 def test_measured_curves_are_drawn_without_any_prediction(axes: Axes) -> None:

@@ -173,7 +173,7 @@ class Predicted(NamedTuple):
 
     speed: Array  # (n,), m/s
     temperature: Array  # (n,), K
-    load: Array  # (n,), N
+    load: Array  # (n,), N; 0 under a mean pressure, which has no load
     friction: Array  # (n,)
     lower: Array  # (n,), limit of the 95 % band; NaN where there is none
     upper: Array  # likewise
@@ -200,6 +200,7 @@ def predicted(source: Friction) -> Predicted:
     if not of_study:
         friction = ("viscoelastic", "viscoelastic_lower", "viscoelastic_upper", "viscoelastic_error")
     *columns, error = [values(data, name) for name in ("speed", "temperature", "load", *friction)]
+    columns[2] = np.nan_to_num(columns[2])  # rows are chosen by their load
     return Predicted._make([*columns, is_extrapolated(data), shown_error(values(data, friction[0]), error)])
 
 

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from viscofric.datasets import Dataset, DataTree
 from viscofric.files import write_atomically
-from viscofric.report.data import law_of
+from viscofric.report.data import law_of, predicted
 from viscofric.report.figures import saving
 from viscofric.report.figures.contacts import contacts_figure, rough_contacts_figure
 from viscofric.report.figures.convergence import convergence_figure
@@ -133,7 +133,7 @@ def friction_sweep(friction: Dataset, tree: DataTree) -> Figure | None:
 
 def _few_curves(prediction: Dataset, measurement: Dataset | None) -> Dataset:
     """Leave out temperatures where there are too many lines to distinguish, and loads other than the measured."""
-    temperature, load = (values(prediction, name) for name in ("temperature", "load"))
+    temperature, load = values(prediction, "temperature"), predicted(prediction).load
     nominal = nominal_temperatures(temperature)
     kept, shown = set(thinned(nominal.size, MOST_LINES)), np.ones(temperature.size, dtype=bool)
     if measurement is not None:
