@@ -20,8 +20,8 @@ Shape: TypeAlias = tuple[int, int]
 # Bytes of a spectrum from which on it is worked through in blocks, and bytes of a block: about a half of the cache
 # that a core has to itself.
 _LARGE, _BLOCK = 2**22, 2**19
-# Cosines up to which a product of matrices is quicker than a call of a fast transform.
-_FEW_COSINES = 64
+# Cosines up to which a product of matrices is as quick as a fast transform, and lets lines along x lie together.
+_FEW_COSINES = 128
 
 
 class Transforms:
@@ -120,22 +120,22 @@ class ScipyTransforms(Transforms):
         """
         (nx, ny), (px, py) = values.shape, padded
         threads = self._threads(px * py)
+        if py <= _FEW_COSINES:
+            forth, back = _cosines(ny, py, values.dtype.char)
+            waves = self._fft.rfft(forth.T @ values.T, px, axis=1, workers=threads)
+            waves *= factor.T
+            lines = self._fft.irfft(waves, px, axis=1, overwrite_x=True, workers=threads)
+            return lines[:, :nx].T @ back  # type: ignore[no-any-return]
         rows = max(1, threads * _BLOCK // (py * values.itemsize))
         columns = max(8, threads * _BLOCK // (px * values.itemsize))
         lines, found = np.empty((nx, py), values.dtype), np.empty_like(values)
-        few = py <= _FEW_COSINES
-        if few:
-            forth, back = _cosines(ny, py, values.dtype.char)
-            np.matmul(values, forth, out=lines)
-        for i in range(0, 0 if few else nx, rows):
+        for i in range(0, nx, rows):
             lines[i : i + rows] = self._fft.dct(values[i : i + rows], 2, py, axis=1, workers=threads)
         for j in range(0, py, columns):
             part = lines[:, j : j + columns]
             some = self._fft.rfft(part, px, axis=0, workers=threads)
             some *= factor[:, j : j + columns]
             part[...] = self._fft.irfft(some, px, axis=0, overwrite_x=True, workers=threads)[:nx]
-        if few:
-            return lines @ back
         for i in range(0, nx, rows):
             found[i : i + rows] = self._fft.idct(lines[i : i + rows], 2, axis=1, workers=threads)[:, :ny]
         return found
@@ -190,6 +190,11 @@ class DuccTransforms(Transforms):
         )  # fmt: skip
         self._fft.dct(lines[:nx], 3, axes=(1,), inorm=2, nthreads=threads, out=lines[:nx])
         return lines[:nx, :ny].copy()
+
+
+def along_x(factor: AnyArray) -> AnyArray:
+    """Return a factor of `convolved_even` in the order of memory in which it is quickest."""
+    return np.asfortranarray(factor) if factor.shape[1] <= _FEW_COSINES else np.ascontiguousarray(factor)
 
 
 @lru_cache(maxsize=32)

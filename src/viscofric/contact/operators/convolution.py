@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from viscofric.arrays import Array, ComplexArray
 from viscofric.contact.arrays.backend import AnyArray, Backend
+from viscofric.contact.arrays.transforms import along_x
 from viscofric.contact.complementarity import ComplementaritySolution, solve_complementarity
 from viscofric.contact.extension import Extension, lag
 from viscofric.contact.free.grids import Grid
@@ -176,8 +177,8 @@ class ConvolutionOperator(ABC):
         half = self._changed(self._displacement)
         (nx, ny), (px, _) = self.window.shape, self._padded
         half._is_even, half._padded = True, (px, scipy.fft.next_fast_len(ny, real=True))
-        half._transfer = half._even_spectrum(self._displacement)
-        half._inverse_symbol = np.ascontiguousarray(self._inverse_symbol[: nx // 2 + 1, : ny // 2])
+        half._transfer = along_x(half._even_spectrum(self._displacement))
+        half._inverse_symbol = along_x(self._inverse_symbol[: nx // 2 + 1, : ny // 2])
         return half
 
     def _changed(self, displacement: Array) -> Self:
