@@ -1071,6 +1071,25 @@ def test_points_that_may_part_thousands_are_refused(tmp_path):
     assert decided.isotherms[0].storage_modulus[:5] == pytest.approx(plain.isotherms[0].storage_modulus, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("mark", "head", "noted"), [(";", 1.0, True), ("\t", 1.0, True), (",", 1.0, False), (";", 0.1, False)]
+)
+def test_points_that_are_all_before_three_digits_are_noted(tmp_path, mark, head, noted):
+    rows = [(f, f"{12.345 + f:.3f}", f"{head * (1.234 + f):.3f}") for f in (1, 2, 3, 5)]  # "0.223" is no thousand
+    lines = [mark.join(map(str, row)) for row in [("f (Hz)", "E' (MPa)", "E'' (MPa)"), *rows]]
+    sweeps = read_dma(write(tmp_path, *lines), temperature="20 degC")
+    assert sweeps.isotherms[0].storage_modulus[0] == pytest.approx(13.345e6, rel=1e-12)
+    assert ("decimals-assumed" in codes(sweeps.notes)) == noted
+
+
+@pytest.mark.parametrize(("heading", "noted"), [("tan δ", True), ("tan δ (-)", False)])
+def test_a_large_loss_tangent_without_a_unit_is_noted(tmp_path, heading, noted):
+    rows = [f"{f},5,{1.1 + 0.1 * f:.3g}" for f in (1, 2, 4)]
+    sweeps = read_dma(write(tmp_path, f"f (Hz),E' (MPa),{heading}", *rows), temperature="20 degC")
+    assert sweeps.isotherms[0].loss_modulus == pytest.approx([6e6, 6.5e6, 7.5e6], rel=1e-12)
+    assert ("tangent-without-unit" in codes(sweeps.notes)) == noted
+
+
 @pytest.mark.parametrize("unit", ["MHZ", "mhz"])
 def test_a_unit_of_either_milli_or_mega_is_asked_for(tmp_path, unit):
     with refused("wrong-unit"):

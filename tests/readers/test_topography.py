@@ -256,6 +256,7 @@ def test_positions_about_a_matrix_are_no_heights(tmp_path):
         ("1,5\n1,25\n0,75\n", {}, ("ambiguous-decimals", 1, "'1,5'")),  # one column, or two
         ("1,5\n2,25\n3,75\n", {"spacing": "1 um"}, ("ambiguous-decimals", 1, "'1,5'")),
         ("1,234;5,678\n9,123;4,567\n", {"spacing": "1 um"}, ("ambiguous-decimals", 1, "'1,234'")),
+        ("1.234;5\n9.123;4\n4.321;6\n802;7\n", {"spacing": "1 um"}, ("ambiguous-decimals", 1, "'802'")),
         ("1,2,3,4\n5,6,7,8\n", {}, ("no-spacing",)),
         ("1,2,3,4\n5,6\n", {"spacing": "1 um"}, ("row-length", 2, "2 numbers", "4")),
         (5 * "1,2,3,4\n" + "1,2,3,oops\n", {"spacing": "1 um"}, ("not-a-number", 6, "'oops'")),

@@ -25,6 +25,7 @@ class Found:
 
     rows: list[NumberedRow]
     header: int
+    delimiter: str = ""  # "" of a workbook
 
 
 def named(cells: Sequence[str], words: Vocabulary) -> set[str]:

@@ -56,6 +56,7 @@ class Table:
     block: Integers | None = None  # of each row, where several tables stand below each other
     titles: tuple[tuple[tuple[str, ...], ...], ...] = ()  # cells of the lines above each of these tables
     empty_rows: int = 0  # left out, with none of the quantities that make a header
+    pointed: str = ""  # a number whose point may part thousands, where no number shows what points are
     vocabulary: Vocabulary = NO_WORDS
 
     def with_column(self, column: Column, cells: Sequence[str]) -> Table:
@@ -255,7 +256,8 @@ class Table:
             text = f"No column holds a {what}; {plural} were taken from the headings"
             other = ", or from the line above each table" if what == "temperature" else ""
             said.append((f"{what}-from-title", name in headings, f"{text}{other}."))
-        return [Note(code, text) for code, holds, text in said if holds]
+        notes = [Note(code, text) for code, holds, text in said if holds]
+        return [*notes, on_doubtful_point(self.pointed)] if self.pointed else notes
 
     def _is_dry(self, place: int) -> bool:
         """Return whether all cells of a column of lubricants say that there is none."""
@@ -341,9 +343,10 @@ def make_table(
     quantities = {place for place, column in enumerate(columns) if column.quantity}
     numeric = {place for place in range(len(columns)) if all(NUMBER.fullmatch(row[place].strip()) for row in rows)}
     measured = quantities | numeric | {place for place, column in enumerate(columns) if column.unit}
+    pointed = ""
     if decimals is None:
         read = quantities or measured
-        _insist_on_no_points_of_thousands(path, rows, lines, read)
+        pointed = doubtful_point(path, rows, lines, read)
         printed, beside = (
             [(row[place], line) for row, line in zip(rows, lines, strict=True) for place in some]
             for some in (read, measured - read)
@@ -352,26 +355,38 @@ def make_table(
     if decimals != Decimals():
         rows = [tuple(decimals.plain(cell) if n in measured else cell for n, cell in enumerate(row)) for row in rows]
     numbers = np.array(lines, dtype=np.int64)
-    table = Table(path, columns, tuple(rows), numbers, empty_rows=empty, vocabulary=vocabulary)
+    table = Table(path, columns, tuple(rows), numbers, empty_rows=empty, pointed=pointed, vocabulary=vocabulary)
     _insist_on_no_summaries(table)
     return table
 
 
-def _insist_on_no_points_of_thousands(
-    path: str, rows: Sequence[tuple[str, ...]], lines: Sequence[int], places: Collection[int]
-) -> None:
-    """Refuse "1.234" beside "802" in a column where no number of the table shows that points are those of decimals."""
-    held = {place: [row[place].strip() for row in rows] for place in places}
-    pointed = {place: [cell for cell in cells if "." in cell] for place, cells in held.items()}
-    if not all(_POINTED.fullmatch(cell) for cells in pointed.values() for cell in cells):
-        return
-    for place, cells in held.items():
-        whole = [cell for cell in cells if cell.lstrip("+-").isdecimal()]
-        if len(pointed[place]) >= _MOST_BY_CHANCE and any(cell.lstrip("+-") != "0" for cell in whole):
-            number, line = pointed[place][0], lines[cells.index(pointed[place][0])]
-            problem = f"{number!r} may be {number} or {number.replace('.', '')}, as {whole[0]!r} stands in its column; "
-            right = "write decimals also where they are zero, or no mark between thousands."
+def doubtful_point(path: str, rows: Sequence[Sequence[str]], lines: Sequence[int], places: Collection[int]) -> str:
+    """Return the first number whose point may part thousands if no number shows what points are; refuse "802" below it.
+
+    The places are those of columns.
+    """
+    if any("." in (cell := row[place].strip()) and not _POINTED.fullmatch(cell) for row in rows for place in places):
+        return ""
+    first = ""
+    for cells in ([row[place].strip() for row in rows] for place in places):
+        pointed = [cell for cell in cells if "." in cell]
+        whole = [cell for cell in cells if cell.lstrip("+-").isdecimal() and cell.lstrip("+-") != "0"]
+        if len(pointed) < _MOST_BY_CHANCE:
+            continue
+        first, line = first or pointed[0], lines[cells.index(pointed[0])]
+        if whole:
+            problem = f"{pointed[0]!r} may be {pointed[0]} or {pointed[0].replace('.', '')}, as {whole[0]!r} stands in "
+            right = "its column; write decimals also where they are zero, or no mark between thousands."
             raise DataFileError(path, problem + right, line, code="ambiguous-decimals")
+    return first
+
+
+def on_doubtful_point(number: str) -> Note:
+    """Return the note on numbers that were read with decimals though all could have a mark between thousands."""
+    said = (
+        f"Points were read as those of decimals ({number}); all precede three digits, as in {number.replace('.', '')}."
+    )
+    return Note("decimals-assumed", said, values={"number": number})
 
 
 def _insist_on_no_summaries(table: Table) -> None:

@@ -191,6 +191,7 @@ def _table_under(path: str, found: Found, words: Vocabulary, remarks: Sequence[N
     titles = [tuple(tuple(cells) for _, cells in rows[max(0, header - most) : header]), *titles]
     kept = [row for block in blocks for row in block]
     table = make_table(path, columns, kept, vocabulary=words)
+    table = replace(table, pointed="") if found.delimiter == "," else table  # which decimals cannot have
     first_lines = [block[0][0] for block in blocks if block]
     block = np.searchsorted(first_lines, table.lines, side="right") if len(first_lines) > 1 else None
     held = tuple(title for title, rows_of in zip(titles, blocks, strict=True) if rows_of)
@@ -733,7 +734,7 @@ def _whole(source: Source, words: Vocabulary, delimiter: str, remarks: bool) -> 
     if number in remarked and any(_is_row_of_units(words.columns(headings), row) for _, row in found.rows[first:][:1]):
         first += 1  # units behind the same mark
     below = [row for row in found.rows[first:] if row[0] not in remarked]
-    return Found([*found.rows[:first], *below], found.header)
+    return Found([*found.rows[:first], *below], found.header, delimiter)
 
 
 def lines_of(text: str, *, remarks: bool = False) -> list[tuple[int, str, bool]]:

@@ -19,7 +19,7 @@ from viscofric.readers.dma.readings import AS_SWEEPS
 from viscofric.readers.dma.tables import dma_table, reptate, workbook
 from viscofric.readers.one_table import only_table
 from viscofric.readers.source import Source, checked_sheet, converted, unit_conversion
-from viscofric.readers.table import MILLIPASCAL, Table
+from viscofric.readers.table import MILLIPASCAL, Table, on_doubtful_point
 from viscofric.units import Quantity, checked_poisson_ratio, positive, shown_celsius
 
 #: Reference temperatures are printed with few digits.
@@ -148,6 +148,7 @@ def _of_table(table: Table, source: Source, reference: float, notes: list[str]) 
         heading = table.columns[places["frequency"]].heading
         raise table.refused("no-unit", f"column {heading!r} has no unit; write it as {f'{heading} (rad/s)'!r}.")
     dma_table.insist_on_one_frequency(table, places, frequency)
+    notes += [on_doubtful_point(table.pointed)] if table.pointed else []
     storage, loss = dma_table.moduli(table, places, source, [])
     temperature = np.full(len(frequency), reference)
     if "temperature" in places:

@@ -17,7 +17,7 @@ from viscofric.notes import Note, Remedy, setting
 from viscofric.readers.headings import Vocabulary, heading
 from viscofric.readers.one_table import only_table
 from viscofric.readers.source import LIKE_THOUSANDS, Source, decimal_comma
-from viscofric.readers.table import MISSING, NUMBER
+from viscofric.readers.table import MISSING, NUMBER, doubtful_point, on_doubtful_point
 from viscofric.readers.tables import holds_table, lines_of
 from viscofric.units import conversion
 
@@ -202,11 +202,12 @@ HEIGHTS = Vocabulary(
 
 
 class _Text(NamedTuple):
-    """A matrix of numbers in text, (rows, columns), the line of each row, and the remarks."""
+    """A matrix of numbers in text, (rows, columns), the line of each row, the remarks, and a doubtful point."""
 
     rows: Array
     lines: list[int]
     remarks: dict[str, str]
+    pointed: str
 
 
 def is_table(source: Source) -> bool:
@@ -243,6 +244,7 @@ def read_text_table(source: Source, options: ScanOptions) -> Scan:
     if not in_remarks and holds_table(source, HEIGHTS):
         return _points(source, options)
     table = _parsed(source.path, source.text, are_points=options.spacing is None)
+    doubts = (on_doubtful_point(table.pointed),) if table.pointed else ()
     are_points = options.spacing is None and "width" not in table.remarks and table.rows.shape[1] in (2, 3)
     if are_points and _without_positions(table.rows)[2] is None:
         stated = [table.remarks.get(name, "") for name in ("lateral units", "value units")]
@@ -255,8 +257,10 @@ def read_text_table(source: Source, options: ScanOptions) -> Scan:
         across, up = (conversion(one or options.unit or "m", "m", "unit")[0] for one in stated)
         rows = np.column_stack([across * table.rows[:, :-1], up * _read(table.rows[:, -1], options)])
         assumed = Note("unit-assumed", "positions and heights assumed to be in m", values={"unit": "m"})
-        return scan_of_points(source, rows, options, table.lines, () if options.unit or all(stated) else (assumed,))
-    return _matrix(source, table.rows, options, table.remarks, "text matrix")
+        doubts = doubts if options.unit or all(stated) else (assumed, *doubts)
+        return scan_of_points(source, rows, options, table.lines, doubts)
+    scan = _matrix(source, table.rows, options, table.remarks, "text matrix")
+    return replace(scan, notes=(*scan.notes, *doubts))
 
 
 def _points(source: Source, options: ScanOptions) -> Scan:
@@ -268,7 +272,8 @@ def _points(source: Source, options: ScanOptions) -> Scan:
     units = [column if column.unit else replace(column, unit=options.unit) for column in named]
     factors = [table.conversion(column, "m", Remedy(", or give it by ") + UNIT)[0] for column in units]
     columns = [*map(table.numbers, places[:-1]), _read(table.numbers_or_missing(places[-1]), options)]
-    return scan_of_points(source, np.column_stack(columns) * factors, options, table.lines.tolist())
+    doubts = (on_doubtful_point(table.pointed),) if table.pointed else ()
+    return scan_of_points(source, np.column_stack(columns) * factors, options, table.lines.tolist(), doubts)
 
 
 def _read(heights: Array, options: ScanOptions) -> Array:
@@ -441,7 +446,9 @@ def _parsed(path: str, text: str, *, are_points: bool) -> _Text:
         remarks |= {"corner": unit} if unit else {}
         found[0][1][0] = ""
     rows = np.array([[_number(path, cell, number) for cell in cells] for number, cells in found])
-    return _Text(rows, [number for number, _ in found], remarks)
+    lines, cells_of = [number for number, _ in found], [cells for _, cells in found]
+    pointed = "" if "," in text else doubtful_point(path, cells_of, lines, range(wanted))
+    return _Text(rows, lines, remarks, pointed)
 
 
 def _insist_on_delimiters(path: str, found: list[tuple[int, list[str]]], *, are_points: bool) -> None:

@@ -243,7 +243,7 @@ def moduli(table: Table, places: dict[str, int], source: Source, notes: list[str
         tangent = _printed_tangent(table, places, storage, loss)
         insist_on_agreement(table.path, storage, loss, tangent, values.get("complex modulus"))
         return storage, loss
-    tangent = _tangent(table, places)
+    tangent = _tangent(table, places, notes)
     if "storage modulus" in values:
         notes.append(Note("loss-computed", "The loss moduli were computed as storage modulus times tan δ."))
         return values["storage modulus"], values["storage modulus"] * tangent
@@ -262,7 +262,7 @@ def _of_compliances(table: Table, places: dict[str, int], notes: list[str]) -> t
     """Return storage and loss modulus, Pa, of the compliance J' − iJ'' = 1/(G' + iG''), or of one part and tan δ."""
     found = [_compliance(table, places[what]) if what in places else None for what in COMPLIANCES]
     storage, loss = found
-    tangent = loss / storage if storage is not None and loss is not None else _tangent(table, places)
+    tangent = loss / storage if storage is not None and loss is not None else _tangent(table, places, notes)
     tangent = np.where(tangent == 0.0, np.nan, tangent)
     if storage is not None and loss is not None:
         insist_on_agreement(table.path, storage, loss, _printed_tangent(table, places, storage, loss))
@@ -279,16 +279,18 @@ def _compliance(table: Table, place: int) -> Array:
     return np.where(values == 0.0, np.nan, values)
 
 
-def _tangent(table: Table, places: dict[str, int]) -> Array:
-    """Return tan δ as printed, or from the angle δ; numbers without a unit as large as per cent are refused."""
+def _tangent(table: Table, places: dict[str, int], notes: list[str]) -> Array:
+    """Return tan δ as printed, or from the angle δ; large numbers without a unit have a note, or are refused."""
     if "tan delta" in places:
         column, tangent = table.columns[places["tan delta"]], _fraction(table, places["tan delta"])
-        if column.name and not column.unit and np.nanmedian(tangent) > _LARGEST_TANGENT:
-            problem = (
-                f"half of the values in column {column.heading!r} are above {np.nanmedian(tangent):.3g}, as in per "
-            )
+        if not column.name or column.unit or (half := float(np.nanmedian(tangent))) <= 1.0:
+            return tangent
+        if half > _LARGEST_TANGENT:
+            problem = f"half of the values in column {column.heading!r} are above {half:.3g}, as in per "
             right = f"cent; write it as '{column.name} (%)', or as '{column.name} (-)' if they are tan δ itself."
             raise table.refused("no-unit", problem + right)
+        said = f"Read as tan δ itself, no angle and not in per cent: {column.heading!r}, half of it above {half:.3g}."
+        notes.append(Note("tangent-without-unit", said, values={"median": half}))
         return tangent
     place = places["phase angle"]
     angle = table.values(place, "rad", or_missing=True)
