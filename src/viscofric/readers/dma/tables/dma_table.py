@@ -110,7 +110,7 @@ def with_one_abscissa(table: Table, test: Test, notes: list[str]) -> Table:
             table, n, first, test, like=like
         ):
             raise table.of_others(n, first, _SWEPT[test])
-    kept = tuple(Column("", "", "") if n in own.values() else one for n, one in enumerate(columns))
+    kept = tuple(replace(one, name="", quantity="") if n in own.values() else one for n, one in enumerate(columns))
     others = {curve: n for curve, n in own.items() if _differs(table, n, first, test, like=True)}
     table = replace(table, columns=kept)
     return _interpolated(table, first, curves[0], others, test, notes) if others else table
@@ -168,7 +168,8 @@ def _interpolated(table: Table, first: int, before: int, others: dict[int, int],
         tuple(repr(float(found[n][row])) if n in found else cell for n, cell in enumerate(table.rows[row]))
         for row in within
     ]
-    plain = tuple(replace(one, base=0.0) if n in found else one for n, one in enumerate(columns))
+    read = [Column("", "", "") if n in others.values() else one for n, one in enumerate(columns)]
+    plain = tuple(replace(one, base=0.0) if n in found else one for n, one in enumerate(read))
     block = None if table.block is None else table.block[within]
     return replace(table, rows=tuple(rows), columns=plain, lines=table.lines[within], block=block)
 
