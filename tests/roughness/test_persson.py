@@ -70,7 +70,7 @@ def test_on_an_anisotropic_surface_the_theory_is_the_mean_of_all_directions_and_
     )
     assert all(one.diagnostics.full_contact for one in (along, across))
     theory = vf.persson_theory(RUBBER, spectrum, speeds=0.01, pressure="60 MPa")
-    assert codes(theory.notes) == {"anisotropic-surface", "frequencies-unknown"}
+    assert codes(theory.notes) == {"anisotropic-surface", "frequencies-unknown", "cut-off"}
     mean = 0.5 * (along.friction_coefficient + across.friction_coefficient)
     # Harmonics beyond the second are left out of the mean of two directions, and a power law lies between points.
     assert theory.friction_coefficient[0, 0] == pytest.approx(mean, rel=0.05)
@@ -150,6 +150,19 @@ def test_what_each_scale_adds_sums_to_the_whole_and_area_falls_from_scale_to_sca
     at = np.interp(math.log(2.0 * math.pi / 50e-6), place, found.friction_by_scale[0, 1])
     # Linear interpolation between scales a sixteenth of a decade apart.
     assert shorter.friction_coefficient[0, 0] == pytest.approx(at, rel=3e-3)
+
+
+def test_what_the_shortest_octave_of_waves_does_is_noted():
+    found = vf.persson_theory(RUBBER, ROAD, speeds=[0.0, 0.01], pressure=1e5)
+    (note,) = [one for one in found.notes if one.code == "cut-off"]
+    before = vf.persson_theory(RUBBER, ROAD.limited(shortest="10 um"), speeds=[0.0, 0.01], pressure=1e5)
+    larger = (before.contact_area_fraction / found.contact_area_fraction).max() - 1.0
+    share = 1.0 - before.friction_coefficient[0, 1] / found.friction_coefficient[0, 1]
+    # The grid's point next below the octave is up to a sixteenth of a decade longer: 0.05 of an octave of 0.3 decades.
+    assert note.values["area"] == pytest.approx(larger, rel=0.2)
+    assert note.values["friction"] == pytest.approx(share, rel=0.2)
+    smooth = replace(ROAD, density=ROAD.density * (ROAD.wave_number / ROAD.wave_number[0]) ** -6.0)
+    assert "cut-off" not in codes(vf.persson_theory(RUBBER, smooth, speeds=0.01, pressure=1e5).notes)
 
 
 def test_temperature_shifts_speed():
