@@ -83,7 +83,7 @@ def test_one_state_is_cold_and_hot_and_a_data_set_holds_all() -> None:
     data = found.to_dataset()
     assert data.temperature_rise.dims == data.friction_coefficient.dims
     assert data.isothermal_friction.attrs["units"] == "1"
-    assert codes(found.notes) == {"frequencies-unknown"}
+    assert codes(found.notes) == {"frequencies-unknown", "rise-uncertain"}
     assert found.mean_friction_coefficient == pytest.approx(found.friction_coefficient.mean(-1))
 
 

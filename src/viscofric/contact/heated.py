@@ -275,8 +275,8 @@ def _settled(contact: ThermalContact, curve: HeatCurve, state: State, accuracy: 
         last[:] = [contact.at(rise, accuracy, hot=state.hot)]
         return last[0].produced
 
-    rise, residual = settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)
-    return last[0]._replace(left=curve.left(rise, residual))
+    rise, _ = settled(state, produced, lambda rise: curve.tolerance(rise, accuracy), curve.limits)
+    return last[0]._replace(felt=curve.felt(rise))
 
 
 def _within_law(contact: ThermalContact, found: list[Warmed]) -> tuple[list[Warmed], tuple[Note, ...]]:

@@ -91,7 +91,7 @@ class _Start(NamedTuple):
     def settling(self, accuracy: float) -> Generator[_Call, Warmed, float]:
         """Yield the contact at rises until the one that it produces agrees, and take what it has produced.
 
-        Return the relative error that is left in its friction.
+        Return how its friction feels an error of the rise, as in `Warmed`.
 
         It keeps its resistances where α has hardly changed since they were found.
         """
@@ -108,7 +108,7 @@ class _Start(NamedTuple):
             try:
                 rise = steps.send(one.produced)
             except StopIteration as end:
-                return self.curve.left(*end.value)
+                return self.curve.felt(end.value[0])
 
 
 class _Solver(NamedTuple):
@@ -155,7 +155,7 @@ class _Solver(NamedTuple):
                 try:
                     more[row] = searches[row].send(one)
                 except StopIteration as end:
-                    found[row] = one._replace(left=end.value)
+                    found[row] = one._replace(felt=end.value)
             calls = more
         return [found[row] for row in range(len(starts))]
 

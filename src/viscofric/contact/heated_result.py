@@ -50,7 +50,7 @@ class Heat(NamedTuple):
 class Warmed(NamedTuple):
     """A contact solved at a rise of temperature, K, what is kept of its solution, and the rise that it produces, K.
 
-    `left` is the relative change of its friction where both rises agree.
+    `felt` is the relative change of its friction per kelvin of the rise that it produces.
     """
 
     rise: float
@@ -58,12 +58,12 @@ class Warmed(NamedTuple):
     solution: Any
     heat: Heat
     produced: float
-    left: float = 0.0
+    felt: float = 0.0
 
     @property
     def friction_left(self) -> float:
         """Error of the friction coefficient due to the difference of both rises."""
-        return self.left * abs(self.friction)
+        return self.felt * abs(self.produced - self.rise) * abs(self.friction)
 
 
 def beyond(law: str, kelvin: float) -> InputError:
@@ -119,6 +119,12 @@ def described(
     if heating.average == "contact" and result.skin < THIN and rise > 0.0:
         notes.append(thin_skin(result.skin, result.face_rise, result.loss_weighted_rise))
     notes += _loss_beyond(result, found[0].friction, heating.average)
+    if (part := found[0].felt * error) > _FELT:
+        said = (
+            f"The rise of temperature is {rise:.3g} ± {error:.2g} K, whose error changes friction by up to "
+            f"{100.0 * part:.2g} %; the error stated for friction does not include it."
+        )
+        notes.append(Note("rise-uncertain", said, values={"severity": part, "rise_error": error}))
     return result, tuple(notes)
 
 

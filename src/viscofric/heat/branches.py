@@ -71,10 +71,10 @@ class HeatCurve(NamedTuple):
         """Return the residual, K, that neither friction nor the rise itself feels."""
         return min(LEFT * abs(rise) + 1e-9, 0.5 * accuracy / max(self._felt(rise)[0], 1e-300))
 
-    def left(self, rise: float, residual: float) -> float:
-        """Return the relative difference of friction from that of the state near a rise with a residual, K."""
+    def felt(self, rise: float) -> float:
+        """Return the relative change of friction per kelvin that the contact near a rise produces more, or less."""
         per_kelvin, slope = self._felt(rise)
-        return per_kelvin * abs(residual) / (1.0 - min(slope, _STEEPEST))
+        return per_kelvin / (1.0 - min(slope, _STEEPEST))
 
     def _felt(self, rise: float) -> tuple[float, float]:
         """Return the relative change of friction per kelvin near a rise, in size, and dG/dΔT."""

@@ -142,7 +142,10 @@ def predict_heated(
     states = [found[row] for row in order]
     notes = dict.fromkeys(note for one in states for note in one.notes if note.code == "states-beyond")
     numbers = [
-        one.wanted.solution._replace(friction_error=one.wanted.solution.friction_error + one.wanted.friction_left)
+        one.wanted.solution._replace(
+            friction_error=one.wanted.solution.friction_error + one.wanted.friction_left,
+            notes=(*one.wanted.solution.notes, *(note for note in one.notes if note.code == "rise-uncertain")),
+        )
         for one in states
     ]
     return numbers, heat_columns(states), tuple(notes)

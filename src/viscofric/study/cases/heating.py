@@ -33,7 +33,10 @@ COLUMNS = {
     "interface_error": ("coulomb_error", "1", "standard error of the friction coefficient of the interface"),
 }
 #: Notes of the curves that are kept; others the study has anyway: of isothermal contacts, or counted over all cases.
-_KEPT = (BEYOND, "interface-extrapolated", "interface-pressure", "loss-beyond", "mean-heat-left-out", "states-beyond")
+_KEPT = (
+    *(BEYOND, "interface-extrapolated", "interface-pressure", "loss-beyond", "mean-heat-left-out", "rise-uncertain"),
+    "states-beyond",
+)
 
 
 def solve_heated(
