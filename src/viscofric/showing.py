@@ -288,7 +288,7 @@ def _amount(value: float, unit: str, error: float | None = None) -> str:
     if unit in _PREFIXED and not (unit == "s" and abs(value) >= 1.0):
         power = 2 if unit.endswith("²") else 1
         return prefixed(value, error, unit.removesuffix("²"), power)
-    text = short(value) if error is None or not error > _ROUND_OFF * abs(value) else with_error(value, error)
+    text = with_error(value, error)
     return f"{text} {unit}" if unit else text
 
 
@@ -312,16 +312,16 @@ def short(value: float, digits: int = 4) -> str:
     return text.rstrip("0").rstrip(".") if "." in text and "×" not in text else text
 
 
-def with_error(value: float, error: float) -> str:
-    """Return a value to the digits that its error leaves: 10.04 ± 0.05."""
+def with_error(value: float, error: float | None) -> str:
+    """Return a value to the digits that its error leaves: 10.04 ± 0.05; to four at most if that is not known."""
+    if error is None or not _ROUND_OFF * abs(value) < error < math.inf:
+        return short(value)
     if not math.isfinite(value):
         return ABSENT
-    if not math.isfinite(error) or error <= 0.0:
-        return significant(value, 4)
     decimals = max(0, 1 - math.floor(math.log10(error)))
     if decimals > 9:
         return f"{significant(value, 6)} ± {significant(error, 2)}"
-    return f"{shown_number(value, f'.{decimals}f')} ± {error:.{decimals}f}"
+    return f"{shown_number(value, f'z.{decimals}f')} ± {error:.{decimals}f}"
 
 
 def several(shown: Sequence[str], more: int = 0) -> str:
@@ -339,6 +339,5 @@ def prefixed(value: float, error: float | None, unit: str, power: int = 1) -> st
     factor, prefix = next(fits, (1.0, "") if size == 0.0 else _PREFIXES[-1])
     scale = factor**power
     raised = {1: "", 2: "²"}[power]
-    if error is None or not error > _ROUND_OFF * size:
-        return f"{short(value / scale)} {prefix}{unit}{raised}"
-    return f"{with_error(value / scale, error / scale)} {prefix}{unit}{raised}"
+    error = None if error is None else error / scale
+    return f"{with_error(value / scale, error)} {prefix}{unit}{raised}"

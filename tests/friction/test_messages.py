@@ -360,7 +360,7 @@ NOTES: list[tuple[Callable[[], vf.FrictionCurves], str, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("separated", "code", "part"), [*NOTES, (NOTES[1][0], NOTES[1][1], "negative (−0.03 ± ")])
+@pytest.mark.parametrize(("separated", "code", "part"), [*NOTES, (NOTES[1][0], NOTES[1][1], "negative (−0.03)")])
 def test_notes_say(separated: Callable[[], vf.FrictionCurves], code: str, part: str) -> None:
     (said, *_) = [note for note in separated().notes if getattr(note, "code", "") == code]
     assert part in said

@@ -53,7 +53,7 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
         read_dma,
         [DMA, *SWEEP],
         (
-            "does not state whether it was measured in tension or in shear, a factor of 3 in the modulus; give "
+            "does not state whether it was measured in tension or in shear, a factor of 3 in the modulus; set "
             "deformation = 'tension' or 'shear'."
         ),
     ),

@@ -11,6 +11,7 @@ import viscofric as vf
 from refusals import refused
 from viscofric.data import MasterCurve
 from viscofric.rheology.superposition.kramers_kronig import kramers_kronig
+from viscofric.showing import with_error
 
 RUBBER = vf.synthetic_fluoroelastomer().spectrum
 TRANSITION = np.logspace(-2, 9, 200)
@@ -74,7 +75,7 @@ def test_a_loss_modulus_wrong_by_a_factor_is_caught(factor, omega):
     found = kramers_kronig(curve(omega, 0.01, 1, loss=factor))
     assert not found.holds
     assert found.loss_scale == pytest.approx(factor, rel=0.05)
-    assert f"E'' is {found.loss_scale:.2f}" in found.sentence
+    assert f"E'' is {with_error(found.loss_scale, found.loss_scale_error)} times" in found.sentence
 
 
 def test_swapped_columns_are_caught():

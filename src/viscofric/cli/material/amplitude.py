@@ -13,6 +13,7 @@ from viscofric.cli.files import WRITTEN, Source, refuse_to_overwrite
 from viscofric.cli.output import drawing, is_synthetic, outputs, print_json, write_files
 from viscofric.cli.rubber_options import reading_options
 from viscofric.notes import listed
+from viscofric.showing import with_error
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -136,7 +137,7 @@ def _compared(found: ContactAtStrain, words: str) -> tuple[dict[str, Any], list[
     }
     lines = [f"{words}: strain {100 * found.strain:.3g} %"]
     lines += [
-        f"friction {name}: {one.friction_coefficient:.4g} ± {one.diagnostics.friction_error:.2g}"
+        f"friction {name}: {with_error(one.friction_coefficient, one.diagnostics.friction_error)}"
         for name, one in both.items()
     ]
     return record, lines

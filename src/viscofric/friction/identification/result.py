@@ -174,7 +174,7 @@ class Identified(Plotted):
             for side in ("lower", "upper"):
                 limit, words = getattr(getattr(band, side), part), f"{side} end of the 95 % band of the {name} modulus"
                 columns[f"{name}_modulus_{side}"] = (limit, "Pa", words)
-        of = "|E|" if self.anchored else "|E| over its level"
+        of = "|E|" if self.anchored else "|E| over that at the middle frequency"
         columns["modulus_error"] = (self.standard_error(omega), "1", f"relative standard error of {of}")
         return dataset(
             "angular_frequency",
@@ -216,12 +216,14 @@ class Identified(Plotted):
     def _band_words(self) -> str:
         band = self.identified
         about = "" if self.shift_factors is None else f" at {shown_celsius(float(self.shift_factors.reference))} °C"
-        of = "|E(ω)| over its level" if band.relative else "|E(ω)|"
+        of = f"|E(ω)| over |E| at {self.middle:.2g} rad/s" if band.relative else "|E(ω)|"
         if band.high <= band.low:
             return f"Nowhere is the standard error of {of} {100.0 * band.limit:g} % or less."
+        loss = self.identified_loss.decades
+        of_loss = f"over {loss:.1f} of them" if loss >= 0.05 else "nowhere"  # 0.05 is written as 0.1
         return (
             f"The standard error of {of} is {100.0 * band.limit:g} % or less from {band.low:.2g} to {band.high:.2g} "
-            f"rad/s{about}, {band.decades:.1f} decades, that of E'' over {self.identified_loss.decades:.1f} of them; "
+            f"rad/s{about}, {band.decades:.1f} decades, that of E'' {of_loss}; "
             "beyond, the material is extrapolated, with the band of a smooth spectrum."
         )
 

@@ -13,6 +13,7 @@ from viscofric.friction.measurement.conditions import Condition, where
 from viscofric.friction.measurement.fit import Entry
 from viscofric.friction.measurement.zeros import ROUNDING, Zeros
 from viscofric.notes import Note, Remedy
+from viscofric.showing import with_error
 from viscofric.traction import TractionRuns
 from viscofric.units import shown_number
 
@@ -186,8 +187,7 @@ def _significant(entries: list[Entry], number: int, deviation: Array, more_error
 
 
 def _shown(entry: Entry, number: int) -> str:
-    error = f" ± {entry.error[number]:.2g}" if np.isfinite(entry.error[number]) else ""
-    return f"{shown_number(float(entry.value[number]), '.2g')}{error}"
+    return with_error(float(entry.value[number]), float(entry.error[number]))
 
 
 def constant_force(runs: TractionRuns) -> Iterator[Note]:

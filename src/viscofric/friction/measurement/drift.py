@@ -17,7 +17,8 @@ from viscofric.friction.measurement.fit import DRIFT, FORCE, WEAR, ZERO_CHANGES,
 from viscofric.friction.measurement.zeros import ROUNDING, Zeros, wanders
 from viscofric.nominal import SAME_LOAD, numbered
 from viscofric.notes import Note
-from viscofric.units import plain, shown_number
+from viscofric.showing import with_error
+from viscofric.units import plain
 
 #: Fewest degrees of freedom of a rate, and those from which its error needs no scatter of other combinations.
 _FEWEST, _ENOUGH = 2, 5
@@ -117,7 +118,7 @@ class Drift:
         if self.coulomb.value:
             moved = np.array([fit.each[:, 1, WEAR].mean() for fit in fits])
             size = float(np.abs(self.coulomb.value * moved).max())
-            rate, error = (plain(100.0 * _PER_HOUR * one, 2) for one in (self.coulomb.value, self.coulomb.error))
+            rate = with_error(*(100.0 * _PER_HOUR * one for one in (self.coulomb.value, self.coulomb.error)))
             words = (
                 "for example by wear. Its errors include this; from viscoelastic friction, which it would change by up "
                 f"to {size:.2g}, it is subtracted."
@@ -130,7 +131,7 @@ class Drift:
                 )
             yield Note(
                 "coulomb-drifts",
-                f"Coulomb friction changes by {rate} ± {error} % per hour in the course of the test, {words}",
+                f"Coulomb friction changes by {rate} % per hour in the course of the test, {words}",
                 # rate and its error in 1/s
                 values={
                     "rate": self.coulomb.value,
@@ -152,8 +153,8 @@ class Drift:
             size = np.abs(self.zero.value * moved).max(axis=0)
             yield Note(
                 "zero-drifts",
-                f"The zero of the force cell drifts by {shown_number(_PER_HOUR * self.zero.value, '.2g')} ± "
-                f"{_PER_HOUR * self.zero.error:.1g} N/h, "
+                "The zero of the force cell drifts by "
+                f"{with_error(_PER_HOUR * self.zero.value, _PER_HOUR * self.zero.error)} N/h, "
                 f"which is taken out; left in, it would change the friction coefficients by up to {size[0]:.2g} "
                 f"(viscoelastic) and {size[1]:.2g} (Coulomb).",
                 values={  # rate and its error in N/s

@@ -12,6 +12,7 @@ from viscofric.arrays import Array, Indices, Integers
 from viscofric.errors import wrong_argument
 from viscofric.friction.measurement.conditions import Condition
 from viscofric.notes import Note
+from viscofric.showing import with_error
 from viscofric.traction import TractionRuns
 from viscofric.units import Quantity, shown_number, to_si
 
@@ -163,7 +164,7 @@ def another_zero(runs: TractionRuns, groups: list[Condition], zeros: Zeros) -> I
         yield Note(
             "given-zero-contradicted",
             f"The given zero of the force cell, {shown_number(given, '.3g')} N, is used, though the configurations at "
-            f"{fitted.size} conditions give another one, {shown_number(mean, '.3g')} ± {error:.1g} N.",
+            f"{fitted.size} conditions give another one, {with_error(mean, error)} N.",
             values={"given": given, "fitted": mean, "error": float(error), "conditions": fitted.size},
         )
 

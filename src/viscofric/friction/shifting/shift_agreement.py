@@ -18,8 +18,8 @@ from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.laws import ParametricLaw, ShiftLaw
 from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.superposition.result import Superposition
-from viscofric.showing import Plotted, Rows
-from viscofric.units import shown_celsius, shown_number
+from viscofric.showing import Plotted, Rows, with_error
+from viscofric.units import shown_celsius
 
 #: A temperature closer than this to the reference is the reference, K.
 AT_REFERENCE = 1e-6
@@ -129,7 +129,7 @@ class ShiftAgreement(Plotted):
             f"The shift factors at {where}, relative to {shown_celsius(self.reference)} °C, differ by {self.rms:.2g} "
             f"decades (root mean square) and {verdict} their errors "
             f"(χ² = {self.chi2:.3g} for {self.freedom}, p = {self.p_value:.2g}): log10 α found is "
-            f"{shown_number(self.slope, '.3f')} ± {self.slope_error:.2g} times the other."
+            f"{with_error(self.slope, self.slope_error)} times log10 α of the comparison."
         )
 
     def __str__(self) -> str:

@@ -375,7 +375,7 @@ def _as_one_cell(filled: list[str]) -> list[str]:
 #: The problem if nothing decides between tension and shear.
 NOT_SAID = Note(
     "no-deformation",
-    "does not state whether it was measured in tension or in shear, a factor of 3 in the modulus; give ",
+    "does not state whether it was measured in tension or in shear, a factor of 3 in the modulus; set ",
     remedy=setting("material.deformation", "Measured in", "'tension' or 'shear'") + ".",
 )
 

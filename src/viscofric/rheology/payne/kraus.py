@@ -21,7 +21,7 @@ from viscofric.notes import Note
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts.shift_law import checked_covariance
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
-from viscofric.showing import Plotted, Rows
+from viscofric.showing import Plotted, Rows, with_error
 from viscofric.units import Quantity, in_si, number, shown_celsius, to_si
 
 #: Amplitudes that the law is drawn at.
@@ -124,8 +124,7 @@ class KrausLaw(Plotted):
         shown = []
         for place, (name, value, error) in enumerate(zip(names, self.constants, errors, strict=True)):
             factor, unit = ((100.0, " %") if place == 2 else (1.0, "")) if place in (2, 3) else (1e-6, " MPa")
-            both = f" ± {factor * error:.2g}" if error else ""
-            shown.append(f"{name} = {factor * value:.3g}{both}{unit}")
+            shown.append(f"{name} = {with_error(factor * value, factor * error)}{unit}")
         return f"Kraus: {', '.join(shown)}"
 
     @property

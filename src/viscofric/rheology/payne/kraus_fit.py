@@ -17,7 +17,7 @@ from viscofric.rheology.payne.kraus import CONSTANTS, KrausLaw, kraus_moduli
 from viscofric.rheology.ramps.common_law import EQUALLY_LIKELY, CorrelatedSmoother, correlation, whitened
 from viscofric.rheology.shifts.law_fitting import undetermined
 from viscofric.rheology.shifts.parametric_law import student_factor
-from viscofric.showing import Plotted, Rows, Shown
+from viscofric.showing import Plotted, Rows, Shown, with_error
 from viscofric.threads import one_blas_thread
 
 #: Points that the constants of both moduli, six, need.
@@ -71,8 +71,8 @@ class LinearRange(Shown):
         if not math.isfinite(self.strain):
             return f"the storage modulus is not seen to fall by {100 * self.drop:.0f} % within the sweep"
         return (
-            f"the storage modulus has fallen by {100 * self.drop:.0f} % at a strain of {100 * self.strain:.3g} ± "
-            f"{100 * self.standard_error:.1g} %"
+            f"the storage modulus has fallen by {100 * self.drop:.0f} % at a strain of "
+            f"{with_error(100 * self.strain, 100 * self.standard_error)} %"
         )
 
     def to_dataset(self) -> Dataset:

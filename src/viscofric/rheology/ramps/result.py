@@ -19,9 +19,9 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
 from viscofric.rheology.superposition.consistency import REPRODUCIBILITY
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig
-from viscofric.showing import Plotted, Rows, Shown
+from viscofric.showing import Plotted, Rows, Shown, with_error
 from viscofric.threads import one_blas_thread
-from viscofric.units import shown_celsius
+from viscofric.units import celsius
 
 PeakOf: TypeAlias = Literal["tan delta", "loss modulus"]
 #: A peak has so many points on either side at least; and most of the curves that the errors allow have it inside.
@@ -68,7 +68,7 @@ class GlassTransition(Shown):
         """Return the peak as a line of text."""
         hertz = self.angular_frequency / (2.0 * np.pi)
         name = "tan δ" if self.by == "tan delta" else "loss modulus"
-        return f"{name} at {hertz:.3g} Hz: {shown_celsius(self.temperature)} ± {self.standard_error:.2g} °C"
+        return f"{name} at {hertz:.3g} Hz: {with_error(celsius(self.temperature), self.standard_error)} °C"
 
     def to_dataset(self) -> Dataset:
         """Return the peak as single numbers.
@@ -125,7 +125,7 @@ def glass_transition(ramp: TemperatureRamp, by: PeakOf = "tan delta") -> GlassTr
     >>> modulus = rubber.spectrum.complex_modulus(2 * np.pi * 1.0 * rubber.shift(kelvin))  # at 1 Hz
     >>> ramp = vf.readers.TemperatureRamp("1 Hz", kelvin, modulus.real, modulus.imag)
     >>> print(vf.rheology.glass_transition(ramp, "loss modulus"))
-    loss modulus at 1 Hz: −13.1 ± 0.039 °C
+    loss modulus at 1 Hz: −13.146 ± 0.039 °C
     """
     insist_on(ramp, "ramp", TemperatureRamp)
     check_choice(by, "by", "tan delta", "loss modulus")

@@ -21,6 +21,7 @@ from viscofric.rheology.shifts.shift_factors import ShiftFactors
 from viscofric.rheology.shifts.vertical_shift import VerticalShift, known_vertical
 from viscofric.rheology.superposition.common_curve import Basis
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
+from viscofric.showing import with_error
 from viscofric.threads import one_blas_thread
 from viscofric.units import Quantity, checked_poisson_ratio, kelvin_hint, plain, positive, shown_celsius, to_si
 
@@ -90,7 +91,7 @@ def on_assumption(causality: KramersKronig) -> Note:
     scale = causality.loss_scale
     return Note(
         "assumption-contradicted",
-        f"E'' is {scale:.2f} ± {causality.loss_scale_error:.2f} times what the rise of E' requires with the "
+        f"E'' is {with_error(scale, causality.loss_scale_error)} times what the rise of E' requires with the "
         f"assumed α(T) (Kramers–Kronig): log α about {1.0 / scale:.1f} times as large would agree.",
     )
 

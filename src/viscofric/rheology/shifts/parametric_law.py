@@ -14,7 +14,7 @@ from viscofric.arrays import Array, Mask
 from viscofric.datasets import plain
 from viscofric.errors import InputError, wrong_argument
 from viscofric.rheology.shifts.shift_law import ShiftLaw, as_record, checked_covariance
-from viscofric.showing import Rows
+from viscofric.showing import Rows, with_error
 from viscofric.units import kelvin_hint, positive, shown_celsius, shown_number, to_si_array
 
 #: A law is extrapolated no farther than this beyond the hottest temperature of its fit.  WLF and Arrhenius laws fitted
@@ -323,8 +323,7 @@ def shown_constant(constant: Constant, value: float, error: float) -> str:
     power = math.floor(math.log10(max(abs(value), error)))
     power = power if power >= 6 else 0
     value, error = value / 10.0**power, error / 10.0**power
-    digits = max(0, 1 - math.floor(math.log10(error)))
-    both = f"{shown_number(value, f'z.{digits}f')} ± {error:.{digits}f}"
+    both = with_error(value, error)
     return f"{symbol} = ({both})e{power}{unit}" if power else f"{symbol} = {both}{unit}"
 
 

@@ -21,7 +21,7 @@ from viscofric.rheology.shifts.vertical_shift import VerticalShift, VerticalShif
 from viscofric.rheology.superposition.joined_isotherms import LARGEST_MISFIT, on_gaps, ranges
 from viscofric.rheology.superposition.kramers_kronig import KramersKronig, kramers_kronig
 from viscofric.rheology.superposition.overlap import LogSweep, OverlapQuality, OwnShifts, own_shifts
-from viscofric.showing import Plotted, Rows, Shown
+from viscofric.showing import Plotted, Rows, Shown, with_error
 from viscofric.units import shown_celsius
 
 # Plotted as tan δ against |E*| (H. C. Booij, J. H. M. Palmen, Theoretical and Applied Rheology, 1992, 321; M. van
@@ -480,7 +480,7 @@ def _drift(found: Drift) -> str:
     colder, warmer = (shown_celsius(end, "z.0f") for end in (found.colder, found.warmer))
     return (
         f"from {colder} to {warmer} °C isotherms move steadily to one side in tan δ against |E*|, by "
-        f"{_decades(abs(found.distance))} ± {found.standard_error:.1g} over {found.neighbours} neighbours"
+        f"{with_error(abs(found.distance), found.standard_error)} decades over {found.neighbours} neighbours"
     )
 
 

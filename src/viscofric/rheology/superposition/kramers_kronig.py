@@ -10,6 +10,7 @@ from viscofric.arrays import Array, Mask, non_negative_fit
 from viscofric.data import MasterCurve
 from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
+from viscofric.showing import with_error
 
 #: Bins per decade in which points are averaged: the relations need no more, and noise averages out.
 BINS = 8
@@ -55,7 +56,7 @@ class KramersKronig:
     loss_scale_error: float  # its standard error
 
     def __repr__(self) -> str:
-        return f"KramersKronig(loss scale {self.loss_scale:.2f} ± {self.loss_scale_error:.2f})"
+        return f"KramersKronig(loss scale {with_error(self.loss_scale, self.loss_scale_error)})"
 
     def to_dataset(self) -> Dataset:
         """Return the deviations as a labelled data set along ``angular_frequency`` (reduced, rad/s)."""
@@ -96,7 +97,7 @@ class KramersKronig:
         if self.holds:
             return f"{verdict}: E' calculated from E'' agrees with E' within {rms} (good if ≤ {LARGEST_RMS:g})."
         if self.scale_differs and self.rms_storage < SWAPPED:
-            scale = f"{self.loss_scale:.2f} ± {self.loss_scale_error:.2f}"
+            scale = with_error(self.loss_scale, self.loss_scale_error)
             return (
                 f"{verdict}: E'' is {scale} times what the rise of E' requires; look for a wrong loss modulus, for "
                 "a vertical shift that was left out, or for wrong shift factors."

@@ -72,13 +72,13 @@ def _enough(value: int) -> int:
 _NO_BANDS = Note(
     "no-bands",
     "Friction on a rough surface has no linearised 95 % bands, which are found for indenters only; [uncertainty] "
-    "members solves every case with rubbers drawn from the sweeps, and several seeds show how friction scatters from "
-    "surface to surface.",
+    "members solves every case with samples of the material, and several seeds show how friction scatters from surface "
+    "to surface.",
 )
 _NO_BANDS_OVER_TIME = Note(
     "no-bands",
-    "Contacts over time and impacts have no linearised 95 % bands; [uncertainty] members solves them also with rubbers "
-    "drawn from the sweeps, whose scatter is the band.",
+    "Contacts over time and impacts have no linearised 95 % bands; [uncertainty] members solves them also with samples "
+    "of the material, whose scatter is the band.",
 )
 
 

@@ -14,7 +14,7 @@ from viscofric.friction.identification.indentation.setting_up import Record
 from viscofric.friction.identification.indentation.tables import OF_IMPACTS, STIFFNESSES
 from viscofric.friction.identification.result import Identified
 from viscofric.rheology.spectra.quality import FROM_INDENTATION
-from viscofric.showing import Plotted, Rows
+from viscofric.showing import Plotted, Rows, with_error
 
 #: Quantity -> unit and long name.
 _FITTED = {
@@ -174,7 +174,7 @@ class MaterialFromIndentation(Identified):
         for name, both in self.common_errors.items():
             found, error = (one * (1e6 if name.startswith("zero") else 100.0) for one in both)
             unit = "µm" if name.startswith("zero") else "%"
-            said.append(f"Found error of the {name}: {found:.2g} ± {error:.2g} {unit}.")
+            said.append(f"Found error of the {name}: {with_error(found, error)} {unit}.")
         return tuple(said)
 
     def _band_words(self) -> str:
