@@ -131,6 +131,7 @@ class SystematicMisfit:
     # (n, 2), of log10 E' and of log10 E'' there, decades; beyond the ends it keeps its value. Both are that of log10 of
     # the response where the spectrum was fitted to step tests.
     size: Array
+    cause: str = ""  # the likely one, in words
 
     def __repr__(self) -> str:
         return f"SystematicMisfit(up to {float(self.size.max()):.2g} decades)"
@@ -151,10 +152,10 @@ class SystematicMisfit:
             "fit-misses-data",
             f"The fit misses the measured moduli by more than noise, {modulus} by up to {largest:.2g} decades "
             f"({100.0 * (10.0**largest - 1.0):.2g} %) near {10.0 ** self.log10_frequency[worst[0]]:.1g} rad/s, with "
-            "the same sign at neighbouring points: isotherms do not superpose, E' and E'' contradict each other, or "
-            "the spectrum cannot follow them. The bands of E' and E'' are widened accordingly; those of other "
-            "quantities include the noise only.",
+            f"the same sign at neighbouring points; likely because {self.cause}. The bands of E', E'' and predicted "
+            "friction are widened accordingly; those of other quantities include the noise only.",
             values={
+                "cause": self.cause,
                 "modulus": modulus,
                 "decades": largest,
                 "angular_frequency": float(10.0 ** self.log10_frequency[worst[0]]),
@@ -163,7 +164,7 @@ class SystematicMisfit:
         return (sentence,)
 
 
-def systematic_misfit(log10_frequency: Array, residual: Array, isotherm: Integers) -> SystematicMisfit:
+def systematic_misfit(log10_frequency: Array, residual: Array, isotherm: Integers, cause: str = "") -> SystematicMisfit:
     """Return the part of residuals that neighbouring points have in common."""
     # `log10_frequency` (N,) is log10 of the reduced angular frequency; `residual` (N, m) is measured minus fitted log10
     # E' and log10 E'', decades; `isotherm` (N,) the number of each point's isotherm. The variance of the noise follows
@@ -189,7 +190,7 @@ def systematic_misfit(log10_frequency: Array, residual: Array, isotherm: Integer
         near = np.abs(log10_frequency - centre) <= WINDOW
         if np.any(near):
             size[place] = np.sqrt(np.maximum(np.mean(squares[near] - NOISE * noise[near], axis=0), 0.0))
-    return SystematicMisfit(grid, size if size.shape[1] > 1 else np.repeat(size, 2, axis=1))
+    return SystematicMisfit(grid, size if size.shape[1] > 1 else np.repeat(size, 2, axis=1), cause)
 
 
 class _Limits(NamedTuple):

@@ -15,6 +15,7 @@ from viscofric.arguments import insist_on, text, whole_number
 from viscofric.arrays import Array, Integers
 from viscofric.data import MasterCurve
 from viscofric.errors import InputError
+from viscofric.notes import codes
 from viscofric.rheology.material import Material
 from viscofric.rheology.shifts import law_fitting
 from viscofric.rheology.shifts.laws import VFT, Arrhenius, ParametricLaw, ShiftLaw
@@ -329,7 +330,7 @@ def sample_materials(
     widen with the distance from what was measured (`benchmarks/rheology`).
 
     What the spectrum misses beyond noise, alike over neighbouring points, is not drawn either, for it has no
-    distribution; `MaterialSamples.misfit` holds its size, by which the bands of E(ω) are widened.
+    distribution; `MaterialSamples.misfit` holds its size, by which the bands of E(ω) and of friction are widened.
 
     Not drawn are errors common to a whole measurement (of the sample's dimensions or the temperature scale), and what
     a fit cannot follow: sparse modes ripple about the truth, so that their 95 % bands of E'' held 90 % in planted
@@ -427,7 +428,10 @@ def _misfit(curve: Curve, shifts: ShiftFactors, spectrum: RetardationSpectrum) -
     """Return the misfit of the spectrum to the master curve beyond noise."""
     misfit = misfit_of(curve)
     residual = misfit.residual(misfit.compliance(spectrum)).reshape(-1, len(misfit.rates)).T / np.log(10.0)
-    return systematic_misfit(np.log10(misfit.rates), residual, isotherm_of_points(curve, shifts))
+    doubts = "" if spectrum.fit is None else " ".join(codes(spectrum.fit.doubts))
+    causes = {"superposition-": "isotherms do not superpose", "kramers-kronig-": "E' and E'' contradict each other"}
+    cause = next((words for code, words in causes.items() if code in doubts), "the spectrum cannot follow them")
+    return systematic_misfit(np.log10(misfit.rates), residual, isotherm_of_points(curve, shifts), cause)
 
 
 def normal_deviates(random: np.random.Generator, covariance: Array, samples: int) -> Array:
