@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray
 
 import viscofric as vf
 from cli.calls import call
@@ -16,6 +17,8 @@ from viscofric.errors import StudyError
 from viscofric.notes import codes
 from viscofric.report.captions import captions
 from viscofric.report.figures.histories import histories_figure, impacts_figure
+from viscofric.report.texts.friction_tables import start_table
+from viscofric.report.texts.numbers import length, prefixed
 from viscofric.study.cases import history as cases
 from viscofric.study.checking import check_study
 from viscofric.study.run_file.study import parse_study
@@ -125,6 +128,22 @@ def test_friction_at_the_start_is_drawn(tmp_path: Path) -> None:
     figure = histories_figure(tree)
     assert figure is not None
     assert [one.get_ylabel() for one in figure.axes][-1] == r"friction coefficient $\mu$"
+    _the_table_has_the_largest_friction(data)
+
+
+def _the_table_has_the_largest_friction(data: xarray.Dataset) -> None:
+    more = data.assign(friction_coefficient=1.1 * data["friction_coefficient"])
+    whole = xarray.concat([data, more, data], xarray.Variable("sample", [0, 1, 2]))
+    table = start_table(xarray.DataTree.from_dict({"history": whole.expand_dims(dwell=[0.1])}))
+    assert table is not None
+    (row,) = table.rows
+    place = int(data["friction_coefficient"].values.argmax())
+    highest, seconds = (float(data[name][place]) for name in ("friction_coefficient", "time"))
+    cells = dict(zip(table.headings, row, strict=True))
+    assert float(cells["largest friction"].split(" ")[0]) == pytest.approx(highest, rel=0.01)  # as rounded
+    assert float(cells["to"]) == pytest.approx(1.1 * highest, rel=0.01)
+    assert cells["after"] == prefixed(seconds, None, "s")
+    assert cells["after sliding"] == length(float(data["position_x"][place]))
 
 
 def test_an_interrupted_history_is_not_stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -158,7 +158,7 @@ class TransientSolution(Warned, Plotted):
             ("load", self.load, unit),
             ("friction force", self.friction_force, unit),
             ("error of the friction", self.errors.friction_force, unit),
-            ("friction coefficient", self.friction_coefficient),
+            ("viscoelastic friction", self.friction_coefficient),
             ("interface friction", self.interface_friction),
             ("indentation", self.indentation, "m"),
             ("temperature", self.temperature, "°C"),
@@ -280,7 +280,7 @@ class TransientSolution(Warned, Plotted):
             "temperature": None if self.temperature is None else (self.temperature, "K", "temperature"),
             "friction_force": (self.friction_force, force, "friction force"),
             "lateral_force": (self.lateral_force, force, "lateral force"),
-            "friction_coefficient": (self.friction_coefficient, "1", "friction coefficient"),
+            "friction_coefficient": (self.friction_coefficient, "1", "viscoelastic friction coefficient"),
             "contact_area": (self.contact_area, area, _AREAS[self.geometry]),
         }
         if self.interface_friction is not None:

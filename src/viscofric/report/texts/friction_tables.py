@@ -26,8 +26,30 @@ from viscofric.report.results import (
     shown_error,
     values,
 )
-from viscofric.report.sweeps import SEED, cases_of, over_seeds, solved_cases, thinned, value_label
-from viscofric.report.texts.numbers import ABSENT, degrees, percent, several, signed_percent, significant, with_error
+from viscofric.report.sweeps import (
+    SAMPLE,
+    SEED,
+    axis_of,
+    band_of_samples,
+    best_estimate,
+    cases_of,
+    over_seeds,
+    solved_cases,
+    thinned,
+    value_label,
+    words_of_band,
+)
+from viscofric.report.texts.motion import largest_friction
+from viscofric.report.texts.numbers import (
+    ABSENT,
+    degrees,
+    length,
+    percent,
+    several,
+    signed_percent,
+    significant,
+    with_error,
+)
 from viscofric.report.texts.tables import (
     Column,
     Table,
@@ -304,10 +326,39 @@ def friction_shift_table(found: Dataset, _: DataTree) -> Table | None:
     return made_table("friction-shift-factors", caption, full, columns, is_open=False)
 
 
+@on_group("history")
+def start_table(data: Dataset, _: DataTree) -> Table | None:
+    """Return the largest friction of each contact over time, with its time and distance, and that at the end."""
+    if not np.nan_to_num(values(data, "friction_coefficient")).any():
+        return None
+    along = [str(name) for name in data["friction_coefficient"].dims if name not in (SAMPLE, "instant")]
+    axes, rows = [axis_of(data, name) for name in along], []
+    for place in np.ndindex(*map(len, axes)):
+        case = data.isel(dict(zip(along, place, strict=True)))
+        best = best_estimate(case)
+        friction, load = values(best, "friction_coefficient"), values(best, "load_over_time")
+        if not np.isfinite(friction).all():
+            continue
+        error = values(best, "friction_force_error") / np.where(load > 0.0, load, np.inf)
+        position = np.stack([values(best, "position_x"), values(best, "position_y")], axis=1)
+        largest, after, way = largest_friction(friction, error, values(best, "time"), position)
+        row = [axis.labels[number] for axis, number in zip(axes, place, strict=True)] + [largest]
+        if SAMPLE in case.dims:
+            each = np.abs(case["friction_coefficient"].transpose(SAMPLE, ...).values).max(axis=1)
+            row += [significant(float(end)) for end in band_of_samples(each)]
+        rows.append([*row, after, length(way), with_error(float(friction[-1]), float(error[-1]))])
+    band = [f"{words_of_band(data, 'friction_coefficient')} from", "to"] if SAMPLE in data.dims else []
+    headings = [*(axis.title for axis in axes), "largest friction", *band, "after", "after sliding", "at the end"]
+    caption = "Largest viscoelastic friction coefficient of each contact over time, of the times in the results."
+    said = "After ±: errors of the numerical solution, of the largest friction also by what lies between the times."
+    return Table("starts", caption, headings, rows, note=said)
+
+
 def detail_tables(tree: DataTree) -> list[Table]:
     """Return the full tables that the results afford."""
     found = [
         prediction_table(tree, "prediction", "prediction", "Friction predicted for each case.", True),
+        start_table(tree),
         measurement_table(tree),
         *_master_and_rubber(tree),
     ]

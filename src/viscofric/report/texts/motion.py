@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from viscofric.arrays import Array
 from viscofric.heat.result import TransientHeating
 from viscofric.motion.cycle_solution import CycleSolution
 from viscofric.motion.history import History
@@ -69,7 +70,7 @@ def transient_lines(run: TransientSolution, seconds: float) -> list[tuple[str, s
     return [
         ("at the end", f"after {prefixed(float(run.time[-1] - run.time[0]), None, 's')}"),
         *texts(rows),
-        *([("largest friction", _largest(run))] if slides else []),
+        *([("largest viscoelastic friction", _largest(run))] if slides else []),
         *([] if run.heating is None else [("largest rise of temperature", _hottest(run, run.heating))]),
         ("energy balance", f"{100.0 * run.energy_imbalance:.1g} % at most"),
         ("steps", f"{run.steps}, {run.rejected_steps} rejected; {len(run.time)} times returned"),
@@ -82,7 +83,7 @@ def cycle_lines(cycle: CycleSolution, seconds: float) -> list[tuple[str, str]]:
     """Return the main results of a periodic state, as pairs of name and value."""
     return [
         *texts(cycle._shown()),
-        *([] if cycle.mean_friction_coefficient is None else [("largest friction", _largest(cycle.run))]),
+        *([] if cycle.mean_friction_coefficient is None else [("largest viscoelastic friction", _largest(cycle.run))]),
         ("energy balance", f"{100.0 * cycle.run.energy_imbalance:.1g} % at most"),
         ("memory", f"{cycle.change:.1g} of its size away from the periodic state"),
         ("time", f"{seconds:.2f} s"),
@@ -91,12 +92,22 @@ def cycle_lines(cycle: CycleSolution, seconds: float) -> list[tuple[str, str]]:
 
 
 def _largest(run: TransientSolution) -> str:
-    """Return the friction coefficient of largest magnitude, with its time and distance."""
-    place = int(np.abs(run.friction_coefficient).argmax())
-    steps = np.hypot(*np.diff(run.position[: place + 1], axis=0).T)
-    after = prefixed(float(run.time[place] - run.time[0]), None, "s")
-    friction = with_error(float(run.friction_coefficient[place]), float(run.friction_error[place]))
-    return f"{friction} after {after} and {length(float(steps.sum()))}"
+    friction, after, way = largest_friction(run.friction_coefficient, run.friction_error, run.time, run.position)
+    return f"{friction} after {after} and {length(way)}"
+
+
+def largest_friction(friction: Array, error: Array, time: Array, position: Array) -> tuple[str, str, float]:
+    """Return the friction coefficient of largest magnitude with its error, its time, and the distance slid (m).
+
+    The error includes the largest rise of a parabola between the times.
+    """
+    size = np.abs(friction)
+    place = int(size.argmax())
+    around = size[max(place - 1, 0) : place + 2]
+    between = 0.25 * np.ptp(around) if 0 < place < len(size) - 1 else 0.0
+    way = np.hypot(*np.diff(position[: place + 1], axis=0).T).sum()
+    after = prefixed(float(time[place] - time[0]), None, "s")
+    return with_error(float(friction[place]), float(np.hypot(error[place], between))), after, float(way)
 
 
 def _hottest(run: TransientSolution, heat: TransientHeating) -> str:

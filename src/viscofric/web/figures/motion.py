@@ -116,8 +116,8 @@ def _of_history(data: Dataset) -> list[Spec]:
         return found
     after = f"after {quantity(float(data['time'][most] - data['time'][0]), 'time')}"
     found += [
-        at("Largest friction coefficient", "friction_coefficient", most, after),
-        at("Friction coefficient at the end", "friction_coefficient", -1),
+        at("Largest viscoelastic friction", "friction_coefficient", most, after),
+        at("Viscoelastic friction at the end", "friction_coefficient", -1),
     ]
     if "total_friction" not in data:
         return found
