@@ -536,6 +536,20 @@ def test_inertia_of_a_motion_is_that_of_its_largest_speed() -> None:
     assert note.values["wave_speed"] == pytest.approx(waves.min(), rel=1e-6)  # of the same contacts
 
 
+def test_waves_delay_a_start_that_is_as_fast_as_they_are() -> None:
+    """The peak of friction, 0.3 half-widths after the start, comes earlier than ten times the waves at 2 m/s."""
+
+    def share(speed: float) -> list[float]:
+        history = vf.motion.History([0.0, 4e-3 / speed], load=200.0, speed=speed, before="at rest")
+        run = vf.motion.solve_transient(RUBBER, CYLINDER, history, accuracy=0.1)
+        return [one.values["share"] for one in map(note_of, run.warnings) if one.code == "waves-after-start"]
+
+    (fast,) = share(4.0)
+    (faster,) = share(8.0)
+    assert faster == pytest.approx(2.0 * fast, rel=0.3)  # the same path to the peak, stiffer rubber
+    assert share(0.4) == []
+
+
 def test_a_slender_indenter_that_lies_between_the_points_of_the_first_grid_is_that_of_hertz() -> None:
     history = vf.motion.History([0.0, 1.0], indentation=1e-4, before="at rest")
     rubber = vf.Material.standard_linear_solid(E0="1 MPa", E_inf="10 MPa", tau="1 s")

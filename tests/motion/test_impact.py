@@ -348,13 +348,14 @@ def test_motion_faster_than_the_material_was_measured_is_noted() -> None:
     def noted(result: vf.motion.TransientSolution | vf.motion.ImpactSolution) -> list[float]:
         return [note.values["highest"] for note in map(note_of, result.warnings) if note.code == "beyond-measured"]
 
-    def slide(speed: float, *, back: bool = False, times: list[float] | None = None) -> list[float]:
+    def slide(speed: float, *, back: bool = False, times: list[float] | None = None, rest: float = 0.0) -> list[float]:
         history = vf.motion.History(
-            time=[0.0, 1e-3, 2e-3, *[3e-3] * back],
+            time=[0.0, rest + 1e-3, rest + 2e-3, *[3e-3] * back],
             load="1 N",
             position=[0.0, 0.0, 1e-3 * speed, *[0.0] * back],
-            before="at rest",
+            before="untouched" if rest else "at rest",
         )
+        times = [rest, rest + 2e-3] if rest else times
         return noted(vf.motion.solve_transient(material, vf.Ball("10 mm"), history, times=times, accuracy=3e-2))
 
     def hit(mass: str) -> list[float]:
@@ -367,6 +368,8 @@ def test_motion_faster_than_the_material_was_measured_is_noted() -> None:
     # Only the end is asked for, where the contact has grown; or the stroke ends where it began.
     for (again,) in (slide(10.0, times=[2e-3]), slide(10.0, back=True, times=[3e-3])):
         assert 0.5 * rate < again <= rate
+    # What is asked for after a rest of half a second rests on creep for as long, at 2 rad/s.
+    assert slide(1.0, rest=0.5) == pytest.approx([2.0])
     assert hit("4 g") == []
     (slow,) = hit("10 kg")
     assert slow < 100.0

@@ -16,11 +16,13 @@ import scipy.fft
 from viscofric.arguments import insist_on, insist_on_function
 from viscofric.arrays import Array
 from viscofric.contact.bodies import (
+    LITTLE_INERTIA,
     Layer,
     checked_coulomb,
     indenter_compliance,
     inertia_notes,
     lag_of_waves,
+    shear_wave_speed,
     waves_notes,
 )
 from viscofric.contact.free.grids import Extent
@@ -47,6 +49,7 @@ from viscofric.units import Quantities, Quantity, number, plain, to_si_array
 TIGHTEST, LOOSEST = 1e-8, 0.1  # accuracies
 _ROUNDING = 1e-12  # of times, relative to an end of the history
 _LITTLE = 0.01  # part of the largest load, below which a rate of loading is of no consequence
+_RATE = "rate of loading or 1/t after a jump"
 _AGAIN = Note(
     "solved-again",
     "The run that is continued was a normal motion, and its continuation slides: its past is solved again, on cells.",
@@ -414,37 +417,65 @@ def _doubts(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
 
 def _notes_on_speed(problem: Problem, moments: list[Moment[Any]]) -> tuple[Note, ...]:
     """Return notes where a motion is faster than its material was measured, or too fast without inertia."""
-    # Also between the moments, and without sliding where it is slower.
+    # Also between the moments, and where the material was not known at so low frequencies.
     schedule, times = problem.schedule, [one.instant.time for one in moments]
     known = schedule.spectrum.known_frequencies
     if not moments:
         return ()
     spans = list(pairwise([schedule.start, *times]))
     velocities = [schedule.fastest(*ends) for ends in spans]
+    changes = [schedule.quickest_change(*ends) for ends in spans]
+    with np.errstate(divide="ignore"):
+        rates = np.maximum(changes, 1.0 / np.array([schedule.since_jump(one.instant) for one in moments]))
+    load = np.abs([one.seen.load for one in moments])
+    rates[load < _LITTLE * load.max()] = 0.0  # the first touch is always too quick, and of no consequence
+    waves = _waves_of_loading(problem, moments, changes)
     if not np.any(velocities):
-        changes = [schedule.quickest_change(*ends) for ends in spans]
-        waves = _waves_of_loading(problem, moments, changes)
-        if known is None:
-            return waves
-        since = np.array([schedule.since_jump(one.instant) for one in moments])
-        load = np.abs([one.seen.load for one in moments])
-        with np.errstate(divide="ignore"):
-            rates = np.maximum(changes, 1.0 / since)
-        # The first touch is always too quick, and of no consequence.
-        return (*known.beyond(rates[load >= _LITTLE * load.max()], "rate of loading or 1/t after a jump"), *waves)
+        return waves if known is None else (*known.beyond(rates, _RATE), *waves)
+    speed = np.hypot(*np.transpose(velocities))
     real = [schedule.fastest(*ends, by_clock=False) for ends in spans]
+    low, high = (0.0, math.inf) if known is None else known.frequency_range
     if isinstance(problem.indenter, PeriodicSurface):
-        return _speed_on_waves(problem, problem.indenter, moments, velocities, real)
+        slow = known.beyond(np.where((rates < low) & (speed == 0.0), rates, 0.0), _RATE) if known else ()
+        return (*slow, *_speed_on_waves(problem, problem.indenter, moments, velocities, real))
     extents = [one.seen.extents for one in moments]
     half = np.array(
         [0.5 * (one["front"] + one["rear"]) if "front" in one else one["contact_radius"] for one in extents]
     )
-    speed = np.hypot(*np.transpose(velocities))
     rate = np.divide(speed, half, out=np.zeros_like(half), where=half > 0.0)
-    beyond = () if known is None else known.beyond(np.where(rate > known.frequency_range[1], rate, 0.0))
+    slowest = np.maximum(rate, rates)
+    unknown = np.where(rate > high, rate, np.where(slowest < low, slowest, 0.0))
+    beyond = known.beyond(unknown, f"frequency v/a, or {_RATE}") if known else ()
     where = [f"at {time:.3g} s" for time in times]
     real_speed = np.hypot(*np.transpose(real))
-    return (*beyond, *inertia_notes(real_speed, rate, schedule.spectrum, problem.material.poisson_ratio, where))
+    inertia = inertia_notes(real_speed, rate, schedule.spectrum, problem.material.poisson_ratio, where)
+    return (*beyond, *inertia, *waves, *_waves_of_starts(problem, moments, half))
+
+
+def _waves_of_starts(problem: Problem, moments: list[Moment[Any]], half: Array) -> tuple[Note, ...]:
+    """Return a note if waves take long through a contact that starts or turns, beside the time to its largest force."""
+    schedule, nu = problem.schedule, problem.material.poisson_ratio
+    times = np.array([one.instant.time for one in moments])
+    friction = np.array([math.hypot(*one.seen.friction_force) for one in moments])
+    starts = list(filter(schedule.starts_at, schedule.kinks[:-1].tolist()))
+    found = [(0.0, 0.0, 0.0)]
+    for start, end in pairwise([*starts, math.inf]):
+        rows = np.flatnonzero((times > start) & (times <= end) & (half > 0.0))
+        place = int(rows[np.argmax(friction[rows])]) if len(rows) else -1
+        if len(rows) and place < rows[-1]:  # else it goes on rising
+            taken = times[place] - start
+            frequency = 1.0 / (taken * schedule.rates(start, start)[0])
+            waves = shear_wave_speed(float(np.abs(schedule.spectrum.complex_modulus(frequency))), nu)
+            found.append((float(half[place] / waves / taken), waves, start))
+    share, waves, start = max(found)
+    if share <= LITTLE_INERTIA:
+        return ()
+    said = (
+        f"Inertia of the rubber is left out. Shear waves in it run at {plain(waves, 2)} m/s through half of the "
+        f"contact in {plain(100.0 * share, 2)} % of the time from the start or turn at {start:.3g} s to the "
+        f"largest friction after it (good if ≤ {100.0 * LITTLE_INERTIA:.0f} %): that may be lower, and occur later."
+    )
+    return (Note("waves-after-start", said, values={"wave_speed": waves, "share": share, "time": start}),)
 
 
 def _waves_of_loading(problem: Problem, moments: list[Moment[Any]], changes: list[float]) -> tuple[Note, ...]:
