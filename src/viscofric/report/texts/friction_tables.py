@@ -10,6 +10,7 @@ from itertools import chain
 
 import numpy as np
 
+from viscofric.contact.solution import ERRORS
 from viscofric.contact.steady import SMALL_STRAIN
 from viscofric.datasets import Dataset, DataTree
 from viscofric.report.results import (
@@ -76,6 +77,7 @@ _MEANS = (
     "Means over the seeds of the surface, of which the results have each; 95 %: confidence interval of the mean "
     "friction (Student's t); errors, energy balance and complementarity are the largest of the seeds"
 )
+_AFTER = "after ±: numerical error, where it exceeds 1 %"
 # Numbers of a case that other columns show, or its remarks.
 _SHOWN_ELSEWHERE = {"friction_coefficient", "friction_lower", "friction_upper", "energy_balance", "seeds"} | {
     *("failed", "interpolated", "within_measured_frequencies")
@@ -87,7 +89,7 @@ def _with_remarks(table: Table, doubts: Sequence[tuple[str, ...]]) -> Table:
     if not any(doubts):
         return table
     rows = [[*row, "; ".join(doubt)] for row, doubt in zip(table.rows, doubts, strict=True)]
-    note = f"{table.note} {_meaning(*_DOUBTFUL)}.".strip()
+    note = " ".join([table.note, *(f"{meaning}." for meaning in [_meaning(*chain(*doubts))] if meaning)]).strip()
     return replace(table, headings=[*table.headings, "remark"], rows=rows, note=note)
 
 
@@ -225,6 +227,9 @@ def prediction_table(tree: DataTree, name: str, key: str, caption: str, is_open:
     prediction = over_seeds(cases_of(prediction))
     friction, error = (values(prediction, part) for part in ("friction_coefficient", "friction_error"))
     full = prediction.assign(relative_error=("case", error / np.where(friction == 0.0, np.nan, np.abs(friction))))
+    errors = {number: error for number, error in ERRORS.items() if number in full and error in full}
+    shown = {error: ("case", shown_error(values(full, of), values(full, error))) for of, error in errors.items()}
+    full = full.assign(shown)
     between = interpolated(full)
     for work in ("cells", "products"):  # what was not solved took none
         if work in full:
@@ -237,6 +242,8 @@ def prediction_table(tree: DataTree, name: str, key: str, caption: str, is_open:
     ]
     numbers = [number_column(full, name) for name in names]
     told = {name.replace("_", " "): str(full[name].attrs.get("long_name", name)) for name in names}
+    said = [_MEANS] if "seeds" in full else [_BAND] if "friction_lower" in full else []
+    said += [_AFTER] if any(np.isfinite(error).any() for _, error in shown.values()) else []
     meanings = [f"{spoken}: {words}" for spoken, words in told.items() if words.replace("_", " ") != spoken]
     table = made_table(
         key,
@@ -247,7 +254,7 @@ def prediction_table(tree: DataTree, name: str, key: str, caption: str, is_open:
             Column("temperature", "temperature", degrees),
             Column("speed (mm/s)" if name == "prediction" else "reduced speed (mm/s)", "speed", times(1e3)),
             Column(f"load ({load})", "load", significant),
-            Column("friction coefficient", "friction_coefficient", times(1.0)),
+            number_column(full, "friction_coefficient"),
             Column("95 % from", "friction_lower", times(1.0)),
             Column("to", "friction_upper", times(1.0)),
             Column("seeds", "seeds", whole),
@@ -256,7 +263,7 @@ def prediction_table(tree: DataTree, name: str, key: str, caption: str, is_open:
             *numbers,
         ],
         is_open,
-        "; ".join([_MEANS if "seeds" in full else _BAND, *meanings]) + ".",
+        "; ".join([*said, *meanings]) + ".",
     )
     failed = values(full, "failed") == 1.0
     doubts = [
@@ -314,10 +321,8 @@ def friction_shift_table(found: Dataset, _: DataTree) -> Table | None:
     """Shift factors from friction and from the modulus."""
     columns = [
         Column("temperature", "temperature", degrees),
-        Column("log₁₀ α from friction", "log10_shift_factor", logarithm),
-        Column("standard error", "standard_error", times(1.0, 2)),
-        Column("log₁₀ α of the modulus", "known_log10_shift_factor", logarithm),
-        Column("its standard error", "known_standard_error", times(1.0, 2)),
+        Column("log₁₀ α from friction", "log10_shift_factor", logarithm, "standard_error"),
+        Column("log₁₀ α of the modulus", "known_log10_shift_factor", logarithm, "known_standard_error"),
         Column("difference", "difference", logarithm),
     ]
     full = found.assign(difference=found["log10_shift_factor"] - found["known_log10_shift_factor"])

@@ -10,10 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from viscofric.arrays import Array
+from viscofric.contact.solution import ERRORS
 from viscofric.datasets import Dataset, DataTree
 from viscofric.notes import table_in
 from viscofric.report.results import on_group, values
-from viscofric.report.texts.numbers import ABSENT, degrees, percent, significant
+from viscofric.report.texts.numbers import ABSENT, degrees, percent, significant, with_error
 from viscofric.showing import aligned
 from viscofric.units import shown_celsius, shown_number
 
@@ -36,16 +37,25 @@ class Column(NamedTuple):
 
     heading: str
     variable: str
-    text: Callable[[float], str]
+    text: Callable[..., str]
+    error: str = ""  # the variable of their errors, which stand after ± and end the numbers, where they are known
 
 
-def times(factor: float, digits: int = 4) -> Callable[[float], str]:
-    """Return what writes a number times a factor to so many digits."""
-    return lambda value: significant(factor * value, digits)
+def times(factor: float, digits: int = 4) -> Callable[..., str]:
+    """Return what writes a number times a factor to so many digits, or to those that its error leaves."""
+
+    def text(value: float, error: float = math.nan) -> str:
+        if math.isfinite(error):
+            return with_error(factor * value, factor * error)
+        return significant(factor * value, digits)
+
+    return text
 
 
-def logarithm(value: float) -> str:
+def logarithm(value: float, error: float = math.nan) -> str:
     """Write a decadic logarithm, whose rounding is zero."""
+    if error > 0.0:
+        return with_error(value, error)
     return shown_number(value, "z.4f") if np.isfinite(value) else ABSENT
 
 
@@ -64,7 +74,7 @@ def number_column(data: Dataset, name: str) -> Column:
         shown, factor = _UNITS.get(unit, ("" if unit == "1" else unit, 1.0))
     spoken = name.replace("_", " ")
     write = whole if unit == "1" and np.all(known == np.rint(known)) else times(factor)
-    return Column(f"{spoken} ({shown})" if shown else spoken, name, write)
+    return Column(f"{spoken} ({shown})" if shown else spoken, name, write, ERRORS.get(name, ""))
 
 
 #: SI unit -> the unit of tables, and its number for 1 in SI; lengths up to `_FINE`, m, are in µm.
@@ -85,7 +95,8 @@ def made_table(
 def _cells(dataset: Dataset, column: Column) -> list[str]:
     if dataset[column.variable].dtype.kind in "OU":
         return [str(value) for value in dataset[column.variable].values]
-    return [column.text(float(value)) for value in values(dataset, column.variable)]
+    columns = [values(dataset, name) for name in (column.variable, column.error) if name in dataset.variables]
+    return [column.text(*map(float, row)) for row in zip(*columns, strict=True)]
 
 
 @on_group("shift_factors")
@@ -93,14 +104,14 @@ def shift_factor_table(factors: Dataset, _: DataTree) -> Table | None:
     """Shift factors of the isotherms."""
     columns = [
         Column("temperature", "temperature", degrees),
-        Column("log₁₀ α", "log10_shift_factor", logarithm),
-        Column("standard error", "standard_error", times(1.0, 2)),
-        Column("α", "alpha", times(1.0)),
-        Column("log₁₀ b", "log10_vertical_shift", logarithm),
-        Column("standard error of log₁₀ b", "vertical_standard_error", times(1.0, 2)),
+        Column("log₁₀ α", "log10_shift_factor", logarithm, "standard_error"),
+        Column("α", "alpha", times(1.0, 2)),
+        Column("log₁₀ b", "log10_vertical_shift", logarithm, "vertical_standard_error"),
     ]
     full = factors.assign(alpha=10.0 ** factors["log10_shift_factor"])
-    return made_table("shift-factors", "Shift factors of the isotherms.", full, columns, is_open=False)
+    return made_table(
+        "shift-factors", "Shift factors of the isotherms, with their standard errors.", full, columns, is_open=False
+    )
 
 
 def law_table(laws: Dataset) -> Table:
