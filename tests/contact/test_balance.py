@@ -160,7 +160,7 @@ def test_error_estimate_holds_on_thin_incompressible_layers(slenderness: float, 
 def test_low_speed_takes_no_fine_grid() -> None:
     problem = broad_spectrum_37(1.1e-3)
     solution = problem.solve()
-    assert max(solution.diagnostics.shape) == 128  # the third grid
+    assert len(solution.diagnostics.levels) == 3
     # The accuracy asked for, and the law's next term, of the order of the longest memory, 1e-3.
     assert solution.friction_coefficient == pytest.approx(low_speed_friction(problem), rel=2e-3)
 

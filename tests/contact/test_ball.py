@@ -54,9 +54,9 @@ SLS = standard_linear_solid(10.0, 1.0)
 def test_limits_of_speed_are_hertz_contacts(speed: float, modulus_ratio: float) -> None:
     hertz = hertz_ball(LOAD, BALL_RADIUS, modulus_ratio * RUBBER_MODULUS, POISSON_RATIO)
     solution = solve_steady(SLS.material, SLS.ball, speed=speed, load=LOAD)
-    # The friction of an elastic contact is zero on every grid, so the solver stops at the third, 128 x 128 cells:
-    # half a percent is a quarter of a cell at the edge.
-    assert max(solution.diagnostics.shape) == 128
+    # The friction of an elastic contact is zero on every grid, so the solver stops at the third, where half a percent
+    # is a quarter of a cell at the edge.
+    assert len(solution.diagnostics.levels) == 3
     assert solution.indentation == pytest.approx(hertz.indentation, rel=0.0005)
     assert solution.max_pressure == pytest.approx(hertz.max_pressure, rel=0.005)
     for edge in (solution.front, solution.rear, solution.half_width):
@@ -164,7 +164,9 @@ def test_reference_values(reference: BallReference) -> None:
 def test_friction_converges_with_the_grid(problem: BallProblem) -> None:
     solution = problem.solve(accuracy=1e-5)
     cells, lean, energy, indentation, _ = (np.array(level) for level in zip(*solution.diagnostics.levels, strict=True))
-    assert np.all(cells[1:] >= 2 * cells[:-1] - 2)
+    # Cells are half as large, and around the contact there is less and less free space.
+    assert np.all(cells[1:] > 1.5 * cells[:-1])
+    assert np.all(cells[1:] <= 2 * cells[:-1])
     for values in (lean, energy, indentation):
         changes = np.abs(np.diff(values))
         # First order at least, from the first steps to the last (single steps jump as cells cross the edge, or are

@@ -102,8 +102,9 @@ def test_rolling_over_a_thin_layer_is_rolling_over_a_foundation(
 @pytest.mark.parametrize("line", [False, True])
 def test_deep_layer_is_a_half_space(line: bool) -> None:
     load = 200.0 if line else 0.5
-    on_half_space = vf.solve_steady(rubber(0.5), indenter(line), speed=1.0, load=load)
-    on_layer = vf.solve_steady(rubber(0.5), indenter(line), speed=1.0, load=load, layer=vf.Layer(1e4))
+    given = {"speed": 1.0, "load": load, "tolerance": 1e-10}
+    on_half_space = vf.solve_steady(rubber(0.5), indenter(line), **given)
+    on_layer = vf.solve_steady(rubber(0.5), indenter(line), **given, layer=vf.Layer(1e4))
     # The base takes away what is the same in the whole contact; what is left is (a/H)² = 1e-14, and the tolerance.
     assert on_layer.friction_coefficient == pytest.approx(on_half_space.friction_coefficient, rel=1e-6)
     np.testing.assert_allclose(on_layer.pressure, on_half_space.pressure, atol=1e-6 * on_half_space.max_pressure)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import math
 from dataclasses import replace
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -29,6 +30,7 @@ from viscofric.contact.free.grids import Extent, Grid
 from viscofric.contact.free.nested import GivenGrid, find_window, refine
 from viscofric.contact.free.problem import Control, Problem
 from viscofric.contact.free.proximal import proximal_points
+from viscofric.contact.indenters.height_map import HeightMap
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, Cylinder
 from viscofric.contact.operators.convolution import SteadyMaterial
@@ -335,3 +337,23 @@ def test_contact_starts_at_the_lowest_cells_where_no_guess_is_given() -> None:
     found = PROBLEM.control.solve(stage.operator, height, np.zeros(stage.window.shape), 1e-8)
     assert found.converged
     np.testing.assert_allclose(found.pressure, stage.result.pressure, atol=1e-5 * stage.result.pressure.max())
+
+
+def test_free_space_is_cut_off_only_where_nothing_else_can_touch() -> None:
+    stages = refine(find_window(PROBLEM, PROBLEM.first_size), 1e-3, 1024)
+    first, last = (stage.window.whole.side - stage.extent.side for stage in (stages[0], stages[-1]))
+    assert 0.0 < last < 0.6 * first
+    assert not any(stage.window.cuts(stage.result.pressure > 0.0) for stage in stages)
+    # The same cells have the same pressure, to the tolerance, as in the whole window.
+    whole = refine(stages[0], 1e-3, 1024, GivenGrid(window=stages[0].window.whole))[: len(stages)]
+    for one, other in zip(stages, whole, strict=True):
+        assert one.window.spacing == pytest.approx(other.window.spacing)
+        assert one.pressure_friction == pytest.approx(other.pressure_friction, rel=1e-5)
+
+
+def test_free_space_around_a_height_map_is_kept() -> None:
+    x = np.linspace(-4.0, 4.0, 81)
+    bumpy = HeightMap((x[:, None] ** 2 + x**2) / 2.0, spacing=0.1)
+    problem = replace(PROBLEM, shape=bumpy)
+    stages = refine(find_window(problem, problem.first_size), 0.2, 1024)
+    assert all(fine.window == coarse.window.refined() for coarse, fine in pairwise(stages))

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import NamedTuple, Self
 
 import numpy as np
+from scipy.fft import next_fast_len
 
 from viscofric.arrays import Array, Mask
 
@@ -93,6 +94,15 @@ class Grid:
         return replace(
             self, spacing=0.5 * self.spacing, behind=2 * self.behind, ahead=2 * self.ahead, beside=2 * self.beside
         )
+
+    def trimmed(self, mask: Mask, free: int) -> Self:
+        """Return the part with `free` cells around a set of cells, or a few more where that makes FFTs quicker."""
+        along, across = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
+        behind = min(self.behind, self.behind - int(along[0]) + free)
+        ahead = next_fast_len(behind + int(along[-1]) + 1 - self.behind + free, real=True) - behind
+        beside = max(self.beside - int(across[0]), int(across[-1]) + 1 - self.beside) + free
+        beside = min(self.beside, next_fast_len(beside, real=True))
+        return replace(self, behind=behind, ahead=min(self.ahead, ahead), beside=beside)
 
     def extent(self, mask: Mask) -> Extent:
         """Smallest such grid that holds a set of cells; the side of a strip is zero."""

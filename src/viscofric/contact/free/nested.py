@@ -29,7 +29,9 @@ from viscofric.units import Quantity, to_si
 
 logger = logging.getLogger(__name__)
 
-MARGIN = 0.15  # free space left around the contact, relative to its size
+# Free space left around the contact, relative to its size, on the coarsest grid and on finer ones; on these at least so
+# many cells of the grid before.
+MARGIN, _FREE, _FEWEST_FREE = 0.15, 0.05, 2
 
 _PATIENCE = 4  # updates of the contact set without progress that end an attempt
 # A contact n times longer than wide has n/2 times the cells along it, up to this many times.
@@ -65,7 +67,8 @@ def refine(first: Stage, accuracy: float, finest: int, given: GivenGrid | None =
     stages, restarts, goal = [_start(first, given)], 0, _Goal(accuracy, finest)
     while True:
         coarse = stages[-1]
-        window = coarse.window.refined()
+        whole = halvings or given.window is not None or restarts
+        window = (coarse.window if whole else _close_to(coarse)).refined()
         if not halvings:
             goal.allow(window, stages)
         try:
@@ -210,6 +213,18 @@ def _around(stage: Stage) -> Grid:
     narrow = min(length, width) or contact.longest
     slender = min(_MOST_SLENDER, max(1, int(0.5 * contact.longest / narrow)))
     return geometry.around(*contact.widened(MARGIN * contact.longest), cells * slender)
+
+
+def _close_to(stage: Stage) -> Grid:
+    """Return the window with less free space around the contact, whose size is known by now.
+
+    All of it under shapes that may touch elsewhere on finer cells.
+    """
+    if stage.problem.shape.similar() is None:
+        return stage.window
+    contact = stage.result.pressure > 0.0
+    length = max(np.count_nonzero(contact.any(axis=axis)) for axis in (0, 1))
+    return stage.window.trimmed(contact, max(_FEWEST_FREE, math.ceil(_FREE * length)))
 
 
 def _solve_in_window(window: Grid, before: Stage, *, last: bool = False) -> Stage:

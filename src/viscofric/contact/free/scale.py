@@ -90,6 +90,10 @@ class ScaledIndenter:
         """Whether the slope jumps at the lowest point."""
         return self.indenter.has_tip
 
+    def similar(self) -> Indenter | None:
+        """Return the indenter whose contacts are similar at all sizes; None if none is."""
+        return self.indenter.similar()
+
     def height(self, x: Array, y: Array) -> Array:
         """Height above the lowest point."""
         return self.indenter.height(*self._turned(x, y)) / self.scale.depth

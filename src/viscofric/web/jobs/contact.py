@@ -107,7 +107,8 @@ def profile(rubber: StudyRubber, case: IndenterCase, solution: ContactSolution) 
         trail += float(np.mean((displacement - own)[loaded]))
         own = np.interp(x, trail_x, trail)
     surface = displacement if case.modulus is None else own
-    beyond = (trail_x < x[0]) | (trail_x > x[-1])
+    half = 0.5 * (x[1] - x[0])  # the trail may be at the same places, but for rounding
+    beyond = (trail_x < x[0] - half) | (trail_x > x[-1] + half)
     order = np.argsort(np.concatenate([x, trail_x[beyond]]))
 
     def joined(inside: Array, outside: Array) -> Array:
