@@ -309,16 +309,16 @@ def plateau_gauge(size, reference):
 
 @pytest.mark.parametrize("hot", [True, False], ids=["hot end", "cold end"])
 def test_errors_grow_over_a_plateau_as_a_rate_that_wanders(hot):
-    """The rate of change errs by BEND more in every step, also in the first: shifts by BEND √1, √5 = √(1 + 4), √14."""
+    """The rate of 1.5 errs by the part BEND more in every step, also in the first: shifts by √1, √5 = √(1 + 4), √14."""
     reported = -1.5 * np.arange(4.0)
     if hot:
         place = plateau_gauge(7, 1), 0, 4
-        values, covariance = continued(reported, *place), continued_covariance(np.zeros((4, 4)), *place)
+        values, covariance = continued(reported, *place), continued_covariance(np.zeros((4, 4)), reported, *place)
         beyond, expected = slice(4, 7), -1.5 * np.arange(4.0, 7.0)
         shift = values - values[0]
     else:
         place = plateau_gauge(7, 5), 3, 7
-        values, covariance = continued(reported, *place), continued_covariance(np.zeros((4, 4)), *place)
+        values, covariance = continued(reported, *place), continued_covariance(np.zeros((4, 4)), reported, *place)
         values, covariance = values[::-1], covariance[::-1, ::-1]
         beyond, expected = slice(4, 7), 1.5 * np.arange(4.0, 7.0)
         shift = values - values[0]
@@ -326,9 +326,9 @@ def test_errors_grow_over_a_plateau_as_a_rate_that_wanders(hot):
     errors = np.sqrt(np.diag(covariance))
     # Rounding only: the factors that were told are exact here.
     assert errors[:4] == pytest.approx(0.0, abs=1e-12)
-    assert errors[beyond] == pytest.approx(BEND * np.sqrt([1.0, 5.0, 14.0]), rel=1e-9)
+    assert errors[beyond] == pytest.approx(1.5 * BEND * np.sqrt([1.0, 5.0, 14.0]), rel=1e-9)
     # What the first step errs is in the second twice.
-    assert covariance[4, 5] == pytest.approx(2.0 * BEND**2, rel=1e-9)
+    assert covariance[4, 5] == pytest.approx(2.0 * (1.5 * BEND) ** 2, rel=1e-9)
 
 
 @pytest.mark.parametrize(("count", "wider"), [(5, 2.0), (40, 1.05)])

@@ -104,7 +104,7 @@ def _with_plateaus(sweeps: list[LogSweep], joins: list[Join], gauge: Gauge, quan
     return replace(
         found,
         values=continued(found.values, gauge, first, last),
-        covariance=continued_covariance(found.covariance, gauge, first, last),
+        covariance=continued_covariance(found.covariance, found.values, gauge, first, last),
         vertical=nothing,
         vertical_covariance=np.diag(nothing),
         cross_covariance=np.diag(nothing),

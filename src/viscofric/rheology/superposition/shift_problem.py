@@ -74,8 +74,9 @@ class Gauge:
 CLEAR = 15.0
 #: Number of the last determined steps that the trend is taken from.
 TREND_STEPS = 2
-#: Uncertainty of the change of the rate with 1/T from step to step beyond them; WLF laws change by less.
-BEND = 0.2  # decades per typical step
+#: Uncertainty of the change of the rate with 1/T from step to step beyond them, decades per typical step, or as a part
+#: of the rate if that is more: from step to step WLF laws of usual rubbers lose 0.06 to 0.6 of it, 0.35 in the rms.
+LEAST_BEND, BEND = 0.2, 0.35
 
 
 def identified(signal: Array, gauge: Gauge) -> tuple[int, int] | None:
@@ -109,17 +110,18 @@ def continued(values: Array, gauge: Gauge, first: int, last: int) -> Array:
     return np.asarray(np.tensordot(_change(gauge) @ onto, values, axes=1))
 
 
-def continued_covariance(covariance: Array, gauge: Gauge, first: int, last: int) -> Array:
-    """Return the covariance (n, n) of continued shifts from that of the fitted ones (m, m)."""
+def continued_covariance(covariance: Array, values: Array, gauge: Gauge, first: int, last: int) -> Array:
+    """Return the covariance (n, n) of shifts continued from the fitted ones (m,), which have the covariance (m, m)."""
     # It grows: from step to step the rate of change with 1/T may change by `BEND`.
     inverse = gauge.inverse_temperatures
     size = len(inverse)
     spread = np.zeros((size, size))
     typical = float(np.median(np.abs(np.diff(inverse))))
-    for end, _, places in _ends(size, first, last):
+    for end, before, places in _ends(size, first, last):
         reached = np.abs(inverse[places] - inverse[end]) / typical
         start = np.concatenate([[0.0], reached[:-1]])
-        walk = BEND * np.maximum(reached[:, None] - start, 0.0)
+        rate = typical * (values[end - first] - values[before - first]) / (inverse[end] - inverse[before])
+        walk = max(LEAST_BEND, BEND * abs(rate)) * np.maximum(reached[:, None] - start, 0.0)
         spread[np.ix_(places, places)] = walk @ walk.T
     change = _change(gauge)
     fitted = continued(continued(covariance, gauge, first, last).T, gauge, first, last)
