@@ -41,6 +41,28 @@ def test_kinds_have_one_table_of_factors():
     assert joint.to_dataset().sizes["temperature"] == 12
 
 
+def test_kinds_leave_out_one_vertical_shift():
+    """A rubber has one b(T): it moves α of all kinds together, so that their mean has no less of that error."""
+    sweeps, creep, material, reference = several()
+    log10_b = vf.rheology.DensityShift(reference).log10
+    raised = [
+        replace(one, storage_modulus=one.storage_modulus * b, loss_modulus=one.loss_modulus * b)
+        for one in sweeps.isotherms
+        for b in [10.0 ** log10_b(one.temperature)]
+    ]
+    softer = [replace(one, response=one.response / 10.0 ** log10_b(one.temperature)) for one in creep.tests]
+    both = [replace(sweeps, isotherms=tuple(raised)), replace(creep, tests=tuple(softer))]
+    joint = vf.superpose(both, reference)
+    first, second = (one.offsets.left_out for one in joint.alone)
+    np.testing.assert_array_equal(first.probability, second.probability)
+    shared = sum(gain @ one.errors[0] for gain, one in zip(joint.gains, (first, second), strict=True))
+    factors = joint.shift_factors
+    others = np.linalg.eigvalsh(factors.covariance - np.outer(shared, shared))
+    assert others.min() > -1e-9  # rounding; independent errors of both would leave less than their common part
+    away = factors.log10_values - material.shift.at_reference(reference).log10(factors.temperatures)
+    assert np.all(np.abs(away) <= 3.0 * factors.standard_errors + 1e-9)  # of eleven factors the largest
+
+
 @pytest.mark.slow
 def test_a_level_between_kinds_is_found_and_noted():
     sweeps, creep, material, reference = several(level=1.05)

@@ -16,6 +16,7 @@ from viscofric.nominal import parted
 from viscofric.notes import Note
 from viscofric.rheology.shifts.shift_factors import ShiftFactors, weights_between
 from viscofric.rheology.shifts.vertical_shift import VerticalShift
+from viscofric.rheology.superposition.isotherm_offsets import BEFORE_TREND
 from viscofric.rheology.superposition.result import StepSuperposition, Superposition
 from viscofric.showing import Plotted, Rows
 from viscofric.step_tests import StepMasterCurve
@@ -75,39 +76,64 @@ class JointSuperposition(Plotted):
 
 def joined_kinds(alone: Sequence[Part], reference: float) -> JointSuperposition:
     """Join superpositions of several kinds about one reference, K."""
+    alone = _of_one_vertical_shift(alone)
     temperatures = of_all_kinds([one.shift_factors.temperatures for one in alone])
     size = len(temperatures)
-    picks, onto, inverse = [], [], []
+    picks, onto = [], []
     for one in alone:
-        own = one.shift_factors
-        pick = np.eye(size)[np.abs(own.temperatures[:, None] - temperatures).argmin(axis=1)]
-        weights = weights_between(own.temperatures, np.array([reference]))
+        own = one.shift_factors.temperatures
+        pick = np.eye(size)[np.abs(own[:, None] - temperatures).argmin(axis=1)]
         picks.append(pick)
-        onto.append(pick - weights @ pick)
-        inverse.append(np.linalg.pinv(own.covariance, rcond=1e-10, hermitian=True))
+        onto.append(pick - weights_between(own, np.array([reference])) @ pick)
+    R, found = np.concatenate(onto), np.concatenate([one.shift_factors.log10_values for one in alone])
+    ends = np.cumsum([0, *(len(one) for one in onto)])
+    shared = np.concatenate([_error_of_vertical_shift(one) for one in alone])
+    spread = np.outer(shared, shared)
+    for one, first, last in zip(alone, ends, ends[1:], strict=False):
+        spread[first:last, first:last] = one.shift_factors.covariance
+    inverse = np.linalg.pinv(spread, rcond=1e-10, hermitian=True)
     gauge = weights_between(temperatures, np.array([reference]))[0]
-    information = sum((R.T @ V @ R for R, V in zip(onto, inverse, strict=True)), np.zeros((size, size)))
+    information = R.T @ inverse @ R
     information += float(np.trace(information)) * np.outer(gauge, gauge)
-    solved = np.linalg.pinv(information, rcond=1e-14, hermitian=True)
-    gains = tuple(solved @ R.T @ V for R, V in zip(onto, inverse, strict=True))
-    values = sum((G @ one.shift_factors.log10_values for G, one in zip(gains, alone, strict=True)), np.zeros(size))
-    covariance = sum(
-        (G @ one.shift_factors.covariance @ G.T for G, one in zip(gains, alone, strict=True)), 0.0 * solved
-    )
-    misfit, freedom = 0.0, 1 - size
-    for one, R, V in zip(alone, onto, inverse, strict=True):
-        away = one.shift_factors.log10_values - R @ values
-        misfit += float(away @ V @ away)
-        freedom += len(away) - 1
+    gain = np.linalg.pinv(information, rcond=1e-14, hermitian=True) @ R.T @ inverse
+    values, covariance = gain @ found, gain @ spread @ gain.T
+    away = found - R @ values
+    misfit, freedom = float(away @ inverse @ away), len(found) - len(alone) + 1 - size
     notes = [note for one in alone for note in one.notes]
     notes += _agreement(misfit, freedom)
     excess = max(misfit / freedom, 1.0) if freedom > 0 else 1.0
     covariance = excess * covariance
-    gains = tuple(np.sqrt(excess) * one for one in gains)
+    gains = tuple(np.split(np.sqrt(excess) * gain, ends[1:-1], axis=1))
     made_up = of_synthetic(note for one in alone for note in one.shift_factors.notes)
     common = ShiftFactors(temperatures, values, reference, covariance, made_up)
     parts = tuple(_shifted(one, pick @ common.log10_values) for one, pick in zip(alone, picks, strict=True))
     return JointSuperposition(parts, common, tuple(alone), gains, tuple(dict.fromkeys(notes)))
+
+
+def _error_of_vertical_shift(part: Part) -> Array:
+    """Return the errors of log10 α (n,) from a vertical shift that may have been left out, of one sign or the other."""
+    left_out = None if part.offsets is None else part.offsets.left_out
+    return np.zeros(len(part.shift_factors.temperatures)) if left_out is None else np.asarray(left_out.errors[0])
+
+
+def _of_one_vertical_shift(alone: Sequence[Part]) -> tuple[Part, ...]:
+    """Return kinds of tests whose errors include the vertical shift that all of them together may have left out."""
+    shown = [one.offsets.left_out.probability for one in alone if one.offsets is not None and one.offsets.left_out]
+    if len(shown) < 2:
+        return tuple(alone)
+    together = np.prod(shown, axis=0) / BEFORE_TREND ** (len(shown) - 1)
+    return tuple(_with_trend(one, together / together.sum()) for one in alone)
+
+
+def _with_trend(part: Part, probability: Array) -> Part:
+    """Return one kind with other probabilities of the vertical shift."""
+    if part.offsets is None or part.offsets.left_out is None:
+        return part
+    offsets = replace(part.offsets, left_out=replace(part.offsets.left_out, probability=probability))
+    found = replace(part, offsets=offsets)
+    before, after = (np.outer(one, one) for one in (_error_of_vertical_shift(part), _error_of_vertical_shift(found)))
+    factors = part.shift_factors
+    return replace(found, shift_factors=replace(factors, covariance=factors.covariance - before + after))
 
 
 def of_all_kinds(temperatures: Sequence[Array]) -> Array:

@@ -361,7 +361,11 @@ def sample_materials(
     if joint is None:
         _insist_on_same_curve(spectrum, parts[0].master_curve)
     random = np.random.default_rng(seed)
-    errors = [_errors(random, one, samples) for one in alone]
+    errors: list[tuple[Array, Array | None, Array]] = []
+    raised: Array | None = None
+    for one in alone:
+        found, raised = _errors(random, one, samples, raised)
+        errors.append(found)
     moved = np.sum([error @ gain.T for (error, _, _), gain in zip(errors, gains, strict=True)], axis=0)
     tables = [ShiftFactors(common.temperatures, common.log10_values + row, common.reference) for row in moved]
     verticals: list[VerticalShift | None] = [vertical] * samples
@@ -376,8 +380,8 @@ def sample_materials(
         own = part.shift_factors.temperatures
         place = np.abs(own[:, None] - common.temperatures).argmin(axis=1)
         if vertical is not None:
-            raised = np.array([b.log10(own) for b in verticals if b is not None]) - vertical.log10(own)
-            offsets = offsets - raised[..., None]
+            levels = np.array([b.log10(own) for b in verticals if b is not None]) - vertical.log10(own)
+            offsets = offsets - levels[..., None]
         drawn.append(Resampled(random, part, spectrum, moved[:, place], offsets))
     ends = min(one.ends[0] for one in drawn), max(one.ends[1] for one in drawn)
     together = joint_misfit([part.master_curve for part in parts]) if joint else drawn[0].misfit
@@ -441,8 +445,11 @@ def normal_deviates(random: np.random.Generator, covariance: Array, samples: int
     return np.asarray(random.standard_normal((samples, len(values))) @ root)
 
 
-def _errors(random: np.random.Generator, fit: Fit, samples: int) -> tuple[Array, Array | None, Array]:
+def _errors(
+    random: np.random.Generator, fit: Fit, samples: int, raised: Array | None
+) -> tuple[tuple[Array, Array | None, Array], Array | None]:
     """Draw errors of log10 α and of a fitted log10 b, and offsets (samples, isotherms, m), as they are correlated."""
+    # `raised` (samples, 1), parts of a vertical shift that was left out, are returned too, and are those of all kinds.
     shifts, vertical = fit.shift_factors, fit.vertical_shift
     size = len(shifts.temperatures)
     covariance = shifts.covariance
@@ -463,10 +470,10 @@ def _errors(random: np.random.Generator, fit: Fit, samples: int) -> tuple[Array,
     moved = errors[:, :size]
     if left_out is not None:
         shift, level = left_out.errors
-        part = random.standard_normal((samples, 1))
-        moved, offsets = moved + part * shift, offsets + (part * level)[..., None]
+        raised = random.standard_normal((samples, 1)) if raised is None else raised
+        moved, offsets = moved + raised * shift, offsets + (raised * level)[..., None]
     moved = moved - moved @ weights_between(shifts.temperatures, np.array([shifts.reference])).T
-    return moved, errors[:, size:count] if count > size else None, offsets
+    return (moved, errors[:, size:count] if count > size else None, offsets), raised
 
 
 #: Most draws of the misfit of a law, until it falls with temperature.
