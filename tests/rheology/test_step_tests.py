@@ -225,8 +225,9 @@ def test_errors_of_tests_include_a_vertical_shift_that_was_left_out(kind, power)
     fitted_to = left_out.shift_factors
     away = fitted_to.log10_values - material.shift.at_reference(reference).log10(fitted_to.temperatures)
     assert np.all(np.abs(away) <= 1.96 * fitted_to.standard_errors)
-    # Tests that exclude such a shift keep the errors of a known one: 1.00 to 1.01 times as large.
-    assert np.all(none.shift_factors.standard_errors <= 1.2 * known.shift_factors.standard_errors)
+    # Tests that exclude such a shift hardly have more than the errors of a known one: 1.0 to 1.3 times as large, since
+    # these few leave open a tenth of T/T0.
+    assert np.all(none.shift_factors.standard_errors <= 1.4 * known.shift_factors.standard_errors)
 
 
 @pytest.mark.slow

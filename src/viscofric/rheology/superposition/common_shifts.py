@@ -17,9 +17,11 @@ from viscofric.rheology.superposition.common_curve import Smoother
 from viscofric.rheology.superposition.isotherm_offsets import (
     LARGEST,
     TRENDS,
+    USUAL,
     IsothermOffsets,
     LeftOut,
     Offsets,
+    OffsetSizes,
     estimated,
 )
 from viscofric.rheology.superposition.joined_isotherms import BOTH, Quantities
@@ -32,10 +34,17 @@ from viscofric.rheology.superposition.shift_problem import (
     identified,
     inverse_curvature,
 )
-from viscofric.rheology.superposition.step_profiles import BROAD, StepProfiles, most_likely, sampled
+from viscofric.rheology.superposition.step_profiles import StepProfiles, most_likely
 
 OFFSET_PASSES = 3  # each smooths the curves again, with the offsets found
-TEST_PASSES = 2  # of step tests; the second has the variance of correlated points
+#: Sizes of offsets of step tests that are averaged over, decades, and their probabilities before any test is seen, by a
+#: half-Cauchy density half as wide as that of sweeps.  Many sets say little of the size, so that this choice matters:
+#: with the density of sweeps, errors where curves are steep are a fifth larger.
+TEST_SIZES = np.array([0.0, 0.0025, 0.0063, 0.016, 0.04])
+BEFORE_TESTS = np.diff(np.arctan(np.array([0.0, 0.0008, 0.004, 0.01, 0.025, 0.1]) / (0.5 * USUAL)))
+NEGLIGIBLE = 0.01  # probability of a size that is left out
+#: With a smaller probability of a vertical shift above half of T/T0, a linear step to that of T/T0 suffices.
+SMALL_CHANCE = 0.05
 LARGEST_STEP = 0.3  # decades, in one iteration
 PASSES = 8  # each chooses knots and smoothing again
 CONVERGED = 1e-5  # decades
@@ -54,7 +63,6 @@ class CommonShifts:
     parted: tuple[int, ...] = ()  # neighbours joined pair by pair because a common curve moved them apart
     freedom: float = np.inf  # of the scatter of the points
     offsets: IsothermOffsets | None = None  # of whole isotherms, where fitted
-    trend: Array | None = None  # (t,), probability of each of `TRENDS`, where fitted
 
 
 def common_shifts(
@@ -65,16 +73,19 @@ def common_shifts(
     # part of it; and with the probability that it is more than half of that, errors are those beside it, as where it
     # turns what looks like a slope into a plateau.
     found = _with_plateaus(sweeps, joins, gauge, quantities)
-    if gauge.trend is None or found.trend is None:
+    if gauge.trend is None or found.offsets is None or found.offsets.left_out is None:
         return found
-    lowered = [replace(one, moduli=one.moduli - by) for one, by in zip(sweeps, gauge.trend, strict=True)]
-    other = _with_plateaus(lowered, joins, replace(gauge, left_out=False), quantities)
-    left_out = LeftOut(found.trend, gauge.trend, found.values - other.values)
-    covariance = found.covariance + found.trend @ (TRENDS > 0.5) * (other.covariance - found.covariance)
+    left_out, covariance = found.offsets.left_out, found.covariance
+    large = float(left_out.probability @ (TRENDS > 0.5))
+    if large > SMALL_CHANCE:
+        lowered = [replace(one, moduli=one.moduli - by) for one, by in zip(sweeps, gauge.trend, strict=True)]
+        other = _with_plateaus(lowered, joins, replace(gauge, left_out=False), quantities)
+        left_out = replace(left_out, follow=found.values - other.values)
+        covariance = covariance + large * (other.covariance - covariance)
     return replace(
         found,
         covariance=covariance + np.outer(left_out.errors[0], left_out.errors[0]),
-        offsets=None if found.offsets is None else replace(found.offsets, left_out=left_out),
+        offsets=replace(found.offsets, left_out=left_out),
     )
 
 
@@ -174,8 +185,8 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
     # A curve of one modulus hardly shows offsets, since a shift takes most of each. Where one quantity is shifted, both
     # moduli, with shifts of their own, show the offsets that its errors include; the shifts found depend on it alone.
     search, own, gradient = _beside_offsets(search)
-    if search.problem.moduli == 1 and not quantities.alone and np.any(own.covariance):
-        return _with_offsets_of_tests(search, own, sweeps, quantities)
+    if search.problem.moduli == 1 and not quantities.alone and not search.problem.gauge.free_vertical:
+        return _with_offsets_of_tests(search, own, quantities.of(sweeps), quantities.onto_moduli)
     problem, offsets, seen, onto = search.problem, own, np.eye(len(own.covariance)), quantities.onto_moduli
     if quantities.alone:
         both = _of_both(sweeps, problem.gauge)
@@ -190,63 +201,63 @@ def _with_offsets(search: _Search, sweeps: list[LogSweep], quantities: Quantitie
     levels = spread + np.kron(np.ones((moduli, moduli)), problem.vertical_prior())
     profiles = StepProfiles(problem, search.smoothers, quantities.of(sweeps), levels)
     covariance = profiles.widened(search.parameters, inverse, covariance, covariance + gain @ spread @ gain.T)
-    return replace(
-        _result(search, covariance, freedom),
-        offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto),
-        trend=offsets.trend,
-    )
+    left_out = _left_out(problem, offsets, gain)
+    found = IsothermOffsets(offsets.covariance, follow, offsets.sizes, onto, left_out)
+    return replace(_result(search, covariance, freedom), offsets=found)
 
 
-def _with_offsets_of_tests(
-    search: _Search, offsets: Offsets, sweeps: list[LogSweep], quantities: Quantities
-) -> CommonShifts:
-    """Continue to the most likely shifts of step tests, with offsets of the size found."""
-    # Where residuals are correlated even without the offsets, the variance of the points is increased, and the search
-    # is repeated.
-    problem, ways, size = search.problem, search.problem.ways, search.problem.size
-    spread: Array = np.asarray(np.kron(offsets.covariance, np.eye(size)), dtype=float)
-    free = slice(size)
+def _left_out(problem: ShiftProblem, offsets: Offsets, gain: Array) -> LeftOut | None:
+    """Return a vertical shift that may have been left out, for shifts that follow levels by `gain` (n, m n)."""
+    trend, both = problem.gauge.trend, problem.trend
+    return None if trend is None or both is None else LeftOut(offsets.trend, trend, gain @ both)
+
+
+def _with_offsets_of_tests(search: _Search, offsets: Offsets, sweeps: list[LogSweep], onto: Array) -> CommonShifts:
+    """Continue to the most likely shifts of step tests, averaged over the sizes that offsets may have."""
+    # The data leave the size of offsets open; without them the levels determine the shifts, beside large ones the
+    # bends. So all of it is done for some sizes, with the weight of each by its likelihood, integrated over the shifts
+    # as a normal distribution (D. J. C. MacKay, Neural Comput. 4 (1992) 415). Where residuals are correlated even
+    # without the offsets, the variance of the points is increased.
+    problem, ways, n = search.problem, search.problem.ways, search.problem.size
     freedom = _covariance(search, offsets.expected)[1]
-    excess: list[Array] | None = None
-    for _ in range(TEST_PASSES):
-        information, _, _ = problem.with_offsets(search.parameters, search.smoothers, None)
-        across = information[free, size:]
-        onto = across @ spread @ np.linalg.inv(np.eye(size) + information[size:, size:] @ spread)
-        normal = ways.T @ (information[free, free] - onto @ across.T + problem.prior.T @ problem.prior) @ ways
-        scale = ways @ np.linalg.inv(np.linalg.cholesky(normal)).T
-        profiles = StepProfiles(problem, search.smoothers, quantities.of(sweeps), spread, excess)
-        parameters, covariance = most_likely(profiles.in_parts, search.parameters, scale)
-        search = replace(search, parameters=parameters)
-        expected = _offsets(search, offsets.expected, None)[0].expected
-        excess = problem.inflations(parameters, search.smoothers, expected)
-        if max(float(one.max()) for one in excess) == 1.0:
-            break
-    follow = np.zeros((2 * size, size))
-    follow[:size] = covariance @ onto
-    widened = profiles.widened(parameters, covariance, covariance, covariance)
-    steps = np.diff(np.eye(size), axis=0)
-    if np.max(np.einsum("ij,jk,ik->i", steps, widened, steps)) > BROAD**2:
-        widened = sampled(profiles.in_parts, parameters, widened)
+    information, _, _ = problem.with_offsets(search.parameters, search.smoothers, None)
+    across = information[:n, n:]
+    excess = problem.inflations(search.parameters, search.smoothers, offsets.expected)
+    parameters, tried, evidence = search.parameters, [], []
+    for variance in TEST_SIZES**2:
+        follow = across @ np.linalg.inv(np.eye(n) + variance * information[n:, n:])
+        normal = information[:n, :n] - variance * follow @ across.T + problem.prior.T @ problem.prior
+        scale = ways @ np.linalg.inv(np.linalg.cholesky(ways.T @ normal @ ways)).T
+        profiles = StepProfiles(problem, search.smoothers, sweeps, variance * np.eye(n), excess)
+        parameters, covariance = most_likely(profiles.in_parts, parameters, scale)
+        tried.append((profiles, parameters, covariance, covariance @ follow))
+        evidence.append(np.linalg.slogdet(ways.T @ covariance @ ways)[1] - profiles(parameters[None])[0])
+    weights = BEFORE_TESTS * np.exp(0.5 * (np.array(evidence) - max(evidence)))
+    weights *= weights > NEGLIGIBLE * weights.sum()
+    weights /= weights.sum()
+    mean = weights @ np.array([parameters for _, parameters, *_ in tried])
+    total, gain, with_shifts = np.zeros((n, n)), np.zeros((n, n)), np.zeros((2 * n, n))
+    for weight, size, (profiles, parameters, covariance, follow) in zip(weights, TEST_SIZES, tried, strict=True):
+        if weight > 0.0:
+            total += weight * (profiles.errors(parameters, covariance) + np.outer(parameters - mean, parameters - mean))
+            gain += weight * follow
+            with_shifts[:n] += weight * size**2 * follow
+    shared, sizes = np.array([[weights @ TEST_SIZES**2]]), OffsetSizes(TEST_SIZES[:, None], weights)
     return replace(
-        _result(search, widened, freedom),
-        offsets=IsothermOffsets(offsets.covariance, follow, offsets.sizes, quantities.onto_moduli),
-        trend=offsets.trend,
+        _result(replace(search, parameters=mean), total, freedom),
+        offsets=IsothermOffsets(shared, with_shifts, sizes, onto, _left_out(problem, offsets, gain)),
     )
 
 
 def _beside_offsets(search: _Search) -> tuple[_Search, Offsets, Array]:
     """Continue with offsets of the quantities shifted; return these, and their effect on the gradient."""
-    problem, expected = search.problem, None
-    # The most likely shifts of one quantity follow the size of offsets, which then must hold a vertical shift too.
-    trend = problem.trend if problem.moduli > 1 else None
+    problem = search.problem
+    offsets, gradient = _offsets(search, None)
     for _ in range(OFFSET_PASSES):
-        offsets, gradient = _offsets(search, expected, trend)
-        expected = offsets.expected
-        smoothers = problem.smoothers(search.parameters, expected)
+        smoothers = problem.smoothers(search.parameters, offsets.expected)
         noise = _noise(problem, smoothers)
         search = _Search(problem, _descend(problem, search.parameters, smoothers, noise), smoothers, noise)
-    if trend is not problem.trend:
-        offsets = replace(offsets, trend=_offsets(search, expected, problem.trend)[0].trend)
+        offsets, gradient = _offsets(search, offsets.expected)
     return search, offsets, gradient
 
 
@@ -308,9 +319,9 @@ def _covariance(search: _Search, expected: Array | None = None) -> tuple[Array, 
     return np.asarray(ways @ inverse @ (score + prior) @ inverse @ ways.T), left, np.asarray(ways @ inverse @ ways.T)
 
 
-def _offsets(search: _Search, expected: Array | None, trend: Array | None) -> tuple[Offsets, Array]:
+def _offsets(search: _Search, expected: Array | None) -> tuple[Offsets, Array]:
     """Return the variance of offsets of whole isotherms, and the effect of each on the gradient by the shifts."""
-    problem, ways = search.problem, search.problem.ways
+    problem, ways, trend = search.problem, search.problem.ways, search.problem.trend
     information, score, gradient = problem.with_offsets(search.parameters, search.smoothers, expected)
     turned = np.eye(len(score))[:, len(ways) - ways.shape[1] :]
     turned[: len(ways), : ways.shape[1]] = ways

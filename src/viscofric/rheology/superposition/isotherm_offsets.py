@@ -30,13 +30,12 @@ _ENDS = np.concatenate([[0.0], SIZES[1:] * 10.0**-0.1, [SIZES[-1] * 10.0**0.1]])
 #: Gelman, Bayesian Anal. 1 (2006) 515.
 USUAL = 0.01  # decades
 BEFORE = np.diff(np.arctan(_ENDS / USUAL))
-#: Of one quantity a shift takes the place of nearly all of an offset; none is then this many times as probable as all
-#: other sizes, which are equally probable, together …
-NONE = 3.0
-#: … or this many times where vertical shifts are fitted.  Few degrees of freedom are left there (3 of 13 isotherms of a
-#: soft rubber), so that this choice matters: with 3, errors of α were half of what they should be in a quarter of the
-#: sweeps that had offsets; with 0.3, errors of sweeps that have none are up to 1.6 times as large as with 3.
-NONE_BESIDE_VERTICAL = 0.3
+#: Where vertical shifts are fitted, none is this many times as probable as all other sizes, which are equally probable,
+#: together.  Few degrees of freedom are left there (3 of 13 isotherms of a soft rubber), so that this choice matters:
+#: with 3, errors of α were half of what they should be in a quarter of the sweeps that had offsets; with 0.3, errors of
+#: sweeps that have none are up to 1.6 times as large as with 3.
+NONE = 0.3
+_BESIDE_VERTICAL = np.append(NONE, np.full(len(SIZES) - 1, 1.0 / (len(SIZES) - 1)))
 #: The sum and the difference of the offsets of log E' and log E'', over √2, have separate variances, independent a
 #: priori: clamping anew changes both moduli by one factor, so that nothing is seen in the difference, and where the
 #: curves are power laws, a shift takes the place of the sum.
@@ -140,7 +139,10 @@ class IsothermOffsets:
         for row in range(2):
             for column in range(moduli):
                 with_shifts[row, :, column, first:last] = continued(own[row, :, column], gauge, first, last)
-        return replace(self, with_shifts=with_shifts.reshape(2 * size, moduli * size))
+        left_out = self.left_out
+        if left_out is not None and gauge.trend is not None:
+            left_out = replace(left_out, log10_b=gauge.trend, follow=continued(left_out.follow, gauge, first, last))
+        return replace(self, with_shifts=with_shifts.reshape(2 * size, moduli * size), left_out=left_out)
 
     def resized(self, random: np.random.Generator, errors: Array) -> Array:
         """Rescale the offsets of each sample to one size drawn at random, and move its shifts accordingly."""
@@ -191,11 +193,11 @@ def estimated(
     wish = turn @ (score[free:] - gain @ score[:free])
     turn = turn[: moduli * size, : moduli * size]
     if moduli == 1:
-        tried, before, likelihood_of = SIZES[:, None], _equal(NONE), _likelihood_of_sums
+        tried, before, likelihood_of = SIZES[:, None], BEFORE, _likelihood_of_one
     else:
         tried = np.stack(np.meshgrid(SIZES, SIZES, indexing="ij"), axis=-1).reshape(-1, 2)
-        before = (np.diag(_equal(NONE_BESIDE_VERTICAL)) if tied else np.outer(BEFORE, BEFORE)).ravel()
-        likelihood_of = _likelihood
+        before = (np.diag(_BESIDE_VERTICAL) if tied else np.outer(BEFORE, BEFORE)).ravel()
+        likelihood_of = _likelihood_of_two
     probability = _beside_trends(likelihood_of, left, wish, before, trend)
     found, weight = probability.sum(axis=0), probability.sum(axis=1)
     variances = weight @ tried**2
@@ -214,13 +216,13 @@ def _beside_trends(
 ) -> Array:
     """Return the probabilities of k sizes of offsets and of trends, (k, t), with probabilities (k,) of sizes before."""
     if not trend:
-        likelihood, parts = likelihood_of(left, wish)[:, None], NO_TREND
+        likelihood, parts = likelihood_of(left, wish[None]).T, NO_TREND
     else:  # it is normal: its logarithm is a parabola of the trend, given by three of them
+        three = np.array([[-1.0], [0.0], [1.0]])
         less, none, more = (
-            likelihood_of(left[:-1, :-1], wish[:-1] - part * left[:-1, -1])
-            + part * wish[-1]
-            - 0.5 * left[-1, -1] * part**2
-            for part in (-1.0, 0.0, 1.0)
+            likelihood_of(left[:-1, :-1], wish[:-1] - three * left[:-1, -1])
+            + three * wish[-1]
+            - 0.5 * left[-1, -1] * three**2
         )
         likelihood = np.outer(0.5 * (more - less), TRENDS) + np.outer(0.5 * (more + less) - none, TRENDS**2)
         likelihood, parts = none[:, None] + likelihood, BEFORE_TREND
@@ -228,33 +230,34 @@ def _beside_trends(
     return np.asarray(probability / probability.sum())
 
 
-def _equal(none: float) -> Array:
-    """Return equal probabilities of all sizes, and `none` times their sum of none."""
-    return np.append(none, np.full(len(SIZES) - 1, 1.0 / (len(SIZES) - 1)))
+def _modes(information: Array) -> tuple[Array, Array]:
+    """Return eigenvalues, of which rounding makes some negative, and eigenvectors."""
+    known, modes = np.linalg.eigh(information)
+    return np.maximum(known, 0.0), modes
 
 
-def _likelihood_of_sums(left: Array, wish: Array) -> Array:
-    """Return the log of the likelihood of sizes (s,) over that of none, from their information and score."""
-    known, modes = np.linalg.eigh(left)
-    known, variance = np.maximum(known, 0.0), SIZES[:, None] ** 2  # rounding makes some negative
-    return np.asarray(
-        0.5 * np.sum(variance / (1.0 + variance * known) * (modes.T @ wish) ** 2 - np.log1p(variance * known), axis=1)
-    )
-
-
-def _likelihood(left: Array, wish: Array) -> Array:
-    """Return ln of the likelihood of sizes of sums and of differences, all pairs of them, over that of none."""
-    size = len(wish) // 2
+def _of_sizes(known: Array, score: Array) -> Array:
+    """Return ln of the likelihood of sizes (…, s) over that of none, from information and score of modes (…, n)."""
     variance = SIZES[:, None] ** 2
-    known, modes = np.linalg.eigh(left[:size, :size])
-    known = np.maximum(known, 0.0)
+    found = variance * known[..., None, :]
+    return np.asarray(0.5 * np.sum(variance * score[..., None, :] ** 2 / (1.0 + found) - np.log1p(found), axis=-1))
+
+
+def _likelihood_of_one(left: Array, wishes: Array) -> Array:
+    """Return ln of the likelihood of sizes (w, s) over that of none, from their information and scores (w, n)."""
+    known, modes = _modes(left)
+    return _of_sizes(known, wishes @ modes)
+
+
+def _likelihood_of_two(left: Array, wishes: Array) -> Array:
+    """Return the same of sizes of sums and of differences, all pairs of them."""
+    size = len(left) // 2
+    known, modes = _modes(left[:size, :size])
+    variance = SIZES[:, None] ** 2
     part = variance / (1.0 + variance * known)  # of each size and mode of the sums
-    across, score = modes.T @ left[:size, size:], modes.T @ wish[:size]
-    sums = _likelihood_of_sums(left[:size, :size], wish[:size])
-    beside = left[size:, size:] - (across.T * part[:, None, :]) @ across
-    remaining = wish[size:] - (part * score) @ across
-    known, modes = np.linalg.eigh(beside)  # of the differences, beside sums of each size
-    score = np.einsum("smk,sm->sk", modes, remaining)[:, None]
-    found = variance * np.maximum(known, 0.0)[:, None]
-    differences = 0.5 * np.sum(variance * score**2 / (1.0 + found) - np.log1p(found), axis=2)
-    return np.asarray(sums[:, None] + differences).ravel()
+    across, score = modes.T @ left[:size, size:], wishes[:, :size] @ modes
+    sums = _of_sizes(known, score)
+    beside, modes = _modes(left[size:, size:] - (across.T * part[:, None, :]) @ across)
+    remaining = wishes[:, None, size:] - (part * score[:, None]) @ across
+    differences = _of_sizes(beside, np.einsum("smk,wsm->wsk", modes, remaining))  # beside sums of each size
+    return np.asarray(sums[..., None] + differences).reshape(len(wishes), -1)

@@ -146,6 +146,13 @@ class StepProfiles:
             widened += more * np.outer(profile.follow, profile.follow)
         return widened
 
+    def errors(self, parameters: Array, covariance: Array) -> Array:
+        """Return the covariance (p, p) of the most likely parameters (p,), whose curvature gives `covariance`."""
+        widened = self.widened(parameters, covariance, covariance, covariance)
+        steps = np.diff(np.eye(len(parameters)), axis=0)
+        broad = np.max(np.einsum("ij,jk,ik->i", steps, widened, steps)) > BROAD**2
+        return sampled(self.in_parts, parameters, widened) if broad else widened
+
     def _try(self, parameters: Array, moves: list[tuple[_Profile, float]]) -> None:
         """Evaluate moves of steps, and record their likelihood."""
         moved = np.array([parameters + move * profile.follow for profile, move in moves if move])

@@ -172,15 +172,15 @@ def superpose(
     Without a requested vertical shift, errors of α include one in proportion to temperature, from none to b = T/T0 and,
     as far as the isotherms ask for it, beyond or below: its size squared, averaged over its likelihood.  A note names
     it where the isotherms show it (`vertical-shift-left-out`).  Of 105 random rubbers whose ρT was left out, 84 were
-    noted, and 95 % intervals held 99 % of α and 94 % of α of fitted laws; of 134 sets of step tests 79, 91 and 92 %.
+    noted, and 95 % intervals held 99 % of α and 94 % of α of fitted laws; of 164 sets of step tests 60, 92 and 94 %.
     A vertical shift of another course, as of crystals that melt, is included in part (77 % of α).
 
     Of step tests log J(t), or log E(t), is brought onto one curve over log t, by the same fit.  Its points are averaged
     over twentieths of a decade of time first: instruments record far more of them at long times, with errors that are
     alike.  The weight of an average grows with its number of readings, as far as their errors are independent, up to
     that of eight.  One curve for each temperature shows less than E' and E'': offsets of isotherms are found as far as
-    the curve bends, and where it is a power law, they are taken for shifts.  The shifts are the most likely ones with
-    offsets of the size found (`step_profiles`).  With ``vertical="free"`` offsets are part of b.
+    the curve bends, and where it is a power law, they are taken for shifts.  The shifts are the most likely ones,
+    averaged over the sizes that offsets may have (`step_profiles`).  With ``vertical="free"`` offsets are part of b.
 
     Given or fixed factors that join the isotherms clearly worse than shifts of their own would are mentioned in a note.
 
