@@ -129,6 +129,11 @@ def test_slip_beside_both_speeds_must_agree_with_them(tmp_path, heading, agrees,
         assert ("unused-columns" in codes(notes)) == wrong
 
 
+def test_a_dash_in_a_row_of_units_is_the_unit_of_a_ratio(tmp_path):
+    lines = ["temperature,load,rolling speed,SRR,traction force", "degC,N,mm/s,-,N", "20,25,100,0.5,1.3"]
+    assert read_mtm(write(tmp_path, *lines)).disc_speed == pytest.approx([0.125], rel=1e-12)
+
+
 def test_columns_that_are_not_read_are_named(tmp_path):
     runs = read_mtm(write(tmp_path, f"{HEADER},load 2 (N),remark,step", f"{ROW},25,run in,1"))
     (note,) = runs.notes

@@ -695,7 +695,7 @@ def _unit(cell: str) -> str:
     plain = cell.strip()
     if re.fullmatch(r"[(\[{<][^()\[\]{}<>]*[)\]}>]?|[^()\[\]]*[)\]]", plain):
         plain = plain.strip("[](){}<>").strip()
-    return "" if plain in ("-", "–", "1") else plain
+    return plain
 
 
 def _in_text(source: Source, words: Vocabulary) -> Found | None:
