@@ -11,13 +11,13 @@ from pathlib import Path
 import numpy as np
 
 from viscofric.arrays import Array, Integers
-from viscofric.errors import DataFileError, InputError, check_choice, short_notes
-from viscofric.files import file_path, marked, read_bytes, says_synthetic
+from viscofric.errors import DataFileError, check_choice, short_notes
+from viscofric.files import marked, says_synthetic
 from viscofric.nominal import SAME_LOAD, SAME_SPEED, SAME_TEMPERATURE, numbered
 from viscofric.notes import Note, note_of, setting
 from viscofric.readers.mtm import delimited, pcs_binary, pcs_text
 from viscofric.readers.mtm.readings import Thermometer, TractionReadings
-from viscofric.readers.source import Source, checked_sheet, insist_on_content
+from viscofric.readers.source import Source, insist_on_content, sources_of
 from viscofric.readers.workbook import is_workbook, sheet_texts
 from viscofric.traction import TractionRuns, TractionStep, notes_on_copies, notes_on_friction
 
@@ -62,7 +62,7 @@ _MEASURED = ("disc_speed", "ball_speed", "traction_force", "load", "temperature"
 
 
 def read_mtm(
-    *paths: str | PathLike[str],
+    *paths: str | PathLike[str] | Sequence[str | PathLike[str]],
     thermometer: Thermometer = "lube",
     columns: Mapping[str, str] | None = None,
     sheet: str | None = None,
@@ -77,7 +77,7 @@ def read_mtm(
 
     Parameters
     ----------
-    *paths : str or path
+    *paths : str or path, or a list of them
         The files; those of several temperatures or repetitions become one set of runs.
     thermometer : {"lube", "pot"}
         Which of an export's thermometers to use: that in the lubricant, nearer to the contact, or that of the pot.
@@ -132,19 +132,9 @@ def read_mtm(
     >>> sorted({round(kelvin - 273.15) for kelvin in runs.temperature.tolist()})
     [10, 20, 30, 45, 65, 90]
     """
-    if not paths:
-        raise InputError("read_mtm needs at least one file.", code="no-files")
     check_choice(thermometer, "thermometer", "lube", "pot")
-    if isinstance(paths[0], (list, tuple)):
-        raise InputError(
-            "read_mtm takes the files as separate arguments, read_mtm(*paths), not in a list.", code="files-in-a-list"
-        )
-    files = [str(file_path(path)) for path in paths]
-    for place, path in enumerate(files):
-        if any(Path(path).resolve() == Path(other).resolve() for other in files[:place] if "\0" not in path + other):
-            raise DataFileError(path, "is given twice; name each file once.", code="given-twice")
-    named, one_sheet = delimited.TRACTION.checked(columns), checked_sheet(sheet)
-    parts = [read_file(Source(path, read_bytes(path), columns=named, sheet=one_sheet), thermometer) for path in files]
+    sources = sources_of(paths, "read_mtm", delimited.TRACTION, None, None, columns, sheet)
+    parts = [read_file(source, thermometer) for source in sources]
     for place, part in enumerate(parts):
         for other in parts[:place]:
             if part.same_as(other):
