@@ -383,9 +383,8 @@ def doubtful_point(path: str, rows: Sequence[Sequence[str]], lines: Sequence[int
 
 def on_doubtful_point(number: str) -> Note:
     """Return the note on numbers that were read with decimals though all could have a mark between thousands."""
-    said = (
-        f"Points were read as those of decimals ({number}); all precede three digits, as in {number.replace('.', '')}."
-    )
+    said = f"Points were read as those of decimals ({number}), though each precedes three digits; if they part "
+    said += "thousands, remove them."
     return Note("decimals-assumed", said, values={"number": number})
 
 
