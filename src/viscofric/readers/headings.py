@@ -175,11 +175,10 @@ class Column:
         return match["name"] if match else ""
 
     def is_like(self, other: Column) -> bool:
-        """Return whether its heading is that of another column, but for a number at the ends of the names."""
-        if self.quantity not in ("", other.quantity):
-            return False
-        numbered = self.unnumbered == other.unnumbered != "" and self.unit in ("", other.unit)
-        return bool(self.heading) and (self.heading == other.heading or numbered)
+        """Return whether its heading is that of another column, but for a number at the end of a name."""
+        one, same = (heading(column.heading) for column in (self, other))
+        named = (one.unnumbered or one.name) == (same.unnumbered or same.name) != "" and one.unit in ("", same.unit)
+        return self.quantity in ("", other.quantity) and (named or self.heading == other.heading != "")
 
     def with_unit(self, unit: str, *, logarithms: bool = False) -> Column:
         """Return the column with a unit, of logarithms where these are known and it is written so: ``log Hz``."""

@@ -97,18 +97,15 @@ def with_one_abscissa(table: Table, test: Test, notes: list[str]) -> Table:
     if not swept or len({named[n] for n in curves}) < len(curves):  # of several sweeps
         return table
     first = next((n for n in swept if columns[n].quantity), swept[0])
-    columns = tuple(replace(one, quantity=named[n]) if n == first else one for n, one in enumerate(columns))
+    lead = replace(columns[first], quantity=named[first])
+    alike = [n for n, one in enumerate(columns) if n != first and one.is_like(lead)]
+    columns = tuple(replace(one, base=lead.base) if n in alike else one for n, one in enumerate(columns))
+    columns = (*columns[:first], lead, *columns[first + 1 :])
     table, leads = replace(table, columns=columns), bool(curves) and first < curves[0]
-    own: dict[int, int] = {}  # of each curve
-    for n in range(len(columns)):
-        like, between = columns[n].is_like(columns[first]), leads and curves[0] < n < curves[-1] and n not in curves
-        if n == first:
-            continue
-        if like and between:
-            own |= {curve: n for curve in curves if curve > n}
-        elif (between or (like and not (leads and columns[first].given))) and _differs(
-            table, n, first, test, like=like
-        ):
+    within = [n for n in range(curves[0], curves[-1]) if n not in curves] if leads else []
+    own = {curve: n for n in alike if n in within for curve in curves if curve > n}
+    for n in {*within, *(() if leads and lead.given else alike)} - {*own.values()}:
+        if _differs(table, n, first, test, like=n in alike):
             raise table.of_others(n, first, _SWEPT[test])
     kept = tuple(replace(one, name="", quantity="") if n in own.values() else one for n, one in enumerate(columns))
     others = {curve: n for curve, n in own.items() if _differs(table, n, first, test, like=True)}
@@ -440,7 +437,7 @@ def _temperature(
         return known
     others = [one.heading for one in table.columns if not one.quantity and converted("1", one.unit, "K") is not None]
     if others:
-        problem = f"no column is called temperature; if {' or '.join(map(repr, others))} is not one, give "
+        problem = f"no column is called temperature; unless it is {' or '.join(map(repr, others))}, give "
         remedy = setting("material.temperature", "Temperature of the sweep", "'25 degC'") + "; if it is, rename it"
         remedy += or_name_it(table.vocabulary.key, "temperature", others[0])
         raise table.refused("missing-columns", problem, remedy, ["temperature"])
