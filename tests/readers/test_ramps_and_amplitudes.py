@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,14 @@ def test_a_ramp_at_one_frequency_is_read(tmp_path):
     assert found.ramps[0].angular_frequency == pytest.approx(2.0 * np.pi)
     assert found.heating_rate == pytest.approx(0.05)
     assert found.deformation == "tension"
+
+
+def test_a_thermometer_of_the_furnace_between_phase_and_moduli_is_no_abscissa(tmp_path):
+    header = "T (°C),f (Hz),phase (°),T furnace (°C),E' (MPa),E'' (MPa)\n"
+    lines = [f"{T},1,{math.degrees(math.atan(0.1)):.6f},{T + 5},{10 - 0.1 * T},{1 - 0.01 * T}" for T in range(0, 40, 2)]
+    ramp = vf.read_ramps(written(tmp_path, lines, header)).ramps[0]
+    assert ramp.temperature[0] == pytest.approx(273.15)
+    assert ramp.loss_modulus[0] == pytest.approx(1e6)
 
 
 def test_ramps_at_several_frequencies_are_read_in_any_order(tmp_path):

@@ -177,8 +177,8 @@ class Column:
     def is_like(self, other: Column) -> bool:
         """Return whether its heading is that of another column, but for a number at the end of a name."""
         one, same = (heading(column.heading) for column in (self, other))
-        named = (one.unnumbered or one.name) == (same.unnumbered or same.name) != "" and one.unit in ("", same.unit)
-        return self.quantity in ("", other.quantity) and (named or self.heading == other.heading != "")
+        named = (one.unnumbered or one.name) == (same.unnumbered or same.name) != "" or self.heading == other.heading
+        return named and bool(self.heading) and self.quantity in ("", other.quantity) and self.unit in ("", other.unit)
 
     def with_unit(self, unit: str, *, logarithms: bool = False) -> Column:
         """Return the column with a unit, of logarithms where these are known and it is written so: ``log Hz``."""

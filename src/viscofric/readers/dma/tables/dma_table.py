@@ -104,6 +104,9 @@ def with_one_abscissa(table: Table, test: Test, notes: list[str]) -> Table:
     table, leads = replace(table, columns=columns), bool(curves) and first < curves[0]
     within = [n for n in range(curves[0], curves[-1]) if n not in curves] if leads else []
     own = {curve: n for n in alike if n in within for curve in curves if curve > n}
+    needed = [n for n in curves if named[n] in of[:-2]]  # others come from one instrument with these
+    if len(needed) > 1:
+        within = [n for n in within if n in alike or needed[0] < n < needed[-1]]
     for n in {*within, *(() if leads and lead.given else alike)} - {*own.values()}:
         if _differs(table, n, first, test, like=n in alike):
             raise table.of_others(n, first, _SWEPT[test])
@@ -371,7 +374,7 @@ def read_points(
     # be in per cent and is not read; a file may hold many such tables, so that moduli are judged when all points are
     # joined (`checks.usable`). `tools` as for `deformation`.
     notes: list[str] = []
-    table = with_one_abscissa(table, source.test, notes)
+    table = table if exported else with_one_abscissa(table, source.test, notes)
     places = find_columns(table, source.temperature)
     if is_reduced(table, places):
         problem = f"column {table.columns[places['frequency']].heading!r} holds reduced frequencies: a master curve"
