@@ -324,9 +324,10 @@ def with_error(value: float, error: float | None) -> str:
     return f"{shown_number(value, f'z.{decimals}f')} ± {error:.{decimals}f}"
 
 
-def several(shown: Sequence[str], more: int = 0) -> str:
-    """Join texts in words: a, b and c; with so many more that are not shown: a, b and 3 more."""
-    first, last = (shown, f"{more} more") if more else (shown[:-1], "".join(shown[-1:]))
+def several(texts: Sequence[str], most: int = 1000) -> str:
+    """Join texts in words: a, b and c; of more than so many the first: a, b and 3 more."""
+    more = len(texts) - most
+    first, last = (texts[:most], f"{more} more") if more > 0 else (texts[:-1], "".join(texts[-1:]))
     return f"{', '.join(first)} and {last}" if first else last
 
 

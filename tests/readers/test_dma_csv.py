@@ -789,7 +789,7 @@ def test_columns_of_means_count_where_there_are_no_others(tmp_path):
 def test_words_that_may_tell_specimens_apart_are_named(tmp_path):
     rows = [f"{row},{word}" for row, word in zip(ROWS, "ABAB", strict=True)]
     sweeps = read_dma(write(tmp_path, f"{HEADER},sample", *rows))
-    assert noted(sweeps.notes, "unused-columns", "'sample'", "'A', 'B'")
+    assert noted(sweeps.notes, "unused-columns", "'sample'", "'A' and 'B'")
     for words in ("AAAA", "A  A", "ABCD"):  # one specimen, and remarks
         rows = [f"{row},{word}" for row, word in zip(ROWS, words, strict=True)]
         assert "unused-columns" not in codes(read_dma(write(tmp_path, f"{HEADER},sample", *rows)).notes)

@@ -58,11 +58,11 @@ def test_genuine_frequency_sweep_among_other_techniques(real_data):
     assert readings.loss_modulus[0] == pytest.approx(-0.00116959899902344e6, rel=PRINTED)
     assert readings.strain_amplitude[0] == pytest.approx(1.00769631081605e-2, rel=PRINTED)
     assert len(readings.notes) == 1
-    assert noted(readings.notes, "no-frequency-sweep", "2 steps", "'Amplitude sweep - 1', 'Flow ramp - 3'")
+    assert noted(readings.notes, "no-frequency-sweep", "2 steps", "'Amplitude sweep - 1' and 'Flow ramp - 3'")
 
 
 def test_genuine_flow_curves_are_refused_with_what_they_hold(real_data):
-    steps = "'Peak hold - 1', 'Temperature ramp - 2', 'Temperature ramp - 3', 'Temperature ramp - 4', without moduli"
+    steps = "'Peak hold - 1', 'Temperature ramp - 2', 'Temperature ramp - 3' and 'Temperature ramp - 4', without moduli"
     with refused("no-frequency-sweep", None, steps):
         read(real_data / "instruments/trios/trios_short_export.txt")
 
@@ -226,7 +226,7 @@ def test_several_frequencies_of_an_amplitude_sweep_are_no_frequency_sweep(tmp_pa
     path.write_text(text, encoding="utf-8")
     readings = read(path)
     assert_planted(readings, [k for k in range(15) if POINTS[0][k] != 10.0])
-    assert noted(readings.notes, "no-frequency-sweep", "2 steps", "'Creep - 1', 'Amplitude sweep (10.0 °C)'")
+    assert noted(readings.notes, "no-frequency-sweep", "2 steps", "'Creep - 1' and 'Amplitude sweep (10.0 °C)'")
 
 
 def test_one_step_of_all_temperatures_is_a_sweep_where_it_holds_several_frequencies(tmp_path):

@@ -189,7 +189,7 @@ def test_points_that_do_not_oscillate_are_left_out_and_noted(tmp_path):
     assert_planted(readings, PRINTED, [k for k in range(n) if k not in (n - 2, n - 4)])
     assert len(readings.notes) == 1
     assert noted(readings.notes, "points-left-out", "2 points")
-    assert readings.notes[0].endswith(f"line {len(lines) - 3}, line {len(lines) - 1}.")
+    assert readings.notes[0].endswith(f"line {len(lines) - 3} and line {len(lines) - 1}.")
 
 
 def test_negative_moduli_are_handed_on_as_printed(tmp_path):

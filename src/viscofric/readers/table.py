@@ -276,7 +276,13 @@ class Table:
     def place(self, what: str) -> int | None:
         """Return the place of the one column of a quantity, or None; several such columns are an error."""
         found = [place for place, column in enumerate(self.columns) if column.quantity == what]
-        place = self._one_of(found, what)
+        if len(found) > 1:
+            both = " and ".join(repr(self.columns[place].heading) for place in found)
+            problem = f"{both} could each be the {what}; keep one of them"
+            headings = {self.columns[place].heading for place in found}
+            first = self.columns[found[0]].heading if len(headings) == len(found) else f"#{found[0] + 1}"
+            raise self.refused("ambiguous-columns", problem, or_name_it(self.vocabulary.key, what, first))
+        place = found[0] if found else None
         if place is not None and self.columns[place].given:
             read = [n for n, column in enumerate(self.columns) if column.quantity]
             for n in (n for n, column in enumerate(self.columns) if column.is_like(self.columns[place])):
@@ -294,15 +300,6 @@ class Table:
     def has(self, what: str) -> bool:
         """Return whether a column holds a quantity."""
         return any(column.quantity == what for column in self.columns)
-
-    def _one_of(self, found: list[int], what: str) -> int | None:
-        if len(found) > 1:
-            both = " and ".join(repr(self.columns[place].heading) for place in found)
-            problem = f"{both} could each be the {what}; keep one of them"
-            headings = {self.columns[place].heading for place in found}
-            first = self.columns[found[0]].heading if len(headings) == len(found) else f"#{found[0] + 1}"
-            raise self.refused("ambiguous-columns", problem, or_name_it(self.vocabulary.key, what, first))
-        return found[0] if found else None
 
 
 def make_table(

@@ -83,7 +83,8 @@ def find_tables(source: Source, vocabulary: Vocabulary) -> dict[str, Table]:
         return _of_workbook(source, words)
     if source.sheet:
         raise not_needed(source.path, "sheet", "no-sheet", "is not a workbook")
-    found = _in_text(source, words)
+    header = _header_of_text(source, words)
+    found = header and _whole(source, words, *header)
     if found is None:
         raise no_header(source, words)
     remarks = [
@@ -696,12 +697,6 @@ def _unit(cell: str) -> str:
     if re.fullmatch(r"[(\[{<][^()\[\]{}<>]*[)\]}>]?|[^()\[\]]*[)\]]", plain):
         plain = plain.strip("[](){}<>").strip()
     return plain
-
-
-def _in_text(source: Source, words: Vocabulary) -> Found | None:
-    """Return the rows and the header of a text."""
-    found = _header_of_text(source, words)
-    return None if found is None else _whole(source, words, *found)
 
 
 def _header_of_text(source: Source, words: Vocabulary) -> tuple[str, bool] | None:

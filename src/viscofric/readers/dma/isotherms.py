@@ -325,7 +325,7 @@ def _source(readings: Sequence[Readings]) -> str:
 
 def _names(readings: Sequence[Readings]) -> str:
     names = [Path(one.source).name for one in readings]
-    return several(names[:3], max(0, len(names) - 3))
+    return several(names, 3)
 
 
 def _on_formats(readings: Sequence[Readings]) -> list[Note]:

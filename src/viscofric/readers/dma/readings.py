@@ -130,14 +130,12 @@ class Points:
     def named(self, indices: Iterable[int]) -> str:
         """Return the places of points, the first few of many: ``"lines 18, 20, 31 and 9 more"``."""
         places = [self.places[index] for index in indices]
-        shown, more = places[:_SHOWN], max(0, len(places) - _SHOWN)
-        parts = [re.fullmatch(r"(?P<before>.*?)(?P<what>line|row|point) (?P<number>\d+)", place) for place in shown]
+        parts = [re.fullmatch(r"(?P<before>.*?)(?P<what>line|row|point) (?P<number>\d+)", place) for place in places]
         alike = {(one["before"], one["what"]) for one in parts if one}
         if len(places) > 1 and len(alike) == 1 and all(parts):
             before, what = alike.pop()
-            shown = [one["number"] for one in parts if one]
-            return f"{before}{what}s {several(shown, more)}"
-        return several(shown, more)
+            return f"{before}{what}s {several([one['number'] for one in parts if one], _SHOWN)}"
+        return several(places, _SHOWN)
 
 
 @dataclass(frozen=True, eq=False)

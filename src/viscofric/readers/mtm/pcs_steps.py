@@ -119,7 +119,8 @@ def parse(path: str, text: str) -> Export:
                 layouts[line] = _columns(cells)
             layout = layouts[line]
             if layout is not None:
-                _begin(step, layout)
+                if not step.blocks or step.blocks[-1].columns is not layout:  # else headings are repeated
+                    step.blocks.append(Block(layout, step.rows + 1))
                 continue
         if not _is_header_line(path, step, number, cells):
             _take_row(export, step, number, cells, last=number == len(lines))
@@ -180,12 +181,6 @@ def _columns(cells: list[str]) -> tuple[Column, ...] | None:
         unit = column.unit or (speed if UNITS.get(column.quantity) == "m/s" else "")
         found[place] = replace(column, unit=unit, quantity=column.quantity if last[column.quantity] == place else "")
     return tuple(found)
-
-
-def _begin(step: Step, columns: tuple[Column, ...]) -> None:
-    """Begin a table, or continue the last one if its headings are repeated."""
-    if not step.blocks or step.blocks[-1].columns is not columns:
-        step.blocks.append(Block(columns, step.rows + 1))
 
 
 def _take_row(export: Export, step: Step, number: int, cells: list[str], *, last: bool) -> None:

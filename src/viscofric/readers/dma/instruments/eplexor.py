@@ -27,6 +27,7 @@ from viscofric.readers.source import Source, converted, unit_conversion
 from viscofric.readers.table import Table, instrument_table
 from viscofric.readers.tables import numbered_rows
 from viscofric.readers.workbook import sheet_names, sheets
+from viscofric.showing import several
 from viscofric.units import CELSIUS_ZERO, shown_celsius
 
 Rows = Sequence[Sequence[Any]]
@@ -318,10 +319,8 @@ def _passed_over(table: Table, complete: Mask) -> list[Note]:
     missing = [f"row {line}" for line, kept in zip(table.lines, complete, strict=True) if not kept]
     if not missing:
         return []
-    shown = ", ".join(missing[:3]) + (f" and {len(missing) - 3} more" if len(missing) > 3 else "")
-    return [
-        Note("points-left-out", f"Left out, without a temperature, frequency or modulus, in sheet {DATA!r}: {shown}.")
-    ]
+    said = f"Left out, without a temperature, frequency or modulus, in sheet {DATA!r}: {several(missing, 3)}."
+    return [Note("points-left-out", said)]
 
 
 def _is_master(temperature: Array, frequency: Array, shifts: ShiftList | None, programmed: Array | None) -> bool:

@@ -28,6 +28,7 @@ from viscofric.readers.dma.readings import Readings
 from viscofric.readers.dma.tables.dma_table import read_export
 from viscofric.readers.source import Decimals, Source
 from viscofric.readers.table import Table, instrument_table
+from viscofric.showing import several
 
 #: Line and cells of points.
 Rows = list[tuple[int, tuple[str, ...]]]
@@ -239,7 +240,7 @@ def _doubts(interval: Interval) -> list[Note]:
     marked = (list(interval.invalid), "marked next to the number as invalid")
     for lines, why in (marked, (empty, "a cell being empty")):
         if lines:
-            shown = ", ".join(str(line) for line in lines[:3]) + (" and more" if len(lines) > 3 else "")
+            shown = several([*map(str, lines)], 3)
             what = "1 point was" if len(lines) == 1 else f"{len(lines)} points were"
             said = f"{what} left out, {why} (line{'s' if len(lines) > 1 else ''} {shown})."
             notes.append(Note("points-left-out", said))

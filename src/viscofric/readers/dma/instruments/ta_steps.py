@@ -18,6 +18,7 @@ from viscofric.readers.dma.tables.dma_table import read_export
 from viscofric.readers.headings import Column, with_primes
 from viscofric.readers.source import Decimals, Source, Test
 from viscofric.readers.table import Table
+from viscofric.showing import several
 
 #: Tests in words.
 TESTS = {"frequency": "frequency sweep", "temperature": "temperature ramp", "amplitude": "amplitude sweep"}
@@ -199,7 +200,7 @@ def readings_of(
     if left_out:
         points = "1 point was" if len(left_out) == 1 else f"{len(left_out)} points were"
         want = "without a number for temperature, modulus or frequency (above zero)"
-        notes.append(Note("points-left-out", f"{points} left out, {want}: {_listed(left_out)}."))
+        notes.append(Note("points-left-out", f"{points} left out, {want}: {several(left_out, _NAMED)}."))
     used = [(number, step.taken(step.usable)) for number, step in sweeps if step.usable.any()]
     if not used:
         problem = "no point of its frequency sweeps has all of temperature, frequency and moduli."
@@ -218,10 +219,10 @@ def _contents(steps: Sequence[Step]) -> str:
         return "it has no steps with data"
     names = [repr(step.name) for step in steps]
     have = [repr(step.name) for step in steps if step.has_moduli]
-    listed = f"its step{' is' if len(steps) == 1 else 's are'} {_listed(names)}"
+    listed = f"its step{' is' if len(steps) == 1 else 's are'} {several(names, _NAMED)}"
     if not have:
         return f"{listed}, without moduli"
-    which = "" if have == names else f" of which {_listed(have)}"
+    which = "" if have == names else f" of which {several(have, _NAMED)}"
     return f"{listed},{which} with moduli, but not over frequency"
 
 
@@ -233,9 +234,4 @@ def _passed_over(steps: Sequence[Step], test: Test) -> list[str]:
     if len(others) > 1:
         what = f"{len(others)} steps that are not {TESTS[test]}s were"
     values = {"steps": [step.name for step in steps]}
-    return [Note(f"no-{TESTS[test].replace(' ', '-')}", f"{what} skipped: {_listed(others)}.", values=values)]
-
-
-def _listed(names: Sequence[str]) -> str:
-    """Name the first few."""
-    return ", ".join(names[:_NAMED]) + (f" and {len(names) - _NAMED} more" if len(names) > _NAMED else "")
+    return [Note(f"no-{TESTS[test].replace(' ', '-')}", f"{what} skipped: {several(others, _NAMED)}.", values=values)]

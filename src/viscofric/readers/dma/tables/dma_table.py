@@ -31,6 +31,7 @@ from viscofric.readers.headings import Column
 from viscofric.readers.source import PRINTED_FREQUENCY, Source, Test, converted, fraction_of, to_rad_per_second
 from viscofric.readers.table import MISSING, Table, or_name_it
 from viscofric.readers.tables import find_tables, holds_table
+from viscofric.showing import several
 
 #: Of text tables: commas, semicolons, tabs or blanks between columns.
 NAME = "delimited text"
@@ -503,8 +504,8 @@ def _note_unread(table: Table, notes: list[str]) -> None:
         kinds = {row[place].strip() for row in table.rows}
         words = sorted(word for word in kinds if word.lower() not in MISSING and not is_number(word))
         if not column.quantity and 1 < len(words) == len(kinds) <= min(_MOST_KINDS, len(table.rows) // 2):
-            shown = ", ".join(map(repr, words[:3])) + (" and more" if len(words) > 3 else "")
-            text = f"Column {column.heading!r} holds {shown} and is not read; are all rows of one specimen?"
+            shown = several([*map(repr, words)], 3)
+            text = f"Column {column.heading!r} holds {shown}, and is not read; are all rows of one specimen?"
             notes.append(Note("unused-columns", text))
     others = (column for column in table.columns if not column.quantity)
     alike = [repr(one.heading) for one in others if DMA.quantity(one.unnumbered) or _begins_as_modulus(one.name)]
