@@ -130,11 +130,12 @@ class Points:
     def named(self, indices: Iterable[int]) -> str:
         """Return the places of points, the first few of many: ``"lines 18, 20, 31 and 9 more"``."""
         places = [self.places[index] for index in indices]
-        parts = [re.fullmatch(r"(?P<before>.*?)(?P<what>line|row|point) (?P<number>\d+)", place) for place in places]
+        form = re.compile(r"(?P<before>.*?)(?P<what>line|row|point) (?P<number>\d+)")
+        parts = [form.fullmatch(place) for place in places[:_SHOWN]]
         alike = {(one["before"], one["what"]) for one in parts if one}
         if len(places) > 1 and len(alike) == 1 and all(parts):
             before, what = alike.pop()
-            return f"{before}{what}s {several([one['number'] for one in parts if one], _SHOWN)}"
+            return f"{before}{what}s {several([*(one['number'] for one in parts if one), *places[_SHOWN:]], _SHOWN)}"
         return several(places, _SHOWN)
 
 
