@@ -62,7 +62,7 @@ def planted(kelvin: float, rubber: vf.Material = RUBBER) -> Trial:
 def forward(record: vf.friction.IndentationRecord) -> tuple[np.ndarray, np.ndarray]:
     """Return measured responses, and those of the planted material by the functional of the identification."""
     contact, trial = contact_of(record), planted(record.temperature)
-    return contact.response, np.exp(contact.functional(trial.tau)(trial).log_value)
+    return contact.response, np.exp(contact.answer(trial).log_value)
 
 
 @pytest.mark.parametrize("record", [creep(noise=0.0), relaxation(noise=0.0)], ids=["creep", "relaxation"])
@@ -89,7 +89,7 @@ def test_ramps_and_holds_agree_with_the_solver_over_time(control: str) -> None:
 def test_derivatives_are_those_of_differences() -> None:
     for record in (creep(noise=0.0), relaxation(noise=0.0)):
         contact, tau = contact_of(record), np.geomspace(1e-3, 1e3, 7)
-        check_derivatives(contact.functional(tau), Trial(np.log(np.full(8, 3e-8)), tau, 0.3, PLANE_STRAIN, 1e-9), 1e-6)
+        check_derivatives(contact.answer, Trial(np.log(np.full(8, 3e-8)), tau, 0.3, PLANE_STRAIN, 1e-9), 1e-6)
 
 
 def check_derivatives(answer, trial: Trial, allowed: float) -> None:
@@ -207,7 +207,7 @@ def test_the_approach_to_the_surface_is_left_out() -> None:
     contact = contact_of(record)
     assert (contact.count.sum(), contact.unclear) == (1000, 0)
     # The step was put on between two rows, within 10 ms: 5 ms of 40, or 0.2 % of J after a second.
-    value = np.exp(contact.functional(planted(KELVIN).tau)(planted(KELVIN)).log_value)
+    value = np.exp(contact.answer(planted(KELVIN)).log_value)
     late = contact.along > 1.5
     assert value[late] == pytest.approx(contact.response[late], rel=0.02)  # 1 µm of 150 is 1 % of X
 

@@ -126,12 +126,12 @@ def test_nearby_materials_are_those_solved_again() -> None:
 def test_common_errors_are_those_of_wrong_radius_load_and_zero(name: str) -> None:
     record = MADE[name]()
     contact, trial = contact_of(record, SHARED), planted(record.temperature, RUBBER)
-    found = contact.functional(trial.tau)(trial).shared
+    found = contact.answer(trial).shared
     measured = np.log(contact.response)
     true = vf.Ball(BALL.radius * (1.0 + SHARED.radius))
     away = usable_records([record], true, EXACT).contacts[0]
-    moved = away.functional(trial.tau)(trial).log_value - np.log(away.response)
-    at_first = contact.functional(trial.tau)(trial).log_value - measured
+    moved = away.answer(trial).log_value - np.log(away.response)
+    at_first = contact.answer(trial).log_value - measured
     # To first order in 1 %, by springs to their error.
     assert found[:, 0] == pytest.approx(moved - at_first, abs=1e-3)
     if isinstance(record, vf.friction.IndentationRecord):
@@ -140,7 +140,7 @@ def test_common_errors_are_those_of_wrong_radius_load_and_zero(name: str) -> Non
             control=record.control, start=record.start, error=record.error,
         )  # fmt: skip
         away = contact_of(other)
-        moved = away.functional(trial.tau)(trial).log_value - np.log(away.response)
+        moved = away.answer(trial).log_value - np.log(away.response)
         assert found[:, 1] == pytest.approx(moved - at_first, abs=2e-3)
         deeper = np.where(record.indentation > 0.0, record.indentation + SHARED.zero, record.indentation)
         other = vf.friction.IndentationRecord(
@@ -148,7 +148,7 @@ def test_common_errors_are_those_of_wrong_radius_load_and_zero(name: str) -> Non
             error=record.error,
         )  # fmt: skip
         away = contact_of(other)
-        moved = away.functional(trial.tau)(trial).log_value - np.log(away.response)
+        moved = away.answer(trial).log_value - np.log(away.response)
         size = np.abs(moved - at_first).max()
         assert found[:, 2] == pytest.approx(moved - at_first, abs=0.1 * size + 1e-3)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -115,10 +115,6 @@ class Contact(Points, ABC):
     @abstractmethod
     def answer(self, trial: Trial) -> Answer:
         """Return the response to a material."""
-
-    def functional(self, tau: Array) -> Callable[[Trial], Answer]:
-        """Return `answer` for materials of retardation times (m,) at the reference, on which some work may depend."""
-        return self.answer
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,8 @@ with R = J or E: weights of R and of its mean M, which are interpolated over ln 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -39,6 +40,15 @@ BLOCK = 500_000  # lags at once
 SAME = 1e-6
 
 
+class _Kernel(NamedTuple):
+    """Matrices that depend on the retardation times and on one shift factor only."""
+
+    tau: Array
+    log_alpha: float
+    relaxed: NDArray[Any]  # (G K, m), 1/(1 + s τ) at the nodes
+    creep: Array  # (n, m), weighted, if the load was prescribed
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Growing(RowsContact):
     """The usable rows of a record, averaged, as linear functionals of J (load prescribed) or E (depth prescribed)."""
@@ -55,56 +65,39 @@ class Growing(RowsContact):
     @property
     def log_elastic(self) -> float:
         """Ln of the plane-strain compliance of an elastic contact."""
-        of_elastic = np.maximum(self.weights @ np.ones(self.weights.shape[1]), 1e-300)
-        elastic = float(np.median(np.log(self.response / of_elastic)))
+        elastic = float(np.median(np.log(self.response / np.maximum(self._total, 1e-300))))
         return elastic if self.creep else -elastic
+
+    # of the last material
+    _kept: list[_Kernel] = field(default_factory=list, init=False, repr=False)
+
+    @cached_property
+    def _nodes(self) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Nodes s (G K,) of Laplace's transform on a contour (`spectra.misfit`), and weights of M and R (2, K)."""
+        nodes, weights = contour()
+        return (nodes / self.grid[:, None]).ravel(), np.stack([weights / nodes, weights])
+
+    @cached_property
+    def _total(self) -> Array:
+        return np.asarray(self.weights @ np.ones(2 * len(self.grid)))
 
     def answer(self, trial: Trial) -> Answer:
         """Return the response to a material."""
-        return Functional(self, trial.tau)(trial)
-
-    def functional(self, tau: Array) -> Functional:
-        """Return the response, with the kernels of the retardation times made once."""
-        return Functional(self, tau)
-
-
-class _Kernel(NamedTuple):
-    """Matrices that depend on the retardation times only, for one shift factor."""
-
-    log_alpha: float
-    relaxed: NDArray[Any]  # (G K, m), 1/(1 + s τ) at the nodes
-    creep: Array  # (n, m), weighted, if the load was prescribed
-
-
-class Functional:
-    """Response of a growing contact to compliances, by its Laplace transform along a contour (`spectra.misfit`)."""
-
-    def __init__(self, contact: Growing, tau: Array) -> None:
-        self.contact, self.tau = contact, tau
-        nodes, weights = contour()
-        self._s = (nodes / contact.grid[:, None]).ravel()
-        self._rows = np.stack([weights / nodes, weights])  # of the mean, and of the value
-        self._kernel: _Kernel | None = None
-        self._total = contact.weights @ np.ones(2 * len(contact.grid))
-
-    def __call__(self, trial: Trial) -> Answer:
-        """Return the response of a material."""
-        strengths, contact = np.exp(trial.compliances), self.contact
+        strengths, kernel = np.exp(trial.compliances), self._kernel(trial)
         glass, C = float(strengths[0]), strengths[1:]
-        value, changes, moved = self._response(glass, C, trial.log_alpha, trial.extra)
-        sign = 1.0 if contact.creep else -1.0
-        shared = np.zeros((len(contact), 3))
-        shared[:, 0], shared[:, 1], shared[:, 2] = -sign * contact.by_radius, sign * contact.gain, -contact.by_zero
-        if contact.zero_weights is not None:
-            compliance = glass + trial.extra + self._at(trial.log_alpha).relaxed @ C
-            shared[:, 2] = (contact.zero_weights @ self._both(1.0 / compliance))[:, 0] / value
+        value, changes, moved = self._response(glass, C, kernel, trial.extra)
+        sign = 1.0 if self.creep else -1.0
+        shared = np.zeros((len(self), 3))
+        shared[:, 0], shared[:, 1], shared[:, 2] = -sign * self.by_radius, sign * self.gain, -self.by_zero
+        if self.zero_weights is not None:
+            compliance = glass + trial.extra + kernel.relaxed @ C
+            shared[:, 2] = (self.zero_weights @ self._both(1.0 / compliance))[:, 0] / value
         log_value = np.log(value) + sign * np.log(trial.plane_strain)
         return Answer(log_value, changes / value[:, None], moved / value, shared)
 
-    def _response(self, glass: float, C: Array, log_alpha: float, extra: float) -> tuple[Array, Array, Array]:
+    def _response(self, glass: float, C: Array, kernel: _Kernel, extra: float) -> tuple[Array, Array, Array]:
         """Return ∫ J dI, or ∫ E dI, (n,), with its changes by ln of the compliances (n, 1 + m) and by ln α (n,)."""
-        kernel = self._at(log_alpha)
-        if self.contact.creep:
+        if self.creep:
             changes = np.concatenate([(self._total * glass)[:, None], kernel.creep * C], axis=1)
             value = changes.sum(axis=1) + self._total * extra
             moved = self._weighted((C * kernel.relaxed * (kernel.relaxed - 1.0)).sum(axis=1)[:, None])[:, 0]
@@ -118,22 +111,23 @@ class Functional:
         changes = self._weighted(slope[:, None] * columns)
         return value, changes[:, :-1], changes[:, -1]
 
-    def _at(self, log_alpha: float) -> _Kernel:
-        if self._kernel is None or abs(self._kernel.log_alpha - log_alpha) > SAME:
-            relaxed = 1.0 / (1.0 + np.outer(self._s, np.exp(log_alpha) * self.tau))
-            creep = self._weighted(relaxed) if self.contact.creep else np.zeros((0, 0))
-            self._kernel = _Kernel(log_alpha, relaxed, creep)
-        return self._kernel
+    def _kernel(self, trial: Trial) -> _Kernel:
+        kept = self._kept[0] if self._kept else None
+        if kept is None or kept.tau is not trial.tau or abs(kept.log_alpha - trial.log_alpha) > SAME:
+            relaxed = 1.0 / (1.0 + np.outer(self._nodes[0], np.exp(trial.log_alpha) * trial.tau))
+            creep = self._weighted(relaxed) if self.creep else np.zeros((0, 0))
+            self._kept[:] = [kept := _Kernel(trial.tau, trial.log_alpha, relaxed, creep)]
+        return kept
 
     def _weighted(self, transform: NDArray[Any]) -> Array:
         """Return the response (n, k) of functions of s at the nodes of every time on the grid, (G K, k)."""
-        return np.asarray(self.contact.weights @ self._both(transform))
+        return np.asarray(self.weights @ self._both(transform))
 
     def _both(self, transform: NDArray[Any]) -> Array:
         """Return M and R on the grid (2G, k)."""
-        shaped = transform.reshape(len(self.contact.grid), self._rows.shape[1], -1)
-        both = (self._rows @ shaped).real.swapaxes(0, 1)
-        return np.asarray(both.reshape(2 * len(self.contact.grid), -1))
+        weights = self._nodes[1]
+        both = (weights @ transform.reshape(len(self.grid), weights.shape[1], -1)).real.swapaxes(0, 1)
+        return np.asarray(both.reshape(2 * len(self.grid), -1))
 
 
 def growing(rows: Rows, reduced: Reduced, shared: Shared = EXACT, by_radius: float = 0.0) -> Growing:

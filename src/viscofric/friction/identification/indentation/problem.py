@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Self
@@ -10,7 +9,7 @@ from typing import Self
 import numpy as np
 
 from viscofric.arrays import Array
-from viscofric.friction.identification.indentation.contact import EXACT, Answer, Contact, Nearby, Shared, Trial
+from viscofric.friction.identification.indentation.contact import EXACT, Contact, Nearby, Shared, Trial
 from viscofric.friction.identification.iteration import Weighed, identify
 from viscofric.friction.identification.problem import SpectrumProblem
 
@@ -28,8 +27,7 @@ class IndentationProblem(SpectrumProblem):
     plane_strain: float  # 1 − ν²
     extra: float = 0.0  # (1 − ν_i²)/E_i of the indenter over the plane strain of the rubber, 1/Pa
     shared: Shared = EXACT
-    # of each contact; those by springs are near a material that was solved
-    functionals: dict[int, Callable[[Trial], Answer]] = field(default_factory=dict, repr=False)
+    nearby: dict[int, Nearby] = field(default_factory=dict, repr=False)  # of contacts by springs, once solved
 
     @property
     def others(self) -> int:
@@ -63,9 +61,7 @@ class IndentationProblem(SpectrumProblem):
         changes = np.zeros((len(values), len(unknowns)))
         others = unknowns[len(unknowns) - self.others :]
         for place, (contact, rows) in enumerate(zip(self.contacts, self.rows, strict=True)):
-            if place not in self.functionals:
-                self.functionals[place] = contact.functional(self.smoothness.tau)
-            found = self.functionals[place](self.trial(place, unknowns))
+            found = self.nearby.get(place, contact.answer)(self.trial(place, unknowns))
             values[rows], changes[rows, : self.modes] = found.log_value, found.change
             changes[rows, self.modes + self.number[place]] = found.by_alpha
             if self.others:
@@ -87,14 +83,11 @@ def solved_by_springs(
 ) -> IndentationProblem:
     """Return the problem with its contacts that are not linear solved for the material of the unknowns (`Solver`)."""
     # Steps and springs are the same at every accuracy.
-    found = dict(problem.functionals)
-    for place, contact in enumerate(problem.contacts):
-        if contact.by_springs:
-            found[place] = Nearby.of(contact, problem.trial(place, unknowns))
-    return replace(problem, functionals=found)
+    springs = ((place, contact) for place, contact in enumerate(problem.contacts) if contact.by_springs)
+    return replace(problem, nearby={at: Nearby.of(one, problem.trial(at, unknowns)) for at, one in springs})
 
 
 def fitted_by_springs(problem: IndentationProblem, start: Array) -> list[Weighed[IndentationProblem]]:
     """Return the fits at every roughness, of contacts solved by springs again until the material no longer changes."""
-    solved = problem if len(problem.functionals) == len(problem.contacts) else solved_by_springs(problem, start)
+    solved = problem if problem.nearby else solved_by_springs(problem, start)
     return identify(solved, solved_by_springs, start, ACCURACY, first_accuracy=ACCURACY)[0]

@@ -102,13 +102,8 @@ class ReboundRecord(Plotted):
         gravity: Quantity = 0.0,
         source: str = "",
     ) -> None:
-        given = {
-            "restitution": restitution,
-            "contact_time": contact_time,
-            "peak_force": peak_force,
-            "indentation": indentation,
-        }
-        columns = {name: None if one is None else (one, OF_IMPACTS[name][0]) for name, one in given.items()}
+        given = zip(OF_IMPACTS.items(), (restitution, contact_time, peak_force, indentation), strict=True)
+        columns = {name: None if one is None else (one, unit) for (name, (unit, _)), one in given}
         _set_columns(self, {"speed": (speed, "m/s"), **columns}, "speed")
         if not self.quantities:
             raise InputError(
