@@ -216,57 +216,36 @@ def indenter_record(
     with_fields: bool = False,
 ) -> Record:
     """Return the record of an indenter's contact."""
-    diagnostics = solution.diagnostics
-    return Record.of(
-        **{name: getattr(solution, name) for name in _OF_SOLUTION},
-        **{name: getattr(diagnostics, name) for name in NUMBERS if name.endswith("_error") and name != _ADDED},
-        **_common(solution, temperature, max(diagnostics.shape)),
-        sensitivity=sensitivity,
-        fields=_fields(solution) if with_fields else None,
-    )
+    cells = {"cells": max(solution.diagnostics.shape), "temperature": temperature}
+    return _record(NUMBERS, solution, sensitivity, with_fields, **cells)
 
 
 def surface_record(solution: PeriodicSolution, temperature: float, with_fields: bool = False) -> Record:
     """Return the record of a contact on a rough surface."""
-    return Record.of(
-        pressure=solution.mean_pressure,
-        friction_error=solution.diagnostics.friction_error,
-        lateral_friction_coefficient=solution.lateral_friction_coefficient,
-        lateral_friction_error=solution.diagnostics.lateral_friction_error,
-        contact_area_fraction=solution.contact_area_fraction,
-        corrected_area_fraction=contact_statistics(solution).corrected_area_fraction,
-        mean_gap=solution.mean_gap,
-        **_common(solution, temperature, max(solution.pressure.shape)),
-        fields=_fields(solution) if with_fields else None,
-    )
-
-
-_ADDED = "interpolation_error"
-# Numbers that a solution of an indenter's contact has under the same names.
-_OF_SOLUTION = ("load", "indentation", "contact_area", "front", "rear", "half_width", "centre_of_pressure")
+    corrected = contact_statistics(solution).corrected_area_fraction
+    own = {"pressure": solution.mean_pressure, "corrected_area_fraction": corrected, "temperature": temperature}
+    return _record(SURFACE_NUMBERS, solution, None, with_fields, cells=max(solution.pressure.shape), **own)
 
 
 #: Codes of notes that are counted over all contacts of a curve or a study.
 _COUNTED = (BEYOND, EXTRAPOLATED, *DOUBTS)
 
 
-def _common(solution: ContactSolution | PeriodicSolution, temperature: float, cells: int) -> dict[str, Any]:
+def _record(
+    names: Iterable[str],
+    solution: ContactSolution | PeriodicSolution,
+    sensitivity: ComplianceSensitivity | None,
+    with_fields: bool,
+    **own: Any,
+) -> Record:
+    """Return the record of a contact: its own numbers, and those that solution or diagnostics have by their names."""
     diagnostics = solution.diagnostics
-    return {
-        "speed": solution.speed,
-        "temperature": temperature,
-        "friction_coefficient": solution.friction_coefficient,
-        "max_pressure": solution.max_pressure,
-        "energy_balance": diagnostics.energy,
-        "complementarity": diagnostics.complementarity,
-        "cells": cells,
-        "products": diagnostics.products,
-        "warnings": tuple(note for note in map(note_of, solution.warnings) if not note.code.startswith(_COUNTED)),
-    }
-
-
-def _fields(solution: ContactSolution | PeriodicSolution) -> ContactFields:
-    return ContactFields(solution.x, solution.y, solution.pressure, solution.displacement)
+    own |= {"energy_balance": diagnostics.energy, "interpolation_error": 0.0}
+    others = [name for name in names if name not in own]
+    read = {name: getattr(solution if hasattr(solution, name) else diagnostics, name) for name in others}
+    warnings = tuple(note for note in map(note_of, solution.warnings) if not note.code.startswith(_COUNTED))
+    fields = ContactFields(solution.x, solution.y, solution.pressure, solution.displacement) if with_fields else None
+    return Record.of(**own, **read, warnings=warnings, sensitivity=sensitivity, fields=fields)
 
 
 # Arrays of a sensitivity.

@@ -89,14 +89,9 @@ class ScannedSurface:
             raise DataFileError(
                 self.path, "was changed while the study ran; run it again with --resume.", code="changed"
             )
-        found = read_topography(
-            self.path,
-            unit=self.unit,
-            spacing=self.spacing,
-            channel=self.channel,
-            missing=self.missing,
-            lines=self.lines,
-        )
+        names = ("unit", "spacing", "channel", "missing", "lines")
+        given: dict[str, Any] = {name: getattr(self, name) for name in names}
+        found = read_topography(self.path, **given)
         for words in self.steps:
             found = step_of(words)(found)
         return found
