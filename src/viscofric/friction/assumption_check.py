@@ -167,28 +167,20 @@ class ContactSize:
         scale_at = cache(partial(Scale.for_load, indenter))
         found = []
         for row, kelvin in enumerate(curves.temperature.tolist()):
-            spectrum = modes_at(kelvin)
-            scale = scale_at(spectrum.E0 / plane_strain, float(curves.load[row]))
-            known = None if solved is None else float(solved[row])
-            found.append(cls._of(spectrum, scale, float(curves.speed[row]), Place.of(curves, row), known))
+            spectrum, where = modes_at(kelvin), Place.of(curves, row)
+            scale = scale_at(spectrum.E0 / plane_strain, where.load)
+            smallest = largest = scale.length
+            # Hertz: a³ ~ F R/E of a ball, a² ~ F R/E of a cylinder.
+            power = 1.0 / (1.0 + scale.geometry.dimension)
+            for _ in range(50 if solved is None else 0):
+                modulus = abs(complex(spectrum.complex_modulus(where.speed / smallest)))
+                before, smallest = smallest, scale.length * (spectrum.E0 / modulus) ** power
+                if abs(smallest - before) <= 1e-3 * smallest:
+                    break
+            if solved is not None:
+                smallest = largest = float(solved[row])
+            found.append(cls(smallest, largest, scale.length, scale.slope / scale.length, where))
         return found
-
-    @classmethod
-    def _of(
-        cls, spectrum: RetardationSpectrum, scale: Scale, speed: float, where: Place, solved: float | None
-    ) -> ContactSize:
-        curvature = scale.slope / scale.length
-        if solved is not None:
-            return cls(solved, solved, scale.length, curvature, where)
-        # Hertz: a³ ~ F R/E of a ball, a² ~ F R/E of a cylinder.
-        power = 1.0 / (1.0 + scale.geometry.dimension)
-        radius = scale.length
-        for _ in range(50):
-            modulus = abs(complex(spectrum.complex_modulus(speed / radius)))
-            before, radius = radius, scale.length * (spectrum.E0 / modulus) ** power
-            if abs(radius - before) <= 1e-3 * radius:
-                break
-        return cls(radius, scale.length, scale.length, curvature, where)
 
     @property
     def measure(self) -> str:

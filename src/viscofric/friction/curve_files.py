@@ -93,7 +93,7 @@ def write_friction_curves(curves: FrictionCurves, path: str | PathLike[str]) -> 
         if values is None:
             continue
         shown = curves.load_unit if name == "load" else unit
-        if name == "temperature" and _exact_in_celsius(values):
+        if name == "temperature" and np.all((values - CELSIUS_ZERO) + CELSIUS_ZERO == values):  # exact in °C
             values, shown = values - CELSIUS_ZERO, "degC"
         columns[f"{heading} ({shown})" if shown else heading] = [_cell(value) for value in values.tolist()]
     table = csv.writer(text, lineterminator="\n")
@@ -238,10 +238,6 @@ def _is_of_runs(table: Table) -> bool:
 
 def _cell(value: float) -> str:
     return repr(value) if math.isfinite(value) else ""
-
-
-def _exact_in_celsius(kelvin: Array) -> bool:
-    return bool(np.all((kelvin - CELSIUS_ZERO) + CELSIUS_ZERO == kelvin))
 
 
 def _with_temperatures(table: Table) -> tuple[Table, list[str]]:

@@ -204,21 +204,17 @@ def check_half_space(
     modes_at = modes_by_temperature(material)
     contacts = [
         ContactOnLayers(
-            modes_at(kelvin),
+            modes_at(size.where.temperature),
             material.poisson_ratio,
             # far away a long ellipse acts as a circle no larger than this
             min(size.smallest, size.relaxed),
             size.curvature,
-            speed,
-            load,
-            curves.load_unit == "N/m",
+            size.where.speed,
+            size.where.load,
+            size.where.load_unit == "N/m",
             abs(friction),
         )
-        for kelvin, speed, load, friction, size in zip(
-            *(column.tolist() for column in (curves.temperature, curves.speed, curves.load, curves.viscoelastic)),
-            sizes,
-            strict=True,
-        )
+        for friction, size in zip(curves.viscoelastic.tolist(), sizes, strict=True)
     ]
     effects = [one.on(layer) for one in contacts]
     place = max(range(len(effects)), key=lambda row: abs(effects[row].friction))

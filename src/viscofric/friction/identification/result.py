@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -139,8 +138,7 @@ class Identified(Plotted):
         omega = in_si(angular_frequency, "rad/s", "angular_frequency")
         rows = log_magnitudes(self.samples, omega)
         if not self.anchored if relative is None else flag(relative, "relative"):
-            level = self._levels
-            rows = rows - level.reshape((-1,) + (1,) * omega.ndim)
+            rows = rows - log_magnitudes(self.samples, self.middle).reshape((-1,) + (1,) * omega.ndim)
         return np.asarray(rows.std(axis=0, ddof=1))
 
     @property
@@ -185,23 +183,11 @@ class Identified(Plotted):
 
     def _attributes(self) -> dict[str, Any]:
         """Return the attributes of the data set."""
-        return {
-            "reference_temperature": self.material.reference,
-            "identified_low": self.identified.low,
-            "identified_high": self.identified.high,
-            "identified_limit": self.identified.limit,
-            "middle": self.middle,
-            "anchored": int(self.anchored),
-            "chi2": self.chi2,
-            "freedom": self.freedom,
-            "rms": self.rms,
-            "error_scale": self.error_scale,
-            "sentences": json.dumps(self.sentences, ensure_ascii=False),
-        }
-
-    @cached_property
-    def _levels(self) -> Array:
-        return log_magnitudes(self.samples, self.middle)
+        ends = {f"identified_{name}": getattr(self.identified, name) for name in ("low", "high", "limit")}
+        found = {"reference_temperature": self.material.reference, **ends, "middle": self.middle}
+        found |= {"anchored": int(self.anchored)}
+        found |= {name: getattr(self, name) for name in ("chi2", "freedom", "rms", "error_scale")}
+        return found | {"sentences": json.dumps(self.sentences, ensure_ascii=False)}
 
     @property
     def known(self) -> tuple[str, ...]:
@@ -316,13 +302,16 @@ class IdentifiedMaterial(Identified):
     @property
     def sentences(self) -> tuple[str, ...]:
         """The result and its limits, one sentence each."""
-        return (self._fit_words(), *self.known, *self._shift_words(), self._body_words(), *self.notes)
-
-    def _fit_words(self) -> str:
-        return (
+        fit = (
             f"The friction of {len(self.friction)} points is fitted to {100.0 * self.rms:.2g} % (root mean square); χ² "
             f"= {self.chi2:.3g} with {self.freedom:.3g} degrees of freedom."
         )
+        body = (
+            f"The rubber is taken to be a half-space: on a layer of {plain(1e3 * self.half_space_thickness, 2)} mm, "
+            f"bonded to a rigid base, friction differs by {100.0 * LAYER:g} %, on a thinner one by more, so that "
+            "another modulus is found."
+        )
+        return (fit, *self.known, *self._shift_words(), body, *self.notes)
 
     def _level_words(self) -> tuple[str, ...]:
         low, high = self.level_range
@@ -344,13 +333,6 @@ class IdentifiedMaterial(Identified):
         return (
             f"{super()._band_words()} All bands assume a smooth spectrum: one mode per decade makes E'' oscillate by "
             "about 6 % and changes friction by a few per cent, which no band has."
-        )
-
-    def _body_words(self) -> str:
-        return (
-            f"The rubber is taken to be a half-space: on a layer of {plain(1e3 * self.half_space_thickness, 2)} mm, "
-            f"bonded to a rigid base, friction differs by {100.0 * LAYER:g} %, on a thinner one by more, so that "
-            "another modulus is found."
         )
 
     def _shift_words(self) -> tuple[str, ...]:

@@ -81,8 +81,8 @@ def between_runs(fits: list[Fit], weights: Array) -> tuple[Array, Array, list[No
     rounding = [ROUNDING * np.abs(fit.mean(weights) / [fit.group.load, 1.0, 1.0, 1.0]).sum() for fit in fits]
     error = np.sqrt(variance[:, _VISCOELASTIC])
     left_over = np.isfinite(error) & (error > rounding)
-    once = [place for place, fit in enumerate(fits) if _measured_once(fit) and left_over[place]]
-    once = [place for place in once if place not in unrepeated]
+    alone = (not fit.paired and int(fit.passes.max()) + 1 == len(fit.group.signs) for fit in fits)
+    once = [at for at, one in enumerate(alone) if one and left_over[at] and at not in unrepeated]
     notes = [
         *_on_residual(fits, residual),
         *_on_few(fits, unrepeated, autocorrelation, once, freedom),
@@ -255,11 +255,6 @@ def _scatters(fit: Fit, weights: Array) -> list[Scatter]:
         factor = float(np.sum(np.bincount(fit.passes, operator) ** 2))
         found.append(Scatter(means, fit.runs_of_passes, max(means.size - unknowns, 0.0), factor))
     return found
-
-
-def _measured_once(fit: Fit) -> bool:
-    """Whether a condition has exactly one pass in each of its configurations."""
-    return int(fit.passes.max()) + 1 == len(fit.group.signs) and not fit.paired
 
 
 def of_readings(
