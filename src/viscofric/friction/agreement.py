@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
-from typing import NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 
@@ -274,43 +274,34 @@ def _agreement(pairs: Pairs, level: float, shifted: bool, not_covered: int) -> A
 
     def numbers(rows: Mask) -> tuple[float, float, float, float, float]:
         """Return bias, rms, shares within error and within scatter, NaN without such points, and error of the bias."""
+        # Of terms with independent errors, errors of groups and a common one.
+        squares = np.sum(own[rows] ** 2) + sum(shared[rows & group].sum() ** 2 for group in groups)
         return (
             float(relative[rows].mean()),
             float(np.sqrt(np.mean(relative[rows] ** 2))),
             _share(within[rows & known]),
             _share(in_scatter[rows & repeated]),
-            _error_of_mean(own[rows], [shared[rows & group] for group in groups], material[rows]),
+            float(np.hypot(np.sqrt(squares) / np.count_nonzero(rows), material[rows].mean())),
         )
 
-    bias, rms, share_within_error, share_within_scatter, bias_error = numbers(np.full(len(measured), True))
-    bias_at, rms_at, error_at, scatter_at, bias_error_at = np.array([numbers(group) for group in groups]).T
+    names = ("bias", "rms", "share_within_error", "share_within_scatter", "bias_error")
+    whole = [None if math.isnan(one) else one for one in numbers(np.full(len(measured), True))]
+    each = np.array([numbers(group) for group in groups]).T
+    of_all: dict[str, Any] = dict(zip(names, whole, strict=True))
+    at: dict[str, Any] = {f"{name}_at": column for name, column in zip(names, each, strict=True)}
     return Agreement(
-        bias=bias,
-        rms=rms,
-        share_within_error=None if math.isnan(share_within_error) else share_within_error,
+        **of_all,
+        **at,
         points=len(measured),
         temperature=np.array([measured.temperature[group].mean() for group in groups]),
-        bias_at=bias_at,
-        rms_at=rms_at,
-        share_within_error_at=error_at,
         points_at=np.array([np.count_nonzero(group) for group in groups]),
         relative_difference=relative,
-        bias_error=bias_error,
-        bias_error_at=bias_error_at,
-        share_within_scatter=None if math.isnan(share_within_scatter) else share_within_scatter,
-        share_within_scatter_at=scatter_at,
         repeated=int(np.count_nonzero(repeated)),
         material_counted=pairs.material_error is not None,
         along_reduced_speed=shifted,
         not_covered=not_covered,
         with_error=int(np.count_nonzero(known)),
     )
-
-
-def _error_of_mean(independent: Array, shared: list[Array], common: Array) -> float:
-    """Return the standard error of a mean of terms with independent errors, errors of groups and a common one."""
-    own = np.sum(independent**2) + sum(group.sum() ** 2 for group in shared)
-    return float(np.hypot(np.sqrt(own) / independent.size, common.mean()))
 
 
 def _share(within: Mask) -> float:

@@ -143,21 +143,15 @@ class _Contact(NamedTuple):
 
 def _decades_per_kelvin(shift: ShiftLaw, kelvin: float) -> float:
     """Return |d log10 α/dT|, from within the temperatures at which α is known."""
-    known = {}
     step = 2.0 * NOMINAL  # beyond what is taken for one temperature
-    for one in (kelvin - step, kelvin, kelvin + step):
-        try:
-            known[one] = float(shift.log10(one))
-        except InputError:
-            if one == kelvin:
-                raise
-    first, last = min(known), max(known)
-    if first == last:
+    known = [one for one in (kelvin - step, kelvin, kelvin + step) if one == kelvin or shift.valid_at(one)]
+    values = [float(shift.log10(one)) for one in known]
+    if len(known) == 1:
         raise InputError(
             f"shift is known at {shown_celsius(kelvin)} °C alone; the effect of warming is unknown there.",
             code="shift-of-one-temperature",
         )
-    return abs(known[last] - known[first]) / (last - first)
+    return abs(values[-1] - values[0]) / (known[-1] - known[0])
 
 
 def _change(

@@ -125,13 +125,9 @@ def _periodic(
     if nx % 2 == 0:
         transfer[nx // 2] = 0.5 * (transfer[nx // 2] + np.conj(transfer[nx // 2]))
     if ny % 2 == 0:
-        transfer[:, -1] = 0.5 * (transfer[:, -1] + np.conj(_opposite(transfer[:, -1])))
+        opposite = np.roll(transfer[::-1, -1], 1)  # at −q_x
+        transfer[:, -1] = 0.5 * (transfer[:, -1] + np.conj(opposite))
     return np.asarray(scipy.fft.irfft2(transfer * scipy.fft.rfft2(flux), s=flux.shape))
-
-
-def _opposite(column: ComplexArray) -> ComplexArray:
-    """Return the values at −q_x of those at q_x."""
-    return np.roll(column[::-1], 1)
 
 
 def _transfer(

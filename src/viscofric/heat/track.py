@@ -92,6 +92,8 @@ def track_temperature(
     >>> rise.round(1)
     array([0. , 0.3, 0.9, 1.7, 2.6])
     """
+    from scipy.special import i0e
+
     insist_on(body, "body", ThermalProperties)
     heat, size = positive(power, "W", "power"), positive(radius, "m", "radius")
     ring, velocity = positive(track_radius, "m", "track_radius"), positive(speed, "m/s", "speed")
@@ -113,20 +115,14 @@ def track_temperature(
     distance, common = _across(distribution == "hertz")
 
     def left(n: Array) -> Array:
-        """Return what a pass leaves after n others."""
+        """Return what a pass leaves after n others, over E/(ρc R³): that of a ring of heat, less across the track."""
         length = np.sqrt(4.0 * body.diffusivity * period * n)
         near = np.exp(-np.square(size * distance / length[:, None])) @ common
-        return diffusion.images(length) * _ring(length / ring) * near
+        on_ring = 2.0 / (math.pi**1.5 * (length / ring) ** 3) * i0e(2.0 / (length / ring) ** 2)
+        return np.asarray(diffusion.images(length) * on_ring * near)
 
     last = max(_ONE_BY_ONE, _SPREAD**2 * ring**2 / (4.0 * body.diffusivity * period))
     return heat * period / (body.volume_heat * ring**3) * _summed(left, count, last)
-
-
-def _ring(length: Array) -> Array:
-    """Return the rise on a ring by heat on it, over E/(ρc R³), with the diffusion length √(4κt) in radii."""
-    from scipy.special import i0e
-
-    return np.asarray(2.0 / (math.pi**1.5 * length**3) * i0e(2.0 / length**2))
 
 
 @lru_cache(maxsize=2)

@@ -57,7 +57,12 @@ class Assumed:
 
     def suffices(self, group: Condition, zeros: Zeros) -> bool:
         """Whether a condition can be separated, with the assumption if necessary."""
-        return zeros.suffices(group, coulomb=True) or self._helps(group, zeros)
+        if zeros.suffices(group, coulomb=True):
+            return True
+        if self.nothing or not zeros.suffices(group, coulomb=False):
+            return False
+        # With both directions of slip the fitted zero includes a Coulomb force: no limit follows from it.
+        return not self.constant or np.unique(group.disc_sign * group.slip_sign).size == 1
 
     def at(self, group: Condition, zeros: Zeros) -> tuple[float, float] | None:
         """Return the assumed Coulomb coefficient and its standard error at a condition; None where it is fitted."""
@@ -65,12 +70,6 @@ class Assumed:
             return None
         # A constant one follows from all speeds together, see `completed`.
         return (0.0, 0.0) if self.value is None else (self.value, self.error)
-
-    def _helps(self, group: Condition, zeros: Zeros) -> bool:
-        if self.nothing or not zeros.suffices(group, coulomb=False):
-            return False
-        # With both directions of slip the fitted zero includes a Coulomb force: no limit follows from it.
-        return not self.constant or np.unique(group.disc_sign * group.slip_sign).size == 1
 
     def completed(self, entries: list[Entry]) -> list[Entry]:
         """Separate the friction of one direction of slip where Coulomb friction is constant."""

@@ -226,13 +226,6 @@ def _other_speed(one: Condition, others: list[Condition]) -> float | None:
     return min(near, key=lambda speed: abs(speed - one.speed), default=None)
 
 
-def _at_other_speed(speed: float | None) -> Remedy:
-    if speed is None:
-        return Remedy("")
-    noted = f" at the same disc speed (others were measured at {1e3 * speed:.4g} mm/s; a larger "
-    return noted + setting(*SPEED_TOLERANCE) + " joins them)"
-
-
 def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, *, left_out: bool = False) -> Note:
     """Return a note on conditions whose signs do not suffice, with a remedy."""
     first = poor[0]
@@ -243,8 +236,9 @@ def _refused(poor: list[Condition], total: int, zeros: Zeros, assumed: Assumed, 
     advice = Remedy(f"; measure also {' or '.join(missing)}")
     if rolls:
         advice = Remedy("; measure also with the velocities of disc and ball reversed")
-    else:
-        advice += _at_other_speed(other)
+    elif other is not None:
+        noted = f" at the same disc speed (others were measured at {1e3 * other:.4g} mm/s; a larger "
+        advice += noted + setting(*SPEED_TOLERANCE) + " joins them)"
     unknowns = ["the force cell's zero"] * (not known) + ["viscoelastic"] + ["Coulomb"] * (not rolls)
     separated = " from ".join(unknowns[:2]) if rolls else f"{', '.join(unknowns[:-1])} and {unknowns[-1]}"
     if not known:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from viscofric.arrays import Array, Indices, Integers, Mask
+from viscofric.arrays import Array, Indices, Mask
 from viscofric.contact.free.estimates import FRICTION_FLOOR
 from viscofric.friction.cases.interpolation import (
     FRICTION,
@@ -81,13 +81,15 @@ class Curve:
         length = _COARSE_START if self._accuracy > _COARSE_FROM else _FINE_START
         number = np.floor(self._places / (STEP * length)).astype(np.int64)
         worth: list[Interval] = []
-        for run in _runs(np.unique(number)):
+        ascending = np.unique(number)
+        for run in np.split(ascending, np.flatnonzero(np.diff(ascending) > 1) + 1):
             inside = [np.flatnonzero(number == one) for one in run]
             if sum(map(len, inside)) <= 2 * len(run) + 1:
                 self._leave_alone(np.concatenate(inside))
             else:
                 worth += [
-                    Interval(one * length, (one + 1) * length, rows) for one, rows in zip(run, inside, strict=True)
+                    Interval(one * length, (one + 1) * length, rows)
+                    for one, rows in zip(run.tolist(), inside, strict=True)
                 ]
         return worth
 
@@ -189,8 +191,3 @@ class Curve:
 
     def _allowed(self, friction: float) -> float:
         return SHARE * self._accuracy * max(abs(friction), FRICTION_FLOOR)
-
-
-def _runs(numbers: Integers) -> list[list[int]]:
-    """Split ascending whole numbers at gaps."""
-    return [run.tolist() for run in np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)]
