@@ -13,7 +13,7 @@ from viscofric.contact.free.estimates import beyond_accuracy
 from viscofric.errors import StudyError
 from viscofric.friction.cases.case import Case, moved
 from viscofric.friction.cases.record import Failure, Record
-from viscofric.friction.planning.plan import Plan, plan_cases
+from viscofric.friction.planning.plan import Plan
 from viscofric.notes import Note, counted
 from viscofric.study.cases.sweep import Sweep, place, place_in
 from viscofric.study.measurement import Measurement
@@ -83,7 +83,7 @@ class Contacts:
 
     def _plan(self) -> Plan:
         solver, kept = self.study.solver, self.study.outputs.fields
-        return plan_cases(
+        return Plan(
             [*self.sweep.cases, *self.at_points, *self.along],
             [rubber.material for rubber in self.rubbers],
             members={number: rubber.members for number, rubber in enumerate(self.rubbers)},

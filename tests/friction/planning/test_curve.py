@@ -13,9 +13,9 @@ from viscofric.contact.free.scale import Scale
 from viscofric.friction.cases.indenter_case import LOGARITHMIC, node_of
 from viscofric.friction.cases.interpolation import FRICTION, Node
 from viscofric.friction.planning.curve import STEP, Curve
-from viscofric.friction.planning.plan import plan_cases
+from viscofric.friction.planning.plan import Plan
 
-RECORD = made_up(plan_cases([case_of(0.1)], [SLS], each=True).wanted()[0])
+RECORD = made_up(Plan([case_of(0.1)], [SLS], each=True).wanted()[0])
 NODE = node_of(RECORD, Scale.for_load(BALL, 1e6 / 0.75, RECORD.load))
 PLACES = np.linspace(-6.0, 6.0, 200)
 

@@ -14,7 +14,7 @@ from viscofric.friction.cases.case import Rubbers, Settings
 from viscofric.friction.cases.indenter_case import ERRORS, NAMES, IndenterCase, units_of
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import Task, solve
-from viscofric.friction.planning.plan import Outcome, plan_cases
+from viscofric.friction.planning.plan import Outcome, Plan
 
 TEMPERATURES = np.linspace(283.15, 383.15, 8).tolist()
 SPEEDS = np.geomspace(1e-3, 1.0, 30).tolist()
@@ -29,14 +29,14 @@ def records(outcomes: list[Outcome]) -> list[Record]:
 
 def alone(case: IndenterCase) -> Task:
     """Return what solving a case by itself takes."""
-    (task,) = plan_cases([case], [SLS], each=True).wanted()
+    (task,) = Plan([case], [SLS], each=True).wanted()
     return task
 
 
 @pytest.mark.parametrize("accuracy", [1e-2, 1e-3, 1e-4])
 @pytest.mark.slow
 def test_cases_on_one_curve_are_interpolated_within_the_accuracy(accuracy: float) -> None:
-    plan = plan_cases(CASES, [SLS], accuracy=accuracy)
+    plan = Plan(CASES, [SLS], accuracy=accuracy)
     tasks = sum(map(len, carry_out(plan)))
     assert tasks < len(CASES) / 2
     for case, record in zip(CASES, records(plan.found()), strict=True):
@@ -52,7 +52,7 @@ def test_cases_on_one_curve_are_interpolated_within_the_accuracy(accuracy: float
 
 
 def test_progress_goes_from_none_to_all_and_never_back() -> None:
-    plan, seen = plan_cases(CASES, [SLS]), [0]
+    plan, seen = Plan(CASES, [SLS]), [0]
     assert (plan.done, plan.total) == (0, len(CASES))
     while tasks := plan.wanted():
         for task in tasks:
@@ -67,7 +67,7 @@ def test_progress_goes_from_none_to_all_and_never_back() -> None:
 def test_more_accuracy_takes_more_contacts() -> None:
     counts = []
     for accuracy in (1e-2, 1e-3, 1e-4):
-        plan = plan_cases(CASES, [SLS], accuracy=accuracy)
+        plan = Plan(CASES, [SLS], accuracy=accuracy)
         counts.append(sum(map(len, carry_out(plan))))
     assert counts[0] <= counts[1] < counts[2]
 
@@ -81,7 +81,7 @@ def test_scatter_of_the_contacts_does_not_refine_without_end() -> None:
         friction = record.friction_coefficient + noise * error
         return replace(record, numbers={**record.numbers, "friction_coefficient": friction, "friction_error": error})
 
-    smooth, rough = plan_cases(CASES, [SLS]), plan_cases(CASES, [SLS])
+    smooth, rough = Plan(CASES, [SLS]), Plan(CASES, [SLS])
     few = sum(map(len, carry_out(smooth)))
     # The contacts' own errors are all of the accuracy: where interpolating adds to them, cases are solved themselves.
     assert sum(map(len, carry_out(rough, scattered))) <= 1.6 * few
@@ -98,14 +98,14 @@ def test_scatter_of_the_contacts_does_not_refine_without_end() -> None:
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_order_of_the_answers_does_not_matter(seed: int) -> None:
-    first, second = plan_cases(CASES, [SLS]), plan_cases(CASES, [SLS])
+    first, second = Plan(CASES, [SLS]), Plan(CASES, [SLS])
     assert carry_out(first) == carry_out(second, order=np.random.default_rng(seed))
     assert first.found() == second.found()
 
 
 def test_order_of_the_cases_does_not_matter() -> None:
     shuffled = np.random.default_rng(5).permutation(len(CASES))
-    first, second = plan_cases(CASES, [SLS]), plan_cases([CASES[row] for row in shuffled], [SLS])
+    first, second = Plan(CASES, [SLS]), Plan([CASES[row] for row in shuffled], [SLS])
     assert carry_out(first) == carry_out(second)
     found = first.found()
     assert [found[row] for row in shuffled] == second.found()
@@ -113,7 +113,7 @@ def test_order_of_the_cases_does_not_matter() -> None:
 
 def test_a_study_that_gains_cases_uses_the_nodes_it_had() -> None:
     grown = [*CASES, *(replace(case, load=4.0 * case.load, indenter=vf.Ball(0.02)) for case in CASES)]
-    old, new = plan_cases(CASES, [SLS]), plan_cases(grown, [SLS])
+    old, new = Plan(CASES, [SLS]), Plan(grown, [SLS])
     before = {key for wave in carry_out(old) for key in wave}
     after = {key for wave in carry_out(new) for key in wave}
     assert before <= after
@@ -124,14 +124,14 @@ def test_a_study_that_gains_cases_uses_the_nodes_it_had() -> None:
 
 def test_fewer_cases_than_nodes_are_solved_by_themselves() -> None:
     cases = [case_of(speed) for speed in (1e-3, 1e-2, 1e-1, 1.0)]
-    plan = plan_cases(cases, [SLS])
+    plan = Plan(cases, [SLS])
     assert [task.arguments["speed"] for task in plan.wanted()] == [case.speed for case in cases]
     carry_out(plan)
     assert not any(record.interpolated for record in records(plan.found()))
 
 
 def test_no_value_is_found_beyond_the_nodes() -> None:
-    plan = plan_cases(CASES, [SLS])
+    plan = Plan(CASES, [SLS])
     speeds = []
 
     def noted(task: Task) -> Record:
@@ -147,7 +147,7 @@ def test_no_value_is_found_beyond_the_nodes() -> None:
 
 
 def test_a_failed_node_leaves_only_its_neighbours_to_be_solved_by_themselves() -> None:
-    plan = plan_cases(CASES, [SLS])
+    plan = Plan(CASES, [SLS])
     bad = {task.key for task in plan.wanted()[4:5]}
 
     def failing(task: Task) -> Outcome:
@@ -163,7 +163,7 @@ def test_a_failed_node_leaves_only_its_neighbours_to_be_solved_by_themselves() -
 
 
 def test_where_all_fails_every_case_says_so() -> None:
-    plan = plan_cases(CASES, [SLS])
+    plan = Plan(CASES, [SLS])
     carry_out(plan, lambda task: Failure("did not converge.", task.label))
     found = [outcome for outcome in plan.found() if isinstance(outcome, Failure)]
     assert {outcome.reason for outcome in found} == {"did not converge."}
@@ -171,14 +171,14 @@ def test_where_all_fails_every_case_says_so() -> None:
 
 
 def test_fields_are_kept_of_cases_that_are_solved_by_themselves() -> None:
-    plan = plan_cases(CASES, [SLS], fields=[3, 5])
+    plan = Plan(CASES, [SLS], fields=[3, 5])
     assert [task.arguments["speed"] for task in plan.wanted() if task.fields] == [CASES[3].speed, CASES[5].speed]
-    everywhere = plan_cases(CASES[:5], [SLS], fields=True)
+    everywhere = Plan(CASES[:5], [SLS], fields=True)
     assert [task.fields for task in everywhere.wanted()] == [True] * 5
 
 
 def test_speed_zero_and_other_impossible_cases_fail_alone() -> None:
-    plan = plan_cases([*CASES, case_of(0.0), case_of(0.1, temperature=100.0)], [SLS])
+    plan = Plan([*CASES, case_of(0.0), case_of(0.1, temperature=100.0)], [SLS])
     carry_out(plan)
     *good, still, cold = plan.found()
     assert len(records(good)) == len(CASES)

@@ -10,7 +10,7 @@ from friction.planning.made_up_contacts import carry_out, case_of, solved
 from viscofric.friction.cases.case import Case
 from viscofric.friction.cases.record import Record
 from viscofric.friction.cases.solving import solve
-from viscofric.friction.planning.plan import plan_cases
+from viscofric.friction.planning.plan import Plan
 
 FLUOROELASTOMER = vf.synthetic_fluoroelastomer()
 
@@ -29,11 +29,11 @@ def interpolated_and_solved(
     material: vf.Material, cases: list[Case], accuracy: float, checked: np.ndarray, better: float = 0.2
 ) -> list[tuple[Record, Record]]:
     """Interpolate many cases, and solve some of them by themselves, more accurately."""
-    plan = plan_cases(cases, [material], accuracy=accuracy)
+    plan = Plan(cases, [material], accuracy=accuracy)
     assert sum(map(len, carry_out(plan, solved))) < 0.6 * len(cases)
     found, pairs = plan.found(), []
     for number in checked:
-        (task,) = plan_cases([cases[number]], [material], accuracy=better * accuracy, each=True).wanted()
+        (task,) = Plan([cases[number]], [material], accuracy=better * accuracy, each=True).wanted()
         one = found[number]
         assert isinstance(one, Record)
         if one.interpolated:
@@ -93,12 +93,12 @@ def test_sensitivity_of_an_interpolated_contact_shows_what_its_own_would() -> No
     )
     speeds, temperatures = np.geomspace(1e-2, 1e-1, 8).tolist(), [303.15, 305.15]
     cases = [case_of(speed, temperature) for temperature in temperatures for speed in speeds]
-    plan = plan_cases(cases, [material], accuracy=1e-2, sensitive=True)
+    plan = Plan(cases, [material], accuracy=1e-2, sensitive=True)
     carry_out(plan, solved)
     one = plan.found()[11]
     assert isinstance(one, Record)
     assert one.interpolated
-    (task,) = plan_cases([cases[11]], [material], accuracy=1e-2, sensitive=True, each=True).wanted()
+    (task,) = Plan([cases[11]], [material], accuracy=1e-2, sensitive=True, each=True).wanted()
     reported, own = one.sensitivity, solve(task).sensitivity
     assert reported is not None
     assert own is not None

@@ -14,11 +14,11 @@ from friction.planning.made_up_contacts import SLS, carry_out, case_of, made_up
 from refusals import refused
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import solve
-from viscofric.friction.planning.plan import plan_cases
+from viscofric.friction.planning.plan import Plan
 
 
 def test_equal_cases_are_solved_once() -> None:
-    plan = plan_cases([case_of(0.1), case_of(0.2), case_of(0.1)], [SLS], each=True)
+    plan = Plan([case_of(0.1), case_of(0.2), case_of(0.1)], [SLS], each=True)
     assert [task.arguments["speed"] for task in plan.wanted()] == [0.1, 0.2]
     for task in reversed(plan.wanted()):
         plan.receive(task.key, made_up(task))
@@ -27,7 +27,7 @@ def test_equal_cases_are_solved_once() -> None:
 
 
 def test_nothing_is_found_before_everything_is_known() -> None:
-    plan = plan_cases([case_of(0.1), case_of(0.2)], [SLS])
+    plan = Plan([case_of(0.1), case_of(0.2)], [SLS])
     assert (plan.done, plan.total) == (0, 2)
     plan.receive(plan.wanted()[0].key, made_up(plan.wanted()[0]))
     assert (plan.done, plan.total) == (1, 2)
@@ -36,7 +36,7 @@ def test_nothing_is_found_before_everything_is_known() -> None:
 
 
 def test_a_case_that_cannot_be_is_a_failure_and_the_others_go_on() -> None:
-    plan = plan_cases([case_of(0.1, temperature=100.0), case_of(0.1), case_of(0.1, sample=3)], [SLS])
+    plan = Plan([case_of(0.1, temperature=100.0), case_of(0.1), case_of(0.1, sample=3)], [SLS])
     assert len(plan.wanted()) == 1
     plan.receive(plan.wanted()[0].key, Failure("the solver failed.", "here"))
     cold, failed, unknown = plan.found()
@@ -48,7 +48,7 @@ def test_a_case_that_cannot_be_is_a_failure_and_the_others_go_on() -> None:
 
 
 def test_key_changes_with_all_that_decides_the_answer() -> None:
-    (task,) = plan_cases([case_of(0.1)], [SLS]).wanted()
+    (task,) = Plan([case_of(0.1)], [SLS]).wanted()
     others = [
         replace(task, arguments=task.arguments | change)
         for change in (
@@ -76,7 +76,7 @@ def test_key_changes_with_all_that_decides_the_answer() -> None:
 
 
 def test_a_task_that_travelled_gives_the_same_bits() -> None:
-    (task,) = plan_cases([case_of(0.1)], [SLS], accuracy=1e-2, fields=True).wanted()
+    (task,) = Plan([case_of(0.1)], [SLS], accuracy=1e-2, fields=True).wanted()
     here, there = solve(task), solve(pickle.loads(pickle.dumps(task)))
     assert here == there
     assert here.fields is not None
@@ -89,21 +89,21 @@ def test_a_task_that_travelled_gives_the_same_bits() -> None:
 
 def test_members_of_the_posterior_are_solved_with_their_own_modes() -> None:
     softer = replace(SLS, spectrum=SLS.at().shifted(1.0, 0.5))  # type: ignore[union-attr]
-    plan = plan_cases([case_of(0.1), case_of(0.1, sample=1)], [SLS], members={0: [softer]}, sensitive=True)
+    plan = Plan([case_of(0.1), case_of(0.1, sample=1)], [SLS], members={0: [softer]}, sensitive=True)
     best, drawn = (task.arguments for task in plan.wanted())
     assert (best["sensitive"], drawn["sensitive"]) == (True, False)  # bands are those of the best estimate
     assert (best["modes"].E0, drawn["modes"].E0) == (1e6, 0.5e6)
 
 
 def test_line_contacts_are_recorded_too() -> None:
-    (task,) = plan_cases([case_of(0.1, load=100.0, indenter=vf.Cylinder(0.01))], [SLS], accuracy=1e-2).wanted()
+    (task,) = Plan([case_of(0.1, load=100.0, indenter=vf.Cylinder(0.01))], [SLS], accuracy=1e-2).wanted()
     record = solve(task)
     assert Record.from_values(json.loads(json.dumps(record.values()))) == record
 
 
 def test_what_lies_between_solved_contacts_is_reported_before_the_end() -> None:
     speeds = np.geomspace(1e-3, 10.0, 60)
-    plan = plan_cases([case_of(float(speed)) for speed in speeds], [SLS], accuracy=1e-2)
+    plan = Plan([case_of(float(speed)) for speed in speeds], [SLS], accuracy=1e-2)
     first, second, *others = plan.wanted()
     assert list(plan.so_far()) == []
     plan.receive(first.key, made_up(first))

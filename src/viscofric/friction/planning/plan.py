@@ -23,14 +23,33 @@ Outcome: TypeAlias = Record | Failure
 class Plan:
     """What is to be solved next; of `total` cases, `done` have a result or lie in intervals fine enough."""
 
-    def __init__(self, cases: Sequence[Case], rubbers: Rubbers, settings: Settings, apart: Collection[int]) -> None:
-        self.total, self.done = len(cases), 0
-        self._cases, self.rubbers, self.settings = cases, rubbers, settings
+    def __init__(
+        self,
+        cases: Sequence[Case],
+        materials: Sequence[Material],
+        *,
+        members: Mapping[int, Sequence[Material]] | None = None,
+        accuracy: float = 1e-3,
+        sensitive: bool = False,
+        fields: bool | Collection[int] = False,
+        each: bool = False,
+    ) -> None:
+        # Cases refer to materials, with a shift if they differ in temperature, by index, and to the bootstrap samples
+        # in `members` by their number, from 1. `accuracy` is that of the friction coefficients, relative. If
+        # `sensitive`, the derivatives of friction by the material's compliance are found for bands; not for bootstrap
+        # samples. `fields` are kept of all cases, or of those of given numbers, which are solved individually, as are
+        # all if `each`. If not, cases on one curve (Eq. 10) are interpolated between as many solved contacts as the
+        # accuracy requires. The nodes of curves lie at fixed places. A study with more cases has the same nodes and
+        # some others, so that results of its old cases change within the accuracy if their neighbourhood is refined,
+        # and not at all elsewhere.
+        kept = range(len(cases)) if fields is True else () if fields is False else fields
+        self.rubbers, self.settings = Rubbers(materials, members or {}), Settings(accuracy, sensitive, frozenset(kept))
+        self.total, self.done, self._cases = len(cases), 0, cases
         self._outcomes: list[Outcome | None] = [None] * len(cases)
         self._waiting: dict[str, Task] = {}
         self._callbacks: dict[str, list[Callable[[Outcome], None]]] = {}
         self._known: dict[str, Outcome] = {}
-        alone = set(apart)
+        alone = set(range(len(cases)) if each else self.settings.fields)
         self._parts = [_FamilyPlan(self, family, members) for family, members in self._families(alone).items()]
         for part in self._parts:
             part.go_on()
@@ -175,26 +194,3 @@ class _FamilyPlan:
                 self._plan.settle(number, outcome)
         for row in sorted(self._curve.alone):
             self._plan.solve_alone(self._numbers[row])
-
-
-def plan_cases(
-    cases: Sequence[Case],
-    materials: Sequence[Material],
-    *,
-    members: Mapping[int, Sequence[Material]] | None = None,
-    accuracy: float = 1e-3,
-    sensitive: bool = False,
-    fields: bool | Collection[int] = False,
-    each: bool = False,
-) -> Plan:
-    """Plan the solution of a set of cases."""
-    # Cases refer to materials, with a shift if they differ in temperature, by index, and to the bootstrap samples in
-    # `members` by their number, from 1. `accuracy` is that of the friction coefficients, relative. If `sensitive`, the
-    # derivatives of friction by the material's compliance are found for bands; not for bootstrap samples. `fields` are
-    # kept of all cases, or of those of given numbers, which are solved individually, as are all if `each`. If not,
-    # cases on one curve (Eq. 10) are interpolated between as many solved contacts as the accuracy requires. The nodes
-    # of curves lie at fixed places. A study with more cases has the same nodes and some others, so that results of its
-    # old cases change within the accuracy if their neighbourhood is refined, and not at all elsewhere.
-    kept = range(len(cases)) if fields is True else () if fields is False else fields
-    settings = Settings(accuracy, sensitive, frozenset(kept))
-    return Plan(cases, Rubbers(materials, members or {}), settings, range(len(cases)) if each else settings.fields)

@@ -12,7 +12,7 @@ from viscofric.errors import ConvergenceError, InputError, ViscofricError
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import solve
-from viscofric.friction.planning.plan import Plan, plan_cases
+from viscofric.friction.planning.plan import Plan
 from viscofric.processes import Workers, at_work, call_all
 from viscofric.rheology.material import Material
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
@@ -106,7 +106,7 @@ class SharedContacts:
         return [replace(self.case, speed=speed, temperature=kelvin) for speed, kelvin in places]
 
     def _plan(self, cases: Sequence[IndenterCase]) -> Plan:
-        return plan_cases(cases, [self.material], accuracy=self.accuracy, sensitive=self.sensitive)
+        return Plan(cases, [self.material], accuracy=self.accuracy, sensitive=self.sensitive)
 
     def _carry_out(self, plan: Plan, workers: Workers) -> None:
         """Solve the contacts of a plan wave by wave; report the cases known, and those begun of the present wave."""

@@ -69,7 +69,7 @@ def estimate(
     fields: bool = False,
     each: bool = False,
 ) -> Expectation:
-    """Estimate the effort of `plan_cases` with the same arguments; bootstrap samples need not be drawn."""
+    """Estimate the effort of `Plan` with the same arguments; bootstrap samples need not be drawn."""
     drawn = max((case.sample or 0 for case in cases), default=0)
     rubbers = Rubbers(materials, {number: [material] * drawn for number, material in enumerate(materials)})
     solves: dict[tuple[str, bool], float] = defaultdict(float)
