@@ -14,9 +14,8 @@ from viscofric.friction.measurement.doubts import constant_force, doubts, outlie
 from viscofric.friction.measurement.doubts import outliers as far_readings
 from viscofric.friction.measurement.drift import Drift
 from viscofric.friction.measurement.errors import between_runs
-from viscofric.friction.measurement.fit import Entry, Fit
+from viscofric.friction.measurement.fit import Entry, Fit, Uneven
 from viscofric.friction.measurement.grouping import grouped
-from viscofric.friction.measurement.uneven import Uneven
 from viscofric.friction.measurement.zeros import Zeros, another_zero
 from viscofric.notes import Note
 from viscofric.traction import TractionRuns
@@ -214,7 +213,6 @@ def _curves(runs: TractionRuns, entries: list[Entry], assumed: Assumed, notes: l
     if not assumption and not assumed.nothing:
         unused = "The given Coulomb friction is not used: the signs of the speeds determine it."
         notes = [*notes, Note("coulomb-not-used", unused)]
-
     numbers = np.array([[entry.value, entry.error, entry.scatter, entry.freedom] for entry in entries])
     value, error, scatter, freedom = np.moveaxis(numbers, 1, 0)  # (k, 4) each
     return FrictionCurves(
