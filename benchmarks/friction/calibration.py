@@ -22,10 +22,10 @@ from identify import BALL, FREQUENCY, KELVIN, MATERIALS, SPEEDS, measured
 
 import viscofric as vf
 from viscofric.errors import InputError
+from viscofric.friction.identification.anchors import ModulusObservation
 from viscofric.friction.identification.drawn_materials import drawn_from
 from viscofric.friction.identification.identify import problem_of, shifts_of
 from viscofric.friction.identification.iteration import identify, most_evident, weighed
-from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.points import Points, usable_points
 from viscofric.friction.identification.problem import Problem, Shifts
 from viscofric.friction.identification.solving import Contacts, spectrum_of

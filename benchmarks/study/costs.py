@@ -22,7 +22,7 @@ import numpy as np
 import viscofric as vf
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.solving import Task, solve
-from viscofric.friction.planning.plan import plan_cases
+from viscofric.friction.planning.plan import Plan
 
 COLUMNS = (
     ("accuracy", "accuracy", ".0e"),
@@ -52,7 +52,7 @@ def measure(name: str, accuracy: float, speeds: int) -> dict[str, Any]:
         for temperature in TEMPERATURES
         for speed in np.geomspace(1e-4, 1.0, speeds)
     ]
-    tasks = plan_cases(cases, [RUBBER], accuracy=accuracy, sensitive=sensitive, each=True).wanted()
+    tasks = Plan(cases, [RUBBER], accuracy=accuracy, sensitive=sensitive, each=True).wanted()
     seconds, cells = zip(*(_timed(task) for task in tasks), strict=True)
     return {
         "case": name,

@@ -30,7 +30,7 @@ from problems import CURVE_BALL, CURVE_LOAD, CURVE_RUBBER
 from viscofric.friction.cases.indenter_case import IndenterCase
 from viscofric.friction.cases.record import Record
 from viscofric.friction.cases.solving import Task, solve
-from viscofric.friction.planning.plan import Plan, plan_cases
+from viscofric.friction.planning.plan import Plan
 from viscofric.study.running.executors import Processes
 from viscofric.study.running.running import run_plan
 from viscofric.study.running.store import CaseStore
@@ -82,7 +82,7 @@ def carried_out(name: str, cases: list[IndenterCase], workers: int, folder: Path
     store = CaseStore(folder)
     before = len(list(folder.glob("*.json")))
     wall, cpu = time.perf_counter(), _cpu_with_children()
-    plan: Plan = plan_cases(cases, [CURVE_RUBBER], **settings)
+    plan: Plan = Plan(cases, [CURVE_RUBBER], **settings)
     timed = Timed(plan)
     with Processes(workers) as executor:
         run_plan(timed if workers == 1 else plan, store, executor)
@@ -107,7 +107,7 @@ def worst_error(cases: list[IndenterCase], found: list[Any], accuracy: float, ch
     """Return the largest relative difference from cases solved by themselves, five times as accurately."""
     worst = 0.0
     for number in np.random.default_rng(0).choice(len(cases), checks, replace=False):
-        (task,) = plan_cases([cases[number]], [CURVE_RUBBER], accuracy=accuracy / 5.0, each=True).wanted()
+        (task,) = Plan([cases[number]], [CURVE_RUBBER], accuracy=accuracy / 5.0, each=True).wanted()
         worst = max(worst, abs(found[number].friction_coefficient / solve(task).friction_coefficient - 1.0))
     return worst
 

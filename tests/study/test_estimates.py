@@ -9,7 +9,7 @@ import pytest
 
 import viscofric as vf
 from friction.planning.made_up_contacts import SLS, carry_out, case_of
-from viscofric.friction.planning.plan import plan_cases
+from viscofric.friction.planning.plan import Plan
 from viscofric.study.cases.estimates import estimate
 
 CASES = [
@@ -22,7 +22,7 @@ CASES = [
 @pytest.mark.parametrize("accuracy", [1e-2, 1e-3])
 def test_contacts_of_a_curve_are_foreseen(accuracy: float) -> None:
     reported = estimate(CASES, [SLS], accuracy=accuracy)
-    took = sum(map(len, carry_out(plan_cases(CASES, [SLS], accuracy=accuracy))))
+    took = sum(map(len, carry_out(Plan(CASES, [SLS], accuracy=accuracy))))
     assert reported.cases == len(CASES)
     assert 0.6 * took <= reported.solves <= 1.6 * took  # rough, and said to be
 

@@ -16,7 +16,7 @@ from viscofric.friction.cases.record import Failure, Record
 from viscofric.friction.cases.solving import solve
 from viscofric.friction.cases.surface_case import SurfaceCase
 from viscofric.friction.cases.surfaces import MadeSurface
-from viscofric.friction.planning.plan import plan_cases
+from viscofric.friction.planning.plan import Plan
 from viscofric.notes import codes
 from viscofric.study import StudyResults
 from viscofric.study.checking import check_study
@@ -147,7 +147,7 @@ def test_two_processes_find_the_same(results: StudyResults, tmp_path: Path) -> N
 
 
 def carried_out(cases: Sequence[Case], material: vf.Material, each: bool) -> list[Record]:
-    plan = plan_cases(cases, [material], accuracy=1e-3, each=each)
+    plan = Plan(cases, [material], accuracy=1e-3, each=each)
     while tasks := plan.wanted():
         for task in tasks:
             plan.receive(task.key, solve(task))

@@ -32,7 +32,7 @@ def planted_curves(*kelvin: float, accuracy: float = 1e-3) -> FrictionCurves:
     reduced = np.tile(SPEEDS, len(kelvin)) * RUBBER.shift(temperature)
     spectrum = RUBBER.modes_at()
     compliances = np.log([1.0 / spectrum.E_inf, *spectrum.C])
-    solved = Contacts(BALL, 0.5, LOAD, 1).at(compliances, spectrum, np.log(reduced), 1, accuracy)
+    solved = Contacts(BALL, 0.5, LOAD, 1).at(compliances, vf.Material(spectrum), np.log(reduced), 1, accuracy)
     return curves_of(np.tile(SPEEDS, len(kelvin)), temperature, np.exp(solved.log_friction), 1e-6, load=LOAD)
 
 

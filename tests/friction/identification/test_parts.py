@@ -12,8 +12,8 @@ from friction.identification.planted import BALL, LOAD, RUBBER
 from friction.synthetic_curves import curves_of
 from refusals import refused
 from viscofric.friction.curve_checks import moderated_variances
+from viscofric.friction.identification.anchors import compliance, known_part, log_modulus
 from viscofric.friction.identification.forward import FirstOrder
-from viscofric.friction.identification.moduli import compliance, known_part, log_modulus
 from viscofric.friction.identification.points import SharedErrors, usable_points
 from viscofric.friction.identification.posterior import descend, draws, log_evidence
 from viscofric.friction.identification.problem import Shifts, Smoothness

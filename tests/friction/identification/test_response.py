@@ -27,7 +27,7 @@ def solved(
     spectrum: vf.RetardationSpectrum, indenter: Indenter, load: float, speeds: list[float], accuracy: float = ACCURACY
 ) -> Solved:
     compliances = np.log([1.0 / spectrum.E_inf, *spectrum.C])
-    return Contacts(indenter, 0.5, load, 1).at(compliances, spectrum, np.log(speeds), 1, accuracy)
+    return Contacts(indenter, 0.5, load, 1).at(compliances, vf.Material(spectrum), np.log(speeds), 1, accuracy)
 
 
 @pytest.mark.slow
@@ -88,7 +88,7 @@ def test_progress_is_reported() -> None:
     reported: list[tuple[int, int, int]] = []
     contacts = Contacts(CYLINDER, 0.5, 100.0, 1, progress=lambda *done: reported.append(done))
     spectrum = rubber()
-    contacts.at(np.log([1.0 / spectrum.E_inf, *spectrum.C]), spectrum, np.log([0.1, 1.0]), 3, 0.1)
+    contacts.at(np.log([1.0 / spectrum.E_inf, *spectrum.C]), vf.Material(spectrum), np.log([0.1, 1.0]), 3, 0.1)
     assert reported == [(3, 1, 2), (3, 2, 2)]
 
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import ConvergenceError, InputError
+from viscofric.friction.identification.anchors import ModulusObservation
 from viscofric.friction.identification.iteration import AnyProblem, Weighed, freedom_of, most_evident
-from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.posterior import descend, draws
 from viscofric.friction.identification.problem import Problem
 from viscofric.friction.identification.result import IdentifiedBand, LevelFit, log_magnitudes

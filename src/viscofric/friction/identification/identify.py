@@ -13,11 +13,17 @@ from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter, i
 from viscofric.errors import InputError, wrong_argument
 from viscofric.friction.curve_checks import shared_error
 from viscofric.friction.curves import FrictionCurves, insist_on_curves
-from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
+from viscofric.friction.identification.anchors import (
+    Anchor,
+    ContactAnchor,
+    Known,
+    ModulusAnchor,
+    ModulusObservation,
+    known_part,
+)
 from viscofric.friction.identification.conclusions import Outcome, conclude
 from viscofric.friction.identification.forward import CorrectedFriction, FirstOrder
 from viscofric.friction.identification.iteration import identify
-from viscofric.friction.identification.moduli import Known, ModulusObservation, known_part
 from viscofric.friction.identification.points import Points, SharedErrors, usable_points
 from viscofric.friction.identification.problem import OVERLAPPING, Problem, Shifts, Smoothness
 from viscofric.friction.identification.result import IdentifiedMaterial, synthetic_notes

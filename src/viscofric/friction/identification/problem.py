@@ -11,9 +11,8 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.errors import InputError
-from viscofric.friction.identification.anchors import SolvedContact
+from viscofric.friction.identification.anchors import ModulusObservation, SolvedContact
 from viscofric.friction.identification.forward import CorrectedFriction
-from viscofric.friction.identification.moduli import ModulusObservation
 from viscofric.friction.identification.points import Points
 from viscofric.nominal import SAME_TEMPERATURE
 from viscofric.rheology.shifts.laws import ShiftLaw

@@ -14,7 +14,7 @@ from viscofric.arrays import Array
 from viscofric.datasets import Dataset, dataset
 from viscofric.files import SYNTHETIC, of_synthetic, on_source
 from viscofric.friction.curves import FrictionCurves
-from viscofric.friction.identification.moduli import Known
+from viscofric.friction.identification.anchors import Known
 from viscofric.notes import Note, codes
 from viscofric.rheology.catalogue import is_synthetic
 from viscofric.rheology.material import Material

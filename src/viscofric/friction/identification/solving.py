@@ -53,30 +53,21 @@ class Contacts:
         """Return the problem with contacts solved for the material of the unknowns; ConvergenceError if one is not."""
         compliances, log_alpha = problem.split(unknowns)
         spectrum = spectrum_of(compliances, problem.smoothness.tau)
+        material = Material(spectrum, poisson_ratio=self.poisson_ratio)
         points = problem.points
         reduced = points.log_speed + log_alpha[points.number]
         low, high = reduced.min() - BEYOND * LN10, reduced.max() + BEYOND * LN10
         count = max(FEWEST_NODES, int(np.ceil(NODES_PER_DECADE * (high - low) / LN10)) + 1)
-        solved = self.at(compliances, spectrum, np.linspace(low, high, count), step, accuracy)
+        solved = self.at(compliances, material, np.linspace(low, high, count), step, accuracy)
+        alphas = [float(problem.shifts.row(float(one.temperature)) @ log_alpha) for one in self.anchors]
         sizes = tuple(
-            SolvedContact.of(
-                anchor,
-                self.indenter,
-                spectrum,
-                self.poisson_ratio,
-                accuracy,
-                compliances,
-                float(problem.shifts.row(float(anchor.temperature)) @ log_alpha),
-            )
-            for anchor in self.anchors
+            SolvedContact.of(anchor, self.indenter, material, accuracy, compliances, alpha)
+            for anchor, alpha in zip(self.anchors, alphas, strict=True)
         )
         return replace(problem, friction=CorrectedFriction(problem.friction.first, solved), contacts=sizes)
 
-    def at(
-        self, compliances: Array, spectrum: RetardationSpectrum, log_speed: Array, step: int, accuracy: float
-    ) -> Solved:
-        """Return the contacts at each ln v (k,), m/s, of a material whose `compliances` are those of `spectrum`."""
-        material = Material(spectrum, poisson_ratio=self.poisson_ratio)
+    def at(self, compliances: Array, material: Material, log_speed: Array, step: int, accuracy: float) -> Solved:
+        """Return the contacts at each ln v (k,), m/s, of a material of these `compliances`."""
         common = {"material": material, "indenter": self.indenter, "load": float(self.load), "accuracy": accuracy}
         calls = [common | {"speed": speed} for speed in np.exp(log_speed).tolist()]
 

@@ -12,8 +12,8 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.contact.indenters.indenter import Indenter
 from viscofric.contact.indenters.shapes import Ball, FlatPunch
+from viscofric.friction.identification.anchors import compliance, log_modulus
 from viscofric.friction.identification.forward import extrapolated
-from viscofric.friction.identification.moduli import compliance, log_modulus
 from viscofric.motion.springs import Springs, both_sides, disc_profile
 
 

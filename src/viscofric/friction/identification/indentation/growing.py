@@ -61,15 +61,13 @@ class Growing(RowsContact):
     # in relaxation: the same weights of the change of X by one standard deviation of the zero
     zero_weights: Array | None
     gain: float  # standard deviation of the load cell's gain
+    _kept: list[_Kernel] = field(default_factory=list, init=False, repr=False)  # of the last material
 
     @property
     def log_elastic(self) -> float:
         """Ln of the plane-strain compliance of an elastic contact."""
         elastic = float(np.median(np.log(self.response / np.maximum(self._total, 1e-300))))
         return elastic if self.creep else -elastic
-
-    # of the last material
-    _kept: list[_Kernel] = field(default_factory=list, init=False, repr=False)
 
     @cached_property
     def _nodes(self) -> tuple[NDArray[Any], NDArray[Any]]:
