@@ -21,10 +21,10 @@ _ROUNDING = 1e-9
 
 
 def gradient(heights: Array, spacing: tuple[float, float], periodic: bool) -> tuple[Array, ...]:
-    """Return the slopes along the axes that have points: from the Fourier series if periodic, else differences."""
+    """Return the slopes along the axes that have points: from the Fourier series if periodic, else of neighbours."""
     axes = [axis for axis, points in enumerate(heights.shape) if points > 1]
     if not periodic:
-        return tuple(np.gradient(heights, spacing[axis], axis=axis) for axis in axes)
+        return tuple(np.diff(heights, axis=axis) / spacing[axis] for axis in axes)
     found = []
     for axis in axes:
         points = heights.shape[axis]

@@ -161,7 +161,9 @@ class Topography(Plotted):
 
     @property
     def rms_slope(self) -> float:
-        """Root mean square of the gradient's length: by Fourier series if periodic, else by central differences.
+        """Root mean square of the gradient's length: by Fourier series if periodic, else by differences of neighbours.
+
+        The latter are 3 % too low where the shortest waves are three points long, 0.3 % where they are eight.
 
         Raises
         ------
