@@ -198,8 +198,8 @@ class TransientHeating(Shown):
     residual : array
         Rise that the solved contact produces less that at which it was solved, in size, K.
     error : array
-        Error of the rise, K: its change with half as many times, and the errors of the loss, also by `residual`.  That
-        the loss is released where it is only on average is not included.
+        Error of the rise, K: its change with half as many times, the errors of the loss, also by `residual`, and that
+        the loss is released where it is only on average: three quarters of the rise by it, or of that weighted with it.
     """
 
     temperature_rise: Array

@@ -34,8 +34,11 @@ _POINTS, _MOST_RUNS = 60, 12
 _PARTS = 0.5, 0.5
 #: Friction, load, depth and energy change by less than so many times themselves with a decade of α.
 _STEEPEST = 2.5
-#: Part of the accuracy by which the rise that is left may change them.
-_LEFT = 0.5
+#: Part of the accuracy by which the rise that is left may change them; a change of them by more is noted.
+_LEFT, _FELT = 0.5, 1e-2
+#: Errors of rises, as parts of them: of the face by heat on it; and of all by the loss, or where it is released, since
+#: it is released where it is only on average (see the theory page on heat).
+_OF_FACE, _OF_LOSS = 0.03, 0.75
 
 
 def solve_heated(
@@ -87,7 +90,7 @@ def solve_heated(
         residual, _error(problem, run, heating, heats, (warmer, by_loss), change),
     )  # fmt: skip
     keep = list(range(len(grid))) if times is None else _rows(grid, times)
-    doubts = _thin_skin(problem, run, heating, found)
+    doubts = *_thin_skin(problem, run, heating, found), *_uncertain(law.log10, around, heated)
     run = replace(run, warnings=(*run.warnings, *doubts), errors=_with_what_is_left(run, history.control, change))
     run = with_coulomb(problem, run, heating.coulomb)
     # A state of the last run is no state of the heated contact.
@@ -228,7 +231,7 @@ def _error(
     change: Array,
 ) -> Array:
     """Return the error of the rise, given also its part by the loss, and by how many decades α is off; (n,)."""
-    # By how much it changes with every other time left out, interpolated, and by the errors of the heat.
+    # By how much it changes with every other time left out, interpolated, by the errors of the heat, and of its place.
     rise, by_loss = rises
     unsure = np.divide(run.errors.energy, run.dissipated, out=np.zeros_like(rise), where=run.dissipated > 0.0)
     rows = np.unique(np.append(np.arange(0, len(run.time), 2), len(run.time) - 1))
@@ -236,7 +239,23 @@ def _error(
     halved = np.interp(np.arange(len(run.time)), rows, halves)
     # The loss raises the temperature by no more than both: of `by_loss` the counterface takes a part.
     lossy = np.minimum(np.abs(by_loss), np.abs(rise))
-    return np.asarray(halved + _STEEPEST * np.maximum.accumulate(change) * np.abs(rise) + unsure * lossy)
+    placed = _OF_LOSS * lossy + (_OF_FACE if heating.average == "contact" else _OF_LOSS) * (np.abs(rise) - lossy)
+    return np.asarray(halved + _STEEPEST * np.maximum.accumulate(change) * np.abs(rise) + unsure * lossy + placed)
+
+
+def _uncertain(log10_shift: Callable[[Array], Any], around: Array, heated: TransientHeating) -> tuple[Note, ...]:
+    """Return a note where the error of the rise may change friction more than its own error says."""
+    rise, error = heated.temperature_rise, heated.error
+    decades = np.asarray(log10_shift(around + rise)) - np.asarray(log10_shift(around + np.maximum(rise - error, 0.0)))
+    row = int(np.argmax(np.abs(decades)))
+    part = _STEEPEST * abs(float(decades[row]))
+    if part <= _FELT:
+        return ()
+    said = (
+        f"The rise of temperature is up to {rise[row]:.2g} ± {error[row]:.2g} K, whose error may change friction by "
+        f"up to {100.0 * part:.2g} %; the error stated for friction does not include it."
+    )
+    return (Note("rise-uncertain", said, values={"severity": part, "rise_error": float(error[row])}),)
 
 
 def _rows(grid: Sequence[float], times: Sequence[float]) -> list[int]:
