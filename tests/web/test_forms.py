@@ -129,6 +129,7 @@ def test_options_of_an_identification_are_those_of_its_job() -> None:
     options = names_of("identify", "@identify.")
     for shift in options.pop("shift"):
         identify.Options(shift=shift)
+    identify.Options(temperature_error="".join(options.pop("temperature_error")) or "1 K")
     for of in set(options.pop("anchor")) - {"nothing"}:
         identify.AnchorOptions(of=of, temperature="30 degC")
     assert set(options) == set(identify.AnchorOptions.model_fields) - {"of"}

@@ -141,15 +141,20 @@ def test_what_is_missing_is_reported(context: Context) -> None:
     assert caught.value.field == "indenter"
 
 
-def test_contacts_are_solved_to_the_accuracy_of_the_study(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_contacts_are_solved_to_the_accuracy_of_the_study_and_with_the_errors_of_temperatures(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
     seen = []
 
-    def asked(*_: object, accuracy: float, **__: object) -> None:
-        seen.append(accuracy)
+    def asked(*_: object, accuracy: float, temperature_error: float, **__: object) -> None:
+        seen.append((accuracy, temperature_error))
         raise vf.InputError("enough.", code="enough")
 
     monkeypatch.setattr("viscofric.web.jobs.identify.identify_material", asked)
-    for solver in ({"accuracy": 5e-3}, {}):
+    for solver, more in (({"accuracy": 5e-3}, {}), ({}, {"temperature_error": "1.5 K"})):
         with refused("enough"):
-            done("identify", context, {**CURVES, "solver": solver}, anchor=ANCHOR)
-    assert seen == [5e-3, 1e-3]
+            done("identify", context, {**CURVES, "solver": solver}, anchor=ANCHOR, **more)
+    assert seen == [(5e-3, 0.0), (1e-3, 1.5)]
+    with refused("out-of-range", JobError) as caught:
+        done("identify", context, CURVES, anchor=ANCHOR, temperature_error="30 K")
+    assert caught.value.field == "@identify.temperature_error"

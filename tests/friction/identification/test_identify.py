@@ -541,6 +541,8 @@ def test_bad_input_is_refused_in_one_sentence() -> None:
         vf.identify_material(curves, anchor=vf.friction.ModulusAnchor(3e6, 1.0, "150 degC"), **SETTINGS)
     with refused("not-a-whole-number", naming="modes = 3"):
         vf.identify_material(curves, **(SETTINGS | {"modes": 3}))
+    with refused("out-of-range", naming=("temperature_error", "20 K")):
+        vf.identify_material(curves, temperature_error="25 K", **SETTINGS)
     with refused("not-a-whole-number", naming="seed = -1"):
         vf.identify_material(curves, seed=-1, **SETTINGS)
     with refused("not-positive", naming="levels = 0.0"):

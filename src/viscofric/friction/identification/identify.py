@@ -114,8 +114,8 @@ def identify_material(
         Relative standard error, shared by all points, of the Coulomb friction of the curves, which was subtracted.
         Without it, the standard error of one that `separate` was told to assume.
     temperature_error : float, str or pint.Quantity
-        Standard error of every temperature of the rubber in the contact, K, another one at each temperature.  Of
-        friction at one temperature it needs `shift`.
+        Standard error of every temperature of the rubber in the contact, K, at most 20 K, another one at each
+        temperature.  Of friction at one temperature it needs `shift`.
     reference : float, str or pint.Quantity, optional
         Temperature at which the material is described, K if a plain number; without it, that of `shift`, or of the
         shift factors that are found.
@@ -263,11 +263,13 @@ def _checked_levels(levels: Sequence[float]) -> tuple[float, ...]:
 
 
 def deviation(value: Quantity, unit: str, name: str) -> float:
-    """Return a standard deviation, zero or above."""
+    """Return a standard deviation, zero or above; a part, or a temperature, is not large."""
     found = to_si(value, unit, name)
-    if found < 0.0 or (unit == "dimensionless" and found > LARGEST_SHARED):
-        most = f" to {LARGEST_SHARED:g}" if unit == "dimensionless" else " on"
-        words = f"must be a standard deviation from 0{most}."
+    most, to = {"dimensionless": (LARGEST_SHARED, f" to {LARGEST_SHARED:g}"), "delta_degC": (20.0, " to 20 K")}.get(
+        unit, (np.inf, " on")
+    )
+    if not 0.0 <= found <= most:
+        words = f"must be a standard deviation from 0{to}."
         raise wrong_argument(name, value, words, "out-of-range", name)
     return float(found)
 

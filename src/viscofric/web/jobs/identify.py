@@ -11,7 +11,7 @@ from viscofric.datasets import plain, record
 from viscofric.errors import InputError
 from viscofric.friction.curves import FrictionCurves
 from viscofric.friction.identification.anchors import Anchor, ContactAnchor, ModulusAnchor
-from viscofric.friction.identification.identify import LEVELS, identify_material
+from viscofric.friction.identification.identify import LEVELS, deviation, identify_material
 from viscofric.friction.identification.result import IdentifiedMaterial
 from viscofric.notes import Note
 from viscofric.rheology.cards import write_card
@@ -32,6 +32,9 @@ _OF_A_BAND = ("low", "high", "limit", "relative", "decades")
 _STEPS = 4
 
 
+_Text = Annotated[str, Field(max_length=100)]
+
+
 class Options(JobOptions):
     """Options of the job."""
 
@@ -40,7 +43,8 @@ class Options(JobOptions):
     beside: bool = True  # whether to compare with the page's material
     #: Relative error of each contact that is solved; that of [solver] without
     accuracy: float | None = Field(None, ge=1e-4, le=0.1)
-    samples: int = Field(200, ge=20, le=1_000)  # rubbers drawn for the bands
+    samples: int = Field(200, ge=20, le=1_000)  # of the material, for the bands
+    temperature_error: _Text = "0 K"  # standard error of every temperature
 
 
 def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, Any]:
@@ -55,6 +59,10 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     rubber = None if made is None else made.material
     accuracy = checked_part(solver=(SolverTable, study.get("solver", {}))).solver.accuracy
     chosen: dict[str, Any] = {"accuracy": options.accuracy or accuracy, "samples": options.samples}
+    try:
+        chosen["temperature_error"] = deviation(options.temperature_error, "delta_degC", "temperature_error")
+    except InputError as error:
+        raise JobError(str(error), "@identify.temperature_error", code=error.code) from error
     if options.shift == "rubber":
         if rubber is None or not rubber.has_shift_factors:
             words = "The page's material has no shift factors; choose “found from friction”."
@@ -157,7 +165,6 @@ def _fit(found: IdentifiedMaterial) -> list[dict[str, Any]]:
     return by_temperature(fit.temperature, fit.speed, fitted=fit.viscoelastic, residual=found.residuals, **band)
 
 
-_Text = Annotated[str, Field(max_length=100)]
 #: Arguments of anchors that the page's fields name otherwise.
 _FIELDS = dict.fromkeys(("indentation", "contact_area", "half_width"), "size")
 

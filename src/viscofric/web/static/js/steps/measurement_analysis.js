@@ -68,8 +68,8 @@ function anchorFields() {
 }
 
 function identifyOptions() {
-  const { shift, anchor: of, ...about } = given(anchorFields());
-  return { shift, beside: !alone(), anchor: of === "nothing" ? undefined : { of, ...about } };
+  const { shift, temperature_error, anchor: of, ...about } = given(anchorFields());
+  return { shift, temperature_error, beside: !alone(), anchor: of === "nothing" ? undefined : { of, ...about } };
 }
 
 const identify = ofMeasured("identify", identifyOptions, { manual: true });
