@@ -26,6 +26,7 @@ BALL = ("--ball", "9.525 mm", "--load", "25 N", "--accuracy", "0.02")
 #: Options of which the inputs in JSON tell what they make: rubber, indenter, layer, and heating.
 OF_PARTS = (
     *("dma", "columns", "deformation", "modulus_unit", "sheet", "leave_out_temperatures", "reference", "synthetic"),
+    *("shift", "shift_factors"),
     *("rubber_modulus", "glass_modulus", "tau", "poisson_ratio"),
     *("ball", "cylinder", "ellipsoid", "cone", "profile", "height_map", "height_unit", "spacing"),
     *("indenter_modulus", "indenter_poisson_ratio", "sliding_base"),

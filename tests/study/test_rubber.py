@@ -49,6 +49,22 @@ def test_a_material_is_synthetic_where_the_catalogue_or_a_file_says_so(sweeps: P
         assert rubber(dma=str(tmp_path / "dma.csv"), **REFERENCE).synthetic is synthetic
 
 
+def test_the_reference_is_the_middle_isotherm_unless_it_is_given(sweeps: Path) -> None:
+    made, given = rubber(dma=str(sweeps)), rubber(dma=str(sweeps), reference_temperature="25 degC")  # −10 to 60 °C
+    taken = next(note for note in made.notes if note.code == "reference-taken")
+    assert taken.values["temperature"] == made.material.reference == pytest.approx(given.material.reference, abs=1e-9)
+    assert "reference-taken" not in codes(given.notes)
+    np.testing.assert_allclose(made.fit.shift_factors.log10_values, given.fit.shift_factors.log10_values, atol=1e-9)
+
+
+def test_a_temperature_without_isotherms_is_refused_before_they_are_superposed(
+    sweeps: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("viscofric.study.make_rubber.superpose", lambda *_, **__: pytest.fail("superposed"))
+    with refused("outside-measured"):
+        make_rubber(validated(MaterialTable, {"dma": str(sweeps)}), temperatures=[300.0, 400.0])
+
+
 def test_given_factors_are_used_as_they_are(sweeps: Path, tmp_path: Path) -> None:
     law = vf.WLF(8.0, 120.0, "30 degC")
     kelvin = np.arange(-10.0, 61.0, 5.0) + 273.15

@@ -224,7 +224,7 @@ contact_options = together(
 def inputs_of(parameters: dict[str, Any]) -> list[Path]:
     """Return the files that rubber, indenter and history are read from."""
     rubber = [] if parameters["material"] is None else [Path(parameters["material"])]
-    names = ("height_map", "profile", "surface", "history")
+    names = ("shift_factors", "height_map", "profile", "surface", "history")
     others = [Path(parameters[name]) for name in names if parameters.get(name) is not None]
     return [path for path in (*rubber, *parameters["dma"], *others) if path.is_file()]
 

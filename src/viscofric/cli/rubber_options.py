@@ -10,8 +10,9 @@ import click
 from viscofric.cli.commands import Decorator, quantity, together
 from viscofric.cli.contact_options import option
 from viscofric.cli.errors import print_doubtful_checks, print_notes, typed_as
-from viscofric.cli.files import DASH, Source, plainly
+from viscofric.cli.files import DASH, FILE, Source, plainly
 from viscofric.cli.keys import key, table_of
+from viscofric.cli.speed_options import chosen_temperatures
 
 if TYPE_CHECKING:
     from xarray import DataTree
@@ -78,7 +79,7 @@ rubber_options = together(
         "material.reference_temperature",
         "--reference",
         metavar="T",
-        help="With --dma: reference temperature, within the sweeps, e.g. '30 degC'.",
+        help="With --dma: reference temperature, e.g. '30 degC' [default: the middle one of the sweeps].",
     ),
     key("material.deformation", condition=_WITH_DMA),
     key("material.modulus_unit", metavar="UNIT", condition=_WITH_DMA),
@@ -89,6 +90,8 @@ rubber_options = together(
         help="With --dma: isotherms to leave out, e.g. '60 degC'; repeatable.",
     ),
     column_options("'frequency=f in Hz'", condition=_WITH_DMA),
+    key("material.shift", condition=_WITH_DMA),
+    key("material.shift_factors", type=FILE, condition=_WITH_DMA),
     click.option("--synthetic", is_flag=True, help="With --dma: the data are synthetic, and no remark (#) says so."),
     click.option(
         "--E0", "rubber_modulus", metavar="E", help="Alternative: standard linear solid; relaxed modulus, e.g. '1 MPa'."
@@ -106,7 +109,7 @@ layer_options = together(
 
 
 #: What DMA files may not say themselves.
-_OF_FILES = ("deformation", "modulus_unit", "leave_out_temperatures", "columns", "sheet")
+_OF_FILES = ("deformation", "modulus_unit", "leave_out_temperatures", "columns", "sheet", "shift", "shift_factors")
 _SINGLE = ("rubber_modulus", "glass_modulus", "tau")
 
 
@@ -166,10 +169,12 @@ def chosen_rubber(parameters: dict[str, Any]) -> NamedRubber:
 
 def _of_sweeps(parameters: dict[str, Any]) -> NamedRubber:
     from viscofric.study.make_rubber import make_rubber
+    from viscofric.units import positive
 
-    if parameters["reference"] is None:
-        raise click.UsageError("--dma needs --reference, the temperature of its master curve, such as '30 degC'.")
-    made = make_rubber(table_of("material", parameters))
+    temperatures = chosen_temperatures({"temperatures": (), **parameters})
+    if parameters.get("temperature") is not None:
+        temperatures.append(positive(parameters["temperature"], "K", "--temperature"))
+    made = make_rubber(table_of("material", parameters), temperatures=temperatures)
     print_notes(made.notes)
     print_doubtful_checks(tree_of(made), but=_IN_RESULTS)
     first, *more = parameters["dma"]

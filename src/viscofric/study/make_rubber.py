@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -10,10 +10,10 @@ from typing import Any, cast
 
 import numpy as np
 
-from viscofric.data import MasterCurve
+from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
 from viscofric.files import says_synthetic
-from viscofric.notes import Note, note_of
+from viscofric.notes import Note, note_of, setting
 from viscofric.ramps import TemperatureRamps
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.dma.ramps import read_ramps
@@ -44,9 +44,13 @@ from viscofric.study.run_file.tables import with_options
 from viscofric.units import kelvin_hint, plain, shown_celsius
 
 
-def make_rubber(table: MaterialTable, *, liquids: bool = False) -> Rubber:
-    """Return the material of [material]; a liquid is its master curve with `liquids`, else a `LiquidError`."""
-    made = at_strain(_at_small_strain(table, liquids), table)
+def make_rubber(table: MaterialTable, *, liquids: bool = False, temperatures: Sequence[float] = ()) -> Rubber:
+    """Return the material of [material]; a liquid is its master curve with `liquids`, else a `LiquidError`.
+
+    `temperatures` (K) at which it will be used are refused outside the isotherms, before these are superposed, unless a
+    law extrapolates.
+    """
+    made = at_strain(_at_small_strain(table, liquids, temperatures), table)
     return called_synthetic(made) if made.synthetic or any(map(says_synthetic, table.inputs)) else made
 
 
@@ -55,9 +59,9 @@ def called_synthetic(rubber: Rubber) -> Rubber:
     return replace(rubber, synthetic=True, material=replace(rubber.material, synthetic=True))
 
 
-def _at_small_strain(table: MaterialTable, liquids: bool) -> Rubber:
+def _at_small_strain(table: MaterialTable, liquids: bool, temperatures: Sequence[float]) -> Rubber:
     if table.dma is not None or table.steps:
-        return _from_tests(table, liquids)
+        return _from_tests(table, liquids, temperatures)
     if table.ramps is not None:
         return _from_ramps(table, liquids)
     return _predefined(table) if table.master_curve is None else _from_master_curve(table, table.master_curve, liquids)
@@ -99,15 +103,19 @@ def _material(
     return Material(spectrum, shift=shift, poisson_ratio=table.poisson_ratio, name=table.name, vertical_shift=vertical)
 
 
-def _from_tests(table: MaterialTable, liquids: bool) -> Rubber:
+def _from_tests(table: MaterialTable, liquids: bool, temperatures: Sequence[float]) -> Rubber:
     """Superpose sweeps, creep or relaxation tests, or both together, and fit one spectrum."""
     sweeps = None if table.dma is None else read_dma(*table.dma, **how_read(table))
     tests = read_steps_of(table) if table.steps else None
     if sweeps is None and tests is not None and len(tests.tests) == 1:
         return _from_one_test(table, tests)
     given: list[Any] = [one for one in (sweeps, tests) if one is not None]
+    reference, taken = _reference(table, *given)
+    measured = sorted(set().union(*map(_temperatures, given)))
+    if table.shift == "measured" and table.shift_factors is None and len(measured) > 1:
+        ShiftFactors(measured, np.zeros(len(measured)), reference).log10(list(temperatures))
     with _errors_of((*(table.dma or ()), *table.steps)):
-        whole: Any = superpose(given if len(given) > 1 else given[0], _reference(table), **_how(table))
+        whole: Any = superpose(given if len(given) > 1 else given[0], reference, **_how(table))
         shift, laws, used = _law_or_table(table.shift, whole.shift_factors)
         liquids = liquids and sweeps is not None
         spectrum, flowing = _spectrum(table, whole, _off(shift, whole.shift_factors), liquids)
@@ -125,14 +133,14 @@ def _from_tests(table: MaterialTable, liquids: bool) -> Rubber:
         laws=laws,
         shift_used=used,
         shift_origin="given" if table.shift_factors else "held" if table.fixed_shift_factors else "found",
-        notes=(*whole.notes, *flowing, *_undecided(laws, table.shift)),
+        notes=(*taken, *whole.notes, *flowing, *_undecided(laws, table.shift)),
     )
 
 
 def _from_one_test(table: MaterialTable, tests: StepTests) -> Rubber:
     """Take a test at one temperature for the master curve there, with its shift factors if they are given."""
     tensile = tests.in_tension(table.poisson_ratio).thinned(PER_DECADE)
-    (test,), reference = tensile.tests, _reference(table)
+    (test,), (reference, _) = tensile.tests, _reference(table, tensile)
     for words in table.doubts_of_curve("for a test at one temperature"):
         raise StudyError(with_options(words, MaterialTable.model_fields).at("material"))
     with _errors_of(table.steps):
@@ -179,7 +187,7 @@ def read_ramps_of(table: MaterialTable) -> TemperatureRamps:
 
 def _from_ramps(table: MaterialTable, liquids: bool) -> Rubber:
     """Superpose temperature ramps by a law, fitted or assumed, and fit the spectrum."""
-    files, reference = table.ramps or (), _reference(table)
+    files, (reference, _) = table.ramps or (), _reference(table)
     ramps = read_ramps_of(table)
     with _errors_of(files[:1]):
         fit = superpose_ramps(
@@ -203,7 +211,7 @@ _DOUBTS_OF_RAMPS = {"ramps-do-not-superpose", "shift-assumed", "assumption-contr
 
 def _from_master_curve(table: MaterialTable, path: Path, liquids: bool) -> Rubber:
     """Use a given master curve, with its shift factors if they are given."""
-    reference = _reference(table)
+    reference, _ = _reference(table)
     curve = read_master_curve(
         path, reference, poisson_ratio=table.poisson_ratio, modulus_unit=table.modulus_unit, **_columns(table)
     )
@@ -260,10 +268,25 @@ def _off(law: ShiftLaw | None, factors: ShiftFactors) -> tuple[Note, ...]:
     return (Note("law-misfit", f"{said}(good if ≤ {misfit['misfit_limit']:g}).", values={"rms": misfit["rms"]}),)
 
 
-def _reference(table: MaterialTable) -> float:
-    if table.reference_temperature is None:
-        raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
-    return table.reference_temperature
+def _reference(table: MaterialTable, *given: IsothermalSweeps | StepTests) -> tuple[float, tuple[Note, ...]]:
+    """Return the reference temperature (K), else the middle one of those within all tests given, with a note."""
+    if table.reference_temperature is not None:
+        return table.reference_temperature, ()
+    each = list(map(_temperatures, given))
+    low, high = max(map(min, each), default=0.0), min(map(max, each), default=0.0)
+    if inside := sorted(kelvin for kelvin in set().union(*each) if low <= kelvin <= high):
+        middle = inside[(len(inside) - 1) // 2]
+        said = (
+            f"The reference temperature is {shown_celsius(middle)} °C, the middle one of the tests; choose another by "
+        )
+        remedy = setting("material.reference_temperature", "Reference temperature", "'30 degC'")
+        remedy = replace(remedy, shell="--reference '30 degC'")
+        return middle, (Note("reference-taken", said, remedy=remedy + ".", values={"temperature": middle}),)
+    raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
+
+
+def _temperatures(given: IsothermalSweeps | StepTests) -> set[float]:
+    return {one.temperature for one in (given.tests if isinstance(given, StepTests) else given.isotherms)}
 
 
 def _how(table: MaterialTable) -> dict[str, Any]:

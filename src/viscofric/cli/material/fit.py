@@ -32,8 +32,7 @@ _BESIDE = ("with_creep", "with_relaxation")
     "material.reference_temperature",
     "--reference",
     metavar="T",
-    required=True,
-    help="Reference temperature of the master curve, e.g. '20 degC'.",
+    help="Reference temperature, e.g. '20 degC' [default: the middle one of the tests; needed for --master-curve].",
 )
 @reading_options
 @key(

@@ -114,7 +114,7 @@ class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
         "the measured {} to {} °C",
         Remedy(
             "; fit a law (such as WLF or Arrhenius) to extrapolate",
-            "; leave it out, or, with sweeps, fit a law with viscofric material fit --shift wlf to extrapolate",
+            "; leave it out, or, with sweeps, fit a law by --shift wlf, which extrapolates",
             "; leave it out, or, with sweeps, give a law, shift = 'wlf' under [material], to extrapolate",
             page="; leave it out, or, with sweeps, use a law under “Shift” to extrapolate",
             field="conditions.temperature",

@@ -116,7 +116,9 @@ class MaterialTable(tables.Table):
     sheet: tables.Words | None = Field(None, description="Name of the only sheet of a workbook to read.")
     poisson_ratio: tables.Number = Field(0.5, ge=0.0, le=0.5, description="Poisson's ratio, independent of frequency.")
     reference_temperature: tables.Temperature | None = Field(
-        None, description="Temperature at which the shift factor is one; required for sweeps and master curves."
+        None,
+        description="Temperature at which the shift factor is one [default of sweeps and step tests: the middle one of "
+        "theirs].",
     )
     vertical_shift: Literal["none", "free", "density"] = Field(
         "none", description="Vertical shift b_T: none, fitted, or density times temperature."
@@ -185,7 +187,9 @@ class MaterialTable(tables.Table):
             valid = _OF_ANY if self.amplitude_sweep is None else (*_OF_ANY, *_OF_READING)
             names = [name for name in type(self).model_fields if name not in valid]
             yield from self._useless(names, f"for a predefined material ({given[0]})")
-        elif given and self.reference_temperature is None:
+        elif self.reference_temperature is None and (
+            self.fixed_shift_factors or set(given) & {"master_curve", "ramps"}
+        ):
             yield 'reference_temperature is missing; it is the temperature of the master curve, e.g. "30 degC"'
         if given == ["ramps"]:
             yield from self._doubts_of_ramps()
