@@ -17,6 +17,7 @@ from rheology.planted import write_moduli
 from viscofric.cli.commands import SOME_CASES_FAILED
 from viscofric.cli.curve import command
 from viscofric.cli.speed_options import chosen_speeds
+from viscofric.notes import Note
 from viscofric.rheology.spectra.quality import SpectrumFit
 
 DMA = str(files("viscofric") / "example" / "dma.csv")
@@ -108,6 +109,22 @@ def test_a_rubber_of_sweeps_has_bands_about_its_friction() -> None:
     )
     # 2 % of the contact, 1 % noise of the sweeps
     assert float(friction) == pytest.approx(known.friction_coefficient, rel=0.03)
+
+
+def test_friction_of_a_material_in_doubt_has_two_digits_and_no_numerical_error(tmp_path: Path) -> None:
+    solid = vf.Material.standard_linear_solid("1 MPa", "10 MPa", "1 ms").modes_at()
+    for notes in ((), (Note("superposition-fails", "Superposition does not hold."),)):
+        fit = SpectrumFit(None, None, True, True, (1e-3, 1e9), notes=notes)
+        vf.write_card(vf.Material(replace(solid, fit=fit)), tmp_path / "rubber.json", format="json")
+        words = ("--material", tmp_path / "rubber.json", "--ball", "10 mm", "--load", "1.234 N", "--accuracy", "0.1")
+        curve = succeed(*words, "--speed", "1 m/s").stdout.split("\n\n")[1].splitlines()[1].split()
+        lines = calls.succeed("solve", *words, "--speed", "1 m/s").stdout.splitlines()
+        solved = {line[:42].strip(): line[42:].strip() for line in lines[2:]}
+        friction = solved["viscoelastic friction coefficient"]
+        assert solved["normal load"] == "1.234 N"  # as given
+        assert ("±" in curve, "±" in friction) == (not notes, not notes)
+    assert curve[-1] == friction
+    assert len(friction.strip("0.")) == 2
 
 
 @pytest.mark.slow

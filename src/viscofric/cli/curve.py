@@ -132,11 +132,11 @@ def _figure_of(curves: FrictionCurves) -> str:
 def _print(title: str, curves: FrictionCurves) -> None:
     """Print a table of friction: a line for each temperature and speed."""
     from viscofric.report.texts.friction import friction_table
-    from viscofric.report.texts.numbers import AFTER_PLUS_MINUS, percent
+    from viscofric.report.texts.numbers import AFTER_PLUS_MINUS, TWO_DIGITS, in_doubt, percent
 
     click.echo("\n".join([f"{title}\n", *friction_table(curves)]))
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
     click.echo(f"\nnumerical error  {percent(worst)} at most")
-    click.echo("{:<15}  {}".format(*AFTER_PLUS_MINUS))
+    click.echo("{:<15}  {}".format(*(TWO_DIGITS if in_doubt(curves.notes) else AFTER_PLUS_MINUS)))
     if curves.within_measured_frequencies is not None and not curves.within_measured_frequencies.all():
         click.echo("marked *         frequencies at which the material is not known")

@@ -13,7 +13,7 @@ import numpy as np
 from viscofric.data import IsothermalSweeps, MasterCurve
 from viscofric.errors import DataFileError, InputError, LiquidError, StudyError
 from viscofric.files import says_synthetic
-from viscofric.notes import Note, note_of, setting
+from viscofric.notes import Note, note_of
 from viscofric.ramps import TemperatureRamps
 from viscofric.readers.dma.master_curves import read_master_curve
 from viscofric.readers.dma.ramps import read_ramps
@@ -276,12 +276,8 @@ def _reference(table: MaterialTable, *given: IsothermalSweeps | StepTests) -> tu
     low, high = max(map(min, each), default=0.0), min(map(max, each), default=0.0)
     if inside := sorted(kelvin for kelvin in set().union(*each) if low <= kelvin <= high):
         middle = inside[(len(inside) - 1) // 2]
-        said = (
-            f"The reference temperature is {shown_celsius(middle)} °C, the middle one of the tests; choose another by "
-        )
-        remedy = setting("material.reference_temperature", "Reference temperature", "'30 degC'")
-        remedy = replace(remedy, shell="--reference '30 degC'")
-        return middle, (Note("reference-taken", said, remedy=remedy + ".", values={"temperature": middle}),)
+        said = f"The reference temperature is {shown_celsius(middle)} °C, the middle one of the tests; none was given."
+        return middle, (Note("reference-taken", said, values={"temperature": middle}),)
     raise StudyError(Note("missing", "is missing.", "material.reference_temperature"))
 
 

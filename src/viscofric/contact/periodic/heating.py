@@ -38,8 +38,8 @@ ACCURACY = 1e-2
 _WITH_AREA = 0.7
 MEAN_LEFT_OUT = Note(
     "mean-heat-left-out",
-    "The rise of temperature is that above the mean of the surface: how much the mean heat warms the surface depends "
-    "on the radius of the nominal contact, which was not given.",
+    "The rise of temperature is that above the mean of the surface, and changes with its period: how much the mean "
+    "heat warms the surface depends on the radius of the nominal contact, which was not given.",
 )
 
 

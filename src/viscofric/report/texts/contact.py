@@ -8,7 +8,7 @@ import numpy as np
 
 from viscofric.contact.periodic.solution import PeriodicSolution
 from viscofric.contact.solution import OF_THE_SOLVER, ContactSolution
-from viscofric.report.texts.numbers import AFTER_PLUS_MINUS, length, prefixed, short
+from viscofric.report.texts.numbers import AFTER_PLUS_MINUS, TWO_DIGITS, in_doubt, length, prefixed, short
 from viscofric.rheology.spectra.retardation import RetardationSpectrum
 from viscofric.showing import Row, texts
 from viscofric.units import shown_number
@@ -22,7 +22,10 @@ def contact_rows(solution: ContactSolution | PeriodicSolution) -> dict[str, Row]
     spacing = abs(solution.x[-1] - solution.x[0]) / len(solution.x)
     rounding = {"1": max(1e-12, 1e-5 * abs(solution.friction_coefficient)), "m": 1e-6 * spacing}
     rows: dict[str, Row] = {}
+    doubtful = in_doubt(solution.warnings)
     for name, (label, value, unit, error) in solution.number_rows.items():
+        if doubtful and error is not None and error > 1e-9 * abs(value):  # not what was given
+            value, error = float(f"{value:.1e}"), None
         if name == "max_pressure" and not getattr(solution.diagnostics, "peak_resolved", True):
             rows[name] = (f"{label}, not resolved: at least", value, unit, None)
         elif name not in _NOT_SHOWN and math.isfinite(value):
@@ -48,7 +51,7 @@ def contact_lines(solution: ContactSolution, seconds: float) -> list[tuple[str, 
         ("grid", f"{cells} cells of {length(diagnostics.spacing)}, {len(diagnostics.levels)} nested grids"),
         ("solver", f"{diagnostics.linear_iterations} iterations, {diagnostics.products} products, {closed}"),
         ("time", f"{seconds:.2f} s"),
-        AFTER_PLUS_MINUS,
+        TWO_DIGITS if in_doubt(solution.warnings) else AFTER_PLUS_MINUS,
     ]
 
 

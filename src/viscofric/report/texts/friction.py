@@ -7,7 +7,7 @@ import numpy as np
 from viscofric.arrays import Array
 from viscofric.friction.curves import FrictionCurves
 from viscofric.nominal import SAME_TEMPERATURE, parted
-from viscofric.report.texts.numbers import several, spanned
+from viscofric.report.texts.numbers import in_doubt, several, significant, spanned
 from viscofric.report.texts.tables import text_table
 from viscofric.traction import TractionRuns
 from viscofric.units import shown_celsius
@@ -19,6 +19,9 @@ def friction_table(curves: FrictionCurves) -> list[str]:
     measured = data.get("within_measured_frequencies")
     if measured is not None and (measured == 0).any():
         data["beyond"] = ("point", np.where(measured == 0, "*", ""))
+    if in_doubt(curves.notes):
+        data = data.drop_vars("viscoelastic_error", errors="ignore")
+        data["viscoelastic"] = "point", [significant(one, 2) for one in curves.viscoelastic.tolist()]
     if np.all(curves.replicates == 1):
         data = data.drop_vars("replicates")
     return text_table(

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
 
 from viscofric.arrays import Array
+from viscofric.notes import codes
+from viscofric.rheology.spectra.quality import DOUBTS
 from viscofric.showing import ABSENT, prefixed, several, short, significant, with_error
 from viscofric.units import shown_celsius, shown_number, shown_speed
 
@@ -16,6 +19,15 @@ __all__ = ["ABSENT", "prefixed", "several", "short", "significant", "with_error"
 _SPACE = "\N{NO-BREAK SPACE}"
 #: What the numbers after ± are, as name and value.
 AFTER_PLUS_MINUS = ("after ±", "errors of the numerical solution, not of the material")
+
+
+#: The same where values have no errors, but two digits.
+TWO_DIGITS = ("two digits", "the material is in doubt, see the warnings")
+
+
+def in_doubt(notes: Iterable[str]) -> bool:
+    """Return whether a note says that a material contradicts what was measured: errors of solutions mean nothing."""
+    return any(code.startswith(DOUBTS) for code in codes(notes))
 
 
 def percent(share: float, digits: int = 2) -> str:
