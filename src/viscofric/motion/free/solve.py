@@ -41,6 +41,8 @@ _LEFT = 1.0 / (_FINER**2 - 1.0)
 # Part of the error of the steps that is left after its extrapolation; margin of the errors by cells, whose signs
 # change; least one of the energy, over that of cells of second order (benchmarks/motion).
 _STEPS_LEFT, _MARGIN, _LEAST_ENERGY = 0.5, 2.0, 1.5
+# The same of steps that are not judged, of first order: all of the difference that was extrapolated.
+_FIRST_ORDER = 2.5
 # After a start or a turn, friction changes within slides of no length: so many steps, and cells of the coarser grid or
 # part of the longest contact, are not judged, of the way to the next turn at most such a part.
 _RESOLVED_STEPS, _RESOLVED_CELLS, _RESOLVED_PART, _UNJUDGED = 4, 4, 0.025, 0.1
@@ -296,12 +298,13 @@ def _compared(level: Level, coarser: Level, judged: Sequence[int]) -> list[Momen
     friction = np.maximum(slopes if on_slopes else memory, between)
     # All energies share the change by the first indentation, so that their mean is no measure.
     energy = np.maximum(energy, _MARGIN * _LEAST_ENERGY * here[:, 2] / max(level.cells, 1.0) ** 2)
-    found = []
+    found, trusted = [], set(judged)
     for place, one in enumerate(fine):
         of_cells = load[place], depth[place], friction[place], energy[place]
         known = one.on_slopes() if on_slopes else one
         parts = zip(known.errors, one.seen.left_out, of_cells, strict=True)
-        errors = Sizes(*(_STEPS_LEFT * (steps - rest) + rest + float(cells) for steps, rest, cells in parts))
+        steps_left = _STEPS_LEFT if place in trusted else _FIRST_ORDER
+        errors = Sizes(*(steps_left * (steps - rest) + rest + float(cells) for steps, rest, cells in parts))
         found.append(replace(known, errors=errors, work=one.work + float(left[place, 7])))
     return found
 
