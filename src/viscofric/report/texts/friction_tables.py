@@ -356,7 +356,7 @@ def start_table(data: Dataset, _: DataTree) -> Table | None:
     headings = [*(axis.title for axis in axes), "largest friction", *band, "after", "after sliding", "at the end"]
     caption = "Largest viscoelastic friction coefficient of each contact over time, of the times in the results."
     said = "After ±: errors of the numerical solution, of the largest friction also by what lies between the times."
-    return Table("starts", caption, headings, rows, note=said)
+    return Table("starts", caption, headings, rows, note=said) if rows else None
 
 
 def detail_tables(tree: DataTree) -> list[Table]:
