@@ -17,6 +17,7 @@ from viscofric.notes import Note
 from viscofric.roughness.measured_spectrum import LineSpectrum
 from viscofric.roughness.spectrum import PowerSpectrum, self_affine_shape, wanted_rms
 from viscofric.roughness.topography import Topography
+from viscofric.showing import prefixed
 from viscofric.units import Quantity, positive, to_si, two_lengths
 
 Density: TypeAlias = Callable[["Array"], "Array"]
@@ -110,9 +111,10 @@ def self_affine(
             code="no-wave",
         )
     heights = scipy.fft.irfft2(series * (wanted / math.sqrt(found)), points, norm="forward")
-    rms = f"rms height {wanted:.4g} m" if order == 0.0 else f"rms slope {wanted:.4g}"
-    history = f"made: self-affine, Hurst exponent {H:g}, wavelengths {long:.4g} to {short:.4g} m, "
-    history += f"roll-off {roll:.4g} m, {rms}{'' if exact else ' in the mean'}, {waves.description}"
+    waves_from, waves_to, rolls = (prefixed(one, None, "m") for one in (long, short, roll))
+    rms = f"rms height {prefixed(wanted, None, 'm')}" if order == 0.0 else f"rms slope {wanted:.4g}"
+    history = f"made: self-affine, Hurst exponent {H:g}, wavelengths {waves_from} to {waves_to}, "
+    history += f"roll-off {rolls}, {rms}{'' if exact else ' in the mean'}, {waves.description}"
     made = {"hurst": H, "longest": long, "shortest": short, "rolloff": roll, "seed": seed, "exact": exact}
     return Topography(
         heights, steps, periodic=True, name=f"self-affine, seed {seed}", history=(Note("made", history, values=made),)

@@ -14,6 +14,7 @@ from viscofric.contact.indenters.indenter import Indenter, insist_on_indenter
 from viscofric.contact.periodic.surface import wave_number, without_nyquist
 from viscofric.errors import InputError, brief, check_choice, wrong_argument
 from viscofric.notes import Note
+from viscofric.showing import prefixed
 from viscofric.units import Quantity, positive, to_si
 
 #: A wave just at a cut-off stays whatever the rounding.
@@ -50,12 +51,12 @@ def passed(
     if longest is not None:
         length = positive(longest, "m", "longest")
         keep &= q >= 2.0 * np.pi / length * (1.0 - _ROUNDING)
-        bounds.append(f"longer than {length:.4g} m")
+        bounds.append(f"longer than {prefixed(length, None, 'm')}")
         values["longest"] = length
     if shortest is not None:
         length = positive(shortest, "m", "shortest")
         keep &= q <= 2.0 * np.pi / length * (1.0 + _ROUNDING)
-        bounds.append(f"shorter than {length:.4g} m")
+        bounds.append(f"shorter than {prefixed(length, None, 'm')}")
         values["shortest"] = length
     if not keep.any():
         raise InputError(
@@ -181,7 +182,7 @@ def cropped(
                 code="too-few-points",
             )
         cut.append(slice(start, stop))
-        steps.append(f"{axis} from {start * step:.4g} to {(stop - 1) * step:.4g} m")
+        steps.append(f"{axis} from {' to '.join(prefixed(end * step, None, 'm') for end in (start, stop - 1))}")
         values[axis] = [start * step, (stop - 1) * step]
     return heights[cut[0], cut[1]].copy(), Note("cropped", f"cropped: {', '.join(steps) or 'nothing'}", values=values)
 

@@ -18,7 +18,7 @@ from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError, check_choice
 from viscofric.notes import Note, Remedy
 from viscofric.roughness import preparation
-from viscofric.showing import Plotted, Rows
+from viscofric.showing import Plotted, Rows, prefixed
 from viscofric.units import Quantity, in_si, number, two_lengths
 
 #: Of the variance of heights, of a plane through more points than this.
@@ -326,7 +326,7 @@ class Topography(Plotted):
         change = preparation.resampled_series if self.periodic else preparation.resampled
         heights, found = change(self.complete(), self.spacing, wanted)
         points = " × ".join(str(n) for n in (heights.shape if heights.shape[1] > 1 else heights.shape[:1]))
-        said = f"resampled to {points} points, {found[0]:.4g} m apart along x"
+        said = f"resampled to {points} points, {prefixed(found[0], None, 'm')} apart along x"
         return self._with(heights, Note("resampled", said, values={"spacing": [*found]}), spacing=found)
 
     def keep_wavelengths(self, shortest: Quantity | None = None, longest: Quantity | None = None) -> Topography:
