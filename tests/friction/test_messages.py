@@ -398,7 +398,10 @@ def test_refusals_say(call: Callable[[], object], reader: Reader, sentence: str)
         (
             "temperature (degC)",
             "temperature",
-            ": column 'temperature' has no unit; write it as 'temperature (degC)'.",
+            (
+                ": column 'temperature' has no unit; write it as 'temperature (degC)', or name it: "
+                "columns={'temperature': 'temperature (degC)'}."
+            ),
         ),
         ("load (N)", "load (Pa)", ": column 'load (Pa)' has the unit 'Pa'; it must be one like 'N'."),
         (

@@ -47,7 +47,7 @@ ERRORS: list[tuple[Callable[[Path], object], list[str], str]] = [
     (
         read_dma,
         ["T (degC),f,E' (MPa),E'' (MPa)", *SWEEP],
-        "column 'f' has no unit; write it as 'f (Hz)' or 'f (rad/s)'.",
+        "column 'f' has no unit; write it as 'f (Hz)' or 'f (rad/s)', or name it: columns={'frequency': 'f (Hz)'}.",
     ),
     (
         read_dma,

@@ -322,7 +322,7 @@ SAID = [
     (
         lambda: shifts("T,log_aT\n1,2\n3,0\n"),
         "no-unit",
-        "a.csv: column 'T' has no unit; write it as 'T (degC)'.",
+        "a.csv: column 'T' has no unit; write it as 'T (degC)', or name it: columns={'temperature': 'T (degC)'}.",
     ),
     (
         lambda: shifts("T_C,aT\n1,2\n3,-1\n"),

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from viscofric.readers.headings import Column, Vocabulary, is_place, place_of
-from viscofric.readers.source import plain_number
+from viscofric.readers.source import plain_number, same_unit
 from viscofric.readers.table import NumberedRow
 
 #: Tables by people and instruments begin above this line.
@@ -127,6 +127,8 @@ def _under(upper: str, text: str, label: Column, words: Vocabulary) -> str:
         if of_above in words.conditions:
             return f"{over.name} {text}"
         return f"{upper} {text}" if of_above or is_number(upper) or (stated and not above.strip()) else text
+    if over.unit and same_unit(over.unit, unit):  # "Hz" below "f (Hz)"
+        return upper
     # "mm/s" below "speed", or the second half of a name
     return f"{upper} ({unit})" if over.quantity and not over.unit else f"{upper} {text}"
 

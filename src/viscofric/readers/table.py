@@ -82,7 +82,8 @@ class Table:
 
     def headings(self) -> str:
         """Return the headings as one readable list, for error messages."""
-        return ", ".join(repr(column.heading) for column in self.columns)
+        made = OF_HEADINGS.values()  # which no heading says
+        return ", ".join(repr(column.heading) for column in self.columns if column.heading not in made)
 
     def numbers(self, column: int, *, or_missing: bool = False) -> Array:
         """Return a column as printed, NaN for a missing number where that is allowed, or raise `DataFileError`."""
@@ -159,9 +160,11 @@ class Table:
         example = {"K": "degC", "Pa": "MPa", "m/s": "mm/s", "rad": "deg"}.get(unit, unit)
         if not column.unit:
             right = f"{' '.join(filter(None, (column.name, *(value for _, value in column.stated))))} ({example})"
-            right = f"{column.heading} {example}" if CONSTANT.fullmatch(column.heading) else right
+            constant = CONSTANT.fullmatch(column.heading)
+            right = f"{column.heading} {example}" if constant else right
             problem = f"column {column.heading!r} has no unit; write it as {right!r}"
-            raise self.refused("no-unit", problem, (hint or Remedy("")) + ".")
+            key = "" if constant or not column.quantity else self.vocabulary.key
+            raise self.refused("no-unit", problem, hint + "." if hint else or_name_it(key, column.quantity, right))
         printed = column.unit.replace(MILLIPASCAL, "MPa") if unit in ("Pa", "1/Pa") else column.unit
         try:
             return unit_conversion(printed, unit, column.heading)

@@ -214,8 +214,9 @@ def _in_rad_per_second(table: Table, place: int) -> Array:
     if factor is not None:
         return factor * table.numbers_or_missing(place)
     if not column.unit:  # one that is named angular is read in rad/s by `angular_frequency`
-        right = f"write it as {f'{column.heading} (Hz)'!r} or {f'{column.heading} (rad/s)'!r}."
-        raise table.refused("no-unit", f"column {column.heading!r} has no unit; {right}")
+        in_hertz, in_radians = (f"{column.heading} ({unit})" for unit in ("Hz", "rad/s"))
+        problem = f"column {column.heading!r} has no unit; write it as {in_hertz!r} or {in_radians!r}"
+        raise table.refused("no-unit", problem, or_name_it(table.vocabulary.key, "frequency", in_hertz))
     right = "'rad/s'" if named_angular else "'Hz' or 'rad/s'"
     raise table.refused("wrong-unit", f"column {column.heading!r} has the unit {column.unit!r}; it must be {right}.")
 
