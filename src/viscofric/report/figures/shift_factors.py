@@ -212,10 +212,8 @@ def _described(law: ShiftLaw) -> str:
     at = f"at {degrees(law.reference)}"
     if isinstance(law, WLFArrhenius):
         return f"WLF above {degrees(law.glass_transition)}, Arrhenius below"
-    if isinstance(law, WLF):
-        return f"WLF: $C_1$ = {law.C1:.4g}, $C_2$ = {law.C2:.4g} K {at}"
-    if isinstance(law, Arrhenius):
-        return f"Arrhenius: {law.activation_energy / 1e3:.4g} kJ/mol"
+    if isinstance(law, WLF | Arrhenius):
+        return str(law)
     return f"{getattr(law, 'title', type(law).__name__)} {at}"
 
 

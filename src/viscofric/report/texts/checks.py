@@ -31,6 +31,7 @@ from viscofric.report.results import (
 )
 from viscofric.report.sweeps import solved_cases
 from viscofric.report.texts.numbers import degrees, percent, several, significant
+from viscofric.rheology.spectra.quality import shown_range
 from viscofric.study.results.results import beyond_accuracy
 
 
@@ -203,8 +204,7 @@ def _contact(tree: DataTree) -> Iterator[Check]:
             energy <= limit * (1.0 + 1e-9),
             "Friction is calculated twice: from the contact pressure, and from the energy dissipated in the material. "
             f"The two differ by {percent(energy)} at most (good if ≤ {percent(limit)}, {_ENERGY_BALANCE:g} times "
-            "the requested accuracy). The reported value is at least as accurate as the better one, and must reach the "
-            "accuracy.",
+            "the requested accuracy). The reported value is at least as accurate as the better one.",
             energy,
             limit,
         )
@@ -269,23 +269,25 @@ def _frequencies(tree: DataTree) -> Iterator[Check]:
         cases[name] = [beyond, of]
     if not counts:
         return
-    ends = [significant(end, 2) for end in numbers(tree.attrs, "frequency_range")]
-    gaps = [significant(end, 2) for end in numbers(tree.attrs, "frequency_gaps")]
-    without = " or ".join(f"{first} to {last}" for first, last in zip(gaps[::2], gaps[1::2], strict=True))
-    but = f", but not at {without} rad/s," if gaps else ""
-    measured = f" ({ends[0]} to {ends[1]} rad/s{but} at the reference temperature)" if len(ends) == 2 else ""
+    ends, gaps = (numbers(tree.attrs, f"frequency_{name}") for name in ("range", "gaps"))
+    pairs = tuple(zip(gaps[::2], gaps[1::2], strict=True))
+    measured = f" ({shown_range((ends[0], ends[1]), pairs)} at the reference temperature)" if len(ends) == 2 else ""
     kind = "identified" if is_from_friction(tree) else "measured"
-    meaning = "the frequency of the contact (shift factor times speed over half its length)"
+    meaning, some, each = "frequency of the contact (shift factor times speed over half its length)", "the", "the"
+    if is_rough(tree):
+        meaning, some, each = (
+            "frequency of the surface's waves (2π times shift factor times speed over length)",
+            "some",
+            "each",
+        )
     if outside:
         words = (
-            f"In {several(counts)}, {meaning} lies outside the {kind} range{measured}; friction there depends on the "
-            f"extrapolated {'or interpolated ' if gaps else ''}spectrum. These cases are marked in the tables."
+            f"In {several(counts)}, {some} {meaning} lies outside the {kind} range{measured}; friction there depends "
+            f"on the extrapolated {'or interpolated ' if gaps else ''}spectrum. These cases are marked in the tables."
         )
     else:
-        words = f"In all cases {meaning} lies within the {kind} range{measured}."
-    counted = {**cases, "range": [*numbers(tree.attrs, "frequency_range")]}
-    if gaps:
-        counted["gaps"] = numbers(tree.attrs, "frequency_gaps")
+        words = f"In all cases {each} {meaning} lies within the {kind} range{measured}."
+    counted = {**cases, "range": ends} | ({"gaps": gaps} if gaps else {})
     yield Check.of("Measured frequency range", outside == 0, Note("frequency-range", words, values=counted))
 
 

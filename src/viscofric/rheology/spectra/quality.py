@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from viscofric.datasets import Dataset, dataset
 from viscofric.notes import Note, dumped, records
 from viscofric.rheology.spectra.response import shown_modulus
-from viscofric.showing import Rows, Shown
+from viscofric.showing import Rows, Shown, short
 
 _EXTRAPOLATED = "extrapolated: beyond what was measured"
 _BEYOND_FRICTION = "extrapolated: beyond the range of the friction"
@@ -298,8 +298,8 @@ def gaps_between(frequency: ArrayLike) -> tuple[tuple[float, float], ...]:
 def shown_range(frequency_range: tuple[float, float], gaps: tuple[tuple[float, float], ...] = ()) -> str:
     """Return a range of angular frequencies, rad/s, and its gaps in words."""
     low, high = frequency_range
-    without = " or ".join(f"{first:.3g} to {last:.3g}" for first, last in gaps)
-    return f"{low:.3g} to {high:.3g} rad/s{f', but not at {without} rad/s' if gaps else ''}"
+    without = " or ".join(f"{short(first, 3)} to {short(last, 3)}" for first, last in gaps)
+    return f"{short(low, 3)} to {short(high, 3)} rad/s{f', but not at {without} rad/s' if gaps else ''}"
 
 
 def _misfit(**rms: float | None) -> dict[str, float]:
