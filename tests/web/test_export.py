@@ -14,6 +14,7 @@ import pytest
 import viscofric as vf
 from refusals import refused
 from viscofric.errors import DataFileError, StudyError
+from viscofric.report.texts.checks import all_checks
 from viscofric.rheology.cards import read_card
 from viscofric.web.jobs import curve, export_card, export_run_file, export_study, open_run_file
 from viscofric.web.jobs.rubbers import made_rubber
@@ -179,6 +180,9 @@ def test_whole_study_has_the_numbers_of_page_and_command_line_and_takes_up_where
     labels = [message["label"] for event, message in desk.reported if event == "progress"]
     assert any(label.startswith("solving contacts") for label in labels)
     assert labels[-1] == "drawing figures and report"
+    doubtful = {check.sentence for check in all_checks(stored.tree) if check.verdict == "warning"}
+    assert doubtful
+    assert doubtful <= set(found["warnings"])
 
     downloads = desk.context.downloads
     names = [one["name"] for one in found["downloads"]]

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from viscofric.notes import listed
 from viscofric.report import write_figures_and_report
+from viscofric.report.texts.checks import all_checks
 from viscofric.report.texts.study import grouped_failures
 from viscofric.study.execution import run_study
 from viscofric.study.results.results import StudyResults
@@ -44,7 +45,8 @@ def run(study: dict[str, Any], options: Options, context: Context) -> dict[str, 
     figures, report = write_figures_and_report(results.tree, results.folder)
     downloads = _downloads(results, figures, report, context.downloads)
     cases, failed = int(results.dataset["friction_coefficient"].size), int(results.dataset["failed"].sum())
-    warnings = list(dict.fromkeys(results.warnings))
+    doubtful = [check.sentence for check in all_checks(results.tree) if check.verdict in ("warning", "failed")]
+    warnings = list(dict.fromkeys([*results.warnings, *doubtful]))
     return {
         "downloads": downloads,
         "cases": cases,
