@@ -142,7 +142,8 @@ def spectrum_table(spectrum: Dataset, _: DataTree) -> Table | None:
 def text_table(data: Dataset, *columns: tuple[str, str] | tuple[str, str, str]) -> list[str]:
     """Return columns of a data set, (name, heading) or with the name of the error, as lines of text.
 
-    Those that are missing are left out; those that have a scatter or 95 % limits are followed by these.
+    Those that are missing are left out; those that have a scatter or 95 % limits are followed by these; with limits
+    they have the digits of these, and no numerical error.
     """
     cells: list[list[str]] = []
     for name, heading, *other in columns:
@@ -154,12 +155,14 @@ def text_table(data: Dataset, *columns: tuple[str, str] | tuple[str, str, str]) 
         unit = data[name].attrs.get("units", "1")
         write, factor = _SHOWN.get(name) or (times(1.0), _UNITS[unit][1] if unit in ("m/s", "Pa") else 1.0)
         found, error = factor * values(data, name), other[0] if other else f"{name}_error"
+        if is_limited := f"{name}_lower" in data:
+            write, error = significant, ""
         texts = _pairs(found, factor * values(data, error), write) if error in data else map(write, found.tolist())
         cells.append([heading, *texts])
         if np.any(values(data, f"{name}_scatter") > 0.0):
             shares = zip(values(data, f"{name}_scatter"), found, strict=True)
             cells.append(["scatter", *(_share(one, of) for one, of in shares)])
-        if f"{name}_lower" in data:
+        if is_limited:
             ends = zip(*(factor * values(data, f"{name}_{end}") for end in ("lower", "upper")), strict=True)
             cells.append(["95 % limits", *(f"{significant(low)} to {significant(high)}" for low, high in ends)])
     return aligned(zip(*cells, strict=True))
