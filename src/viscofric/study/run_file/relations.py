@@ -152,13 +152,13 @@ def _measurement(tables: Tables) -> Iterator[Problem]:
         yield "measurement", f"needs one material, but there are {len(tables['material'])}"
     indenter = tables.get("indenter")
     if tables.get("surface") is not None:
-        yield "measurement", "needs a ball, but there is a rough [surface]"
+        yield "measurement", "needs a ball, but there is a rough surface"
     if indenter is not None and not isinstance(indenter, BallTable):
         yield "measurement", f"needs a ball, but the shape of the indenter is {indenter.shape}"
     elif indenter is not None and len(indenter.radius) > 1:
         yield "measurement", f"needs one ball, but indenter.radius has {len(indenter.radius)} values"
     if tables.get("layer") is not None:
-        yield "measurement", "needs a half-space, but there is a [layer]"
+        yield "measurement", "needs a half-space, but there is a layer"
 
 
 def _history(tables: Tables) -> Iterator[Problem]:
@@ -173,11 +173,11 @@ def _history(tables: Tables) -> Iterator[Problem]:
         return
     indenter = tables.get("indenter")
     if tables.get("surface") is not None:
-        yield "impact", "needs an [indenter], but there is a rough [surface]"
+        yield "impact", "needs an indenter, but there is a rough surface"
     elif indenter is not None and indenter.shape not in ("ball", "cone"):
         yield "impact", f"needs a ball or a cone, but the shape of the indenter is {indenter.shape}"
     if tables.get("layer") is not None:
-        yield "impact", "needs a half-space, but there is a [layer]"
+        yield "impact", "needs a half-space, but there is a layer"
 
 
 def _interface(tables: Tables) -> Iterator[Problem]:
@@ -200,7 +200,7 @@ def _heating(tables: Tables) -> Iterator[Problem]:
         yield "heating.nominal_radius", "is of rough surfaces; the contact of an indenter has its own radius"
     if tables.get("layer") is not None:
         page = "friction on layers is not computed with heating"
-        yield "heating", worded("needs a half-space, but there is a [layer]", page)
+        yield "heating", worded("needs a half-space, but there is a layer", page)
     if indenter is not None and indenter.LINE and heating.passes > 0:
         yield "heating.passes", "are of round contacts; a cylinder leaves no circular track"
     if tables.get("interface") is not None:

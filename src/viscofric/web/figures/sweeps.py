@@ -123,7 +123,7 @@ def _numbers(found: dict[str, Any], given: str | None) -> list[spec.Spec]:
     if source != "dma":
         return numbers
     left, outliers = found["left_out"], sum(one["why"] != "left out" for one in found["flagged"])
-    return [*numbers, spec.number("flagged", str(left + outliers), remark=f"{left} left out, {outliers} outliers")]
+    return [*numbers, spec.number("flagged", str(left + outliers), remark=f"{left} left out, {outliers} far off")]
 
 
 def _all(curves: list[dict[str, Any]], name: str) -> list[float]:
