@@ -95,7 +95,7 @@ SAID = [
         lambda: FACTORS("130 degC"),
         "outside-measured",
         (
-            "temperature = 130.0 °C lies outside the measured 0.0 to 120.0 °C; fit a law (such as WLF or "
+            "temperature = 130.0 °C lies outside the shift factors, 0.0 to 120.0 °C; fit a law (such as WLF or "
             "Arrhenius) to extrapolate."
         ),
     ),
@@ -103,7 +103,7 @@ SAID = [
         lambda: FACTORS(60.0),
         "outside-measured",
         (
-            "temperature = −213.1 °C lies outside the measured 0.0 to 120.0 °C; fit a law (such as WLF or "
+            "temperature = −213.1 °C lies outside the shift factors, 0.0 to 120.0 °C; fit a law (such as WLF or "
             "Arrhenius) to extrapolate; plain numbers are kelvin: for 60 °C write '60 degC'."
         ),
     ),

@@ -111,7 +111,7 @@ class ShiftFactors(ShiftTable, ShiftLaw, Items[tuple[float, float]]):
         return super().to_dataset(temperatures)
 
     _beyond = (
-        "the measured {} to {} °C",
+        "the shift factors, {} to {} °C",
         Remedy(
             "; fit a law (such as WLF or Arrhenius) to extrapolate",
             "; leave it out, or, with sweeps, fit a law by --shift wlf, which extrapolates",
