@@ -137,9 +137,7 @@ def _print(title: str, curves: FrictionCurves) -> None:
     click.echo("\n".join([f"{title}\n", *friction_table(curves)]))
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
     click.echo(f"\nnumerical error  {percent(worst)} at most")
-    if in_doubt(curves.notes):
-        click.echo("{:<15}  {}".format(*TWO_DIGITS))
-    elif curves.viscoelastic_lower is None:
-        click.echo("{:<15}  {}".format(*AFTER_PLUS_MINUS))
+    if curves.viscoelastic_lower is None:
+        click.echo("{:<15}  {}".format(*(TWO_DIGITS if in_doubt(curves.notes) else AFTER_PLUS_MINUS)))
     if curves.within_measured_frequencies is not None and not curves.within_measured_frequencies.all():
         click.echo("marked *         frequencies at which the material is not known")

@@ -19,7 +19,7 @@ def friction_table(curves: FrictionCurves) -> list[str]:
     measured = data.get("within_measured_frequencies")
     if measured is not None and (measured == 0).any():
         data["beyond"] = ("point", np.where(measured == 0, "*", ""))
-    if in_doubt(curves.notes):
+    if in_doubt(curves.notes) and "viscoelastic_lower" not in data:
         data = data.drop_vars("viscoelastic_error", errors="ignore")
         data["viscoelastic"] = "point", [significant(one, 2) for one in curves.viscoelastic.tolist()]
     if np.all(curves.replicates == 1):
