@@ -104,7 +104,6 @@ def test_rubber_to_solve_with_refuses_a_temperature_without_shift_factor(workspa
     ("material", "refusal"),
     [
         ({}, ("contradiction", "material")),
-        ({"dma": "dma.csv"}, ("contradiction", "reference_temperature")),
         ({**SWEEPS, "deformation": "torsion"}, ("literal-error", "material.deformation", "'torsion'")),
         ({**SWEEPS, "dma": __file__}, ("file-not-here", "material.dma", "test_rubber_cache.py")),
         ({**SWEEPS, "dma": ["dma.csv", "b.csv"]}, ("file-not-here", "material.dma", "'b.csv'")),
