@@ -16,6 +16,7 @@ from viscofric.contact.complementarity import solve_on_contact
 from viscofric.contact.extension import Extension, lag
 from viscofric.contact.operators.convolution import both_halves, upper_half
 from viscofric.contact.periodic import one_grid
+from viscofric.contact.periodic.blocks import BlockExtension
 from viscofric.contact.periodic.operator import PeriodicOperator
 from viscofric.contact.periodic.transfer import SlidingSolid
 
@@ -205,3 +206,28 @@ def test_the_contact_of_blocks_spares_ffts_and_leaves_the_contact_as_it_is(
     assert with_blocks.diagnostics.ffts < without.diagnostics.ffts
     # Gaps within 1e-8 of the rms height take pressures within that times the condition of the problem, some hundreds.
     np.testing.assert_allclose(with_blocks.pressure, without.pressure, atol=1e-5 * without.max_pressure)
+
+
+def test_pressures_on_a_contact_are_raised_to_the_loads_of_its_blocks() -> None:
+    """In long waves whatever they were, in short ones not at all."""
+    operator = sliding(128, (1.0, 0.0))
+    x = np.arange(128)
+    # Half of each block, so that no cell carries more than another.
+    contact = Backend().cells((x[:, None] + x) % 2 == 0)
+    blocks = BlockExtension(operator, (1.0, 0.0), 0.5, fixed_load=False)
+    wanted = 1.0 + np.cos(2.0 * np.pi * x / 128)[:, None] * np.cos(2.0 * np.pi * x / 64)
+    blocks.on(contact)(contact.gathered(wanted))
+    pressure = 0.5 * operator.precondition(wanted)
+    moved = Extension(operator.backend, (128, 128), operator.dtype, inverse=operator.inverse).collecting(contact)
+
+    def loads(pressure: np.ndarray) -> np.ndarray:
+        field = contact.scattered(pressure).reshape(16, 8, 16, 8).mean(axis=(1, 3))
+        return np.array([np.fft.fft2(field)[wave] for wave in ((0, 0), (1, 2), (1, 14))])
+
+    of_blocks = loads(blocks.collecting(contact)(np.zeros_like(pressure)))
+    raised, before = loads(blocks.collecting(contact)(pressure)), loads(moved(pressure))
+    # Missing loads are distributed by a Gaussian with a standard deviation of two of the 16 blocks of a period.
+    distributed = np.exp(-0.5 * (2.0 * 2.0 * np.pi / 16 * np.sqrt([0.0, 5.0, 5.0])) ** 2)
+    np.testing.assert_allclose(raised, of_blocks + (1.0 - distributed) * before, rtol=1e-4)
+    assert of_blocks[0].real > 0.0
+    assert abs(raised[1] - before[1]) > 0.1 * abs(before[1])
