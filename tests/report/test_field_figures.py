@@ -11,9 +11,8 @@ import pytest
 import xarray as xr
 
 import viscofric as vf
-from viscofric.report.figures.contacts import contacts_figure
+from viscofric.report.figures.contacts import contacts_figure, shown_contacts
 from viscofric.report.figures.convergence import convergence_figure
-from viscofric.report.figures.stored_contacts import shown_contacts
 from viscofric.report.sweeps import cases_of
 
 RUBBER = vf.Material.standard_linear_solid("3 MPa", "30 MPa", "1 ms")
@@ -51,23 +50,23 @@ def tree(solutions: list[Any]) -> xr.DataTree:
 
 def test_slowest_fastest_and_most_friction_are_shown(tree: xr.DataTree, solutions: list[Any]) -> None:
     shown = shown_contacts(tree)
-    assert [contact.title for contact, _ in shown] == ["slowest", "most friction", "fastest"]
-    assert [contact.conditions for contact, _ in shown] == ["30 °C, 1 mm/s", "30 °C, 1 m/s", "30 °C, 1000 m/s"]
-    for (contact, _), solution in zip(shown, solutions, strict=True):
+    assert [contact.title for contact in shown] == ["slowest", "most friction", "fastest"]
+    assert [contact.conditions for contact in shown] == ["30 °C, 1 mm/s", "30 °C, 1 m/s", "30 °C, 1000 m/s"]
+    for contact, solution in zip(shown, solutions, strict=True):
         assert contact.friction == solution.friction_coefficient
         assert contact.centre_of_pressure == pytest.approx(solution.centre_of_pressure)
 
 
 def test_contacts_that_coincide_are_shown_once(tree: xr.DataTree) -> None:
     del tree["fields"]["3"]
-    assert [contact.title for contact, _ in shown_contacts(tree)] == ["slowest", "most friction, fastest"]
+    assert [contact.title for contact in shown_contacts(tree)] == ["slowest", "most friction, fastest"]
     del tree["fields"]["1"]
-    assert [contact.title for contact, _ in shown_contacts(tree)] == [""]
+    assert [contact.title for contact in shown_contacts(tree)] == [""]
 
 
 def test_more_friction_than_in_the_kept_contacts_is_not_denied(tree: xr.DataTree) -> None:
     del tree["fields"]["2"]
-    titles = [contact.title for contact, _ in shown_contacts(tree)]
+    titles = [contact.title for contact in shown_contacts(tree)]
     assert titles == ["slowest", "most friction of those shown, fastest"]
 
 
@@ -79,7 +78,7 @@ def test_no_group_is_needed(tree: xr.DataTree, missing: str) -> None:
 
 
 def test_friction_is_the_lean_of_the_pressure(tree: xr.DataTree) -> None:
-    contact, _ = shown_contacts(tree)[1]
+    contact = shown_contacts(tree)[1]
     figure = contacts_figure([contact])
     profile = figure.axes[1]
     centre = next(line for line in profile.lines if line.get_label() == "centre of pressure")
@@ -88,7 +87,7 @@ def test_friction_is_the_lean_of_the_pressure(tree: xr.DataTree) -> None:
 
 
 def test_pressures_that_differ_much_are_shown_over_their_means(tree: xr.DataTree) -> None:
-    contacts = [contact for contact, _ in shown_contacts(tree)]
+    contacts = shown_contacts(tree)
     apart = contacts_figure(contacts)
     assert apart.axes[3].get_ylabel().startswith("pressure over its mean")
     assert "mean pressure" in apart.axes[0].get_title()
@@ -102,9 +101,9 @@ def test_line_contacts_have_profiles_only() -> None:
     for kept in (fields, fields.isel(y=0, drop=True)):
         tree = xr.DataTree.from_dict({"/fields/1": kept})
         (shown,) = shown_contacts(tree)
-        assert shown.contact.is_line
-        assert len(contacts_figure([shown.contact]).axes) == 1
-        assert math.isnan(shown.contact.friction)
+        assert shown.is_line
+        assert len(contacts_figure([shown]).axes) == 1
+        assert math.isnan(shown.friction)
 
 
 def test_errors_are_drawn_below_the_accuracy_that_was_asked_for(make_sweep: Callable[..., xr.Dataset]) -> None:

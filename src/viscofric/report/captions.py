@@ -8,10 +8,10 @@ import numpy as np
 
 from viscofric.datasets import Dataset, DataTree
 from viscofric.notes import notes_in
+from viscofric.report.figures.contacts import shown_contacts
 from viscofric.report.figures.heating import MOST_PANELS as HEATED
 from viscofric.report.figures.histories import MOST_LINES as HISTORIES
 from viscofric.report.figures.maps import MARKED_TEMPERATURES, known_shifts
-from viscofric.report.figures.stored_contacts import shown_contacts
 from viscofric.report.figures.sweeps import numerical_error, panel_count
 from viscofric.report.results import (
     group,
@@ -206,7 +206,7 @@ def _of_contacts(tree: DataTree) -> str:
     shown = shown_contacts(tree)
     if not shown:
         return ""
-    is_line = shown[0].contact.is_line
+    is_line = shown[0].is_line
     if is_rough(tree):
         return _of_rough_contacts(is_line)
     seen = f"seen from above, and on the centre line{' below' if len(shown) > 1 else ''}"

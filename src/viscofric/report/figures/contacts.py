@@ -1,4 +1,4 @@
-"""Figures of contacts beside each other: pressure maps and profiles, rough contacts."""
+"""Contacts whose fields the results keep: which of them are shown, and their figures beside each other."""
 
 from __future__ import annotations
 
@@ -12,15 +12,21 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from viscofric.arrays import Array, centre_line
+from viscofric.datasets import Dataset, DataTree
 from viscofric.report.figures.contact import draw_arrow, draw_profile, highest_shown, pressure_mesh
 from viscofric.report.figures.rough import mark_motion, plot_pressure_of_period
 from viscofric.report.figures.style import GREY, INK, VERMILION, WHITE, new_figure, slender_bar
+from viscofric.report.results import group, values
+from viscofric.report.sweeps import SEED, solved_cases, value_label
 from viscofric.report.texts.numbers import megapascals, significant
+from viscofric.study.cases.sweep import COORDINATES
 
 _MARGIN = 1.12  # of the shown region, over the largest contact
 _MILLI, _MEGA = 1e-3, 1e6
 #: Mean pressures within this factor share a scale in MPa.
 _ALIKE = 1.8
+_FIELDS = "fields"
+_SAME = 1e-9  # relative
 _PRESSURE, _ALONG = "pressure $p$ (MPa)", "along the motion $x$ (mm) →"
 
 
@@ -33,6 +39,7 @@ class Contact(NamedTuple):
     x: Array  # x, y: (nx,) and (ny,): Cell centres from the indenter's axis, m; one y for a line contact
     y: Array
     pressure: Array  # (nx, ny), Pa
+    direction: float = 0.0  # of the motion of a rough surface, from x towards y, rad
 
     @property
     def is_line(self) -> bool:
@@ -61,6 +68,72 @@ class Contact(NamedTuple):
         across = self.y[(self.pressure > 0.0).any(axis=0)]
         along = max(abs(end) for end in self.edges)
         return along if self.is_line or not across.size else max(along, float(np.abs(across).max()))
+
+
+def shown_contacts(tree: DataTree) -> list[Contact]:
+    """Return the slowest contact, that of the most friction and the fastest, of those whose fields are kept."""
+    cases = solved_cases(tree)
+    found = _kept(tree, cases)
+    if not found:
+        return []
+    speed, friction = (
+        np.array([conditions[name] for _, conditions in found]) for name in ("speed", "friction_coefficient")
+    )
+    titles: dict[int, list[str]] = {int(np.argmin(speed)): ["slowest"]}
+    if np.isfinite(friction).any():
+        most = int(np.nanargmax(friction))
+        highest = cases is None or friction[most] >= np.nanmax(values(cases, "friction_coefficient"))
+        titles.setdefault(most, []).append("most friction" if highest else "most friction of those shown")
+    titles.setdefault(int(np.argmax(speed)), []).append("fastest")
+    order = sorted(titles, key=lambda index: speed[index])
+    prediction, named = group(tree, "prediction"), _varied(found)
+    if prediction is not None and SEED in prediction.dims:  # also where all kept fields are of one seed
+        named.add(SEED)
+    return [_contact(*found[index], ", ".join(titles[index]) if len(found) > 1 else "", named) for index in order]
+
+
+def _kept(tree: DataTree, cases: Dataset | None) -> list[tuple[Dataset, dict[str, Any]]]:
+    """Return the fields that the results keep, each with the conditions of its case and its friction."""
+    if _FIELDS not in tree.children:
+        return []
+    kept = []
+    for child in tree.children[_FIELDS].children.values():
+        fields = child.to_dataset()
+        if "y" not in fields.dims:  # a line contact
+            fields = fields.expand_dims(y=[0.0], axis=1)
+        conditions = {name: fields[name].item() for name in COORDINATES if name in fields.coords}
+        if "mean_pressure" in fields.coords:  # of a rough surface: `pressure` is the field
+            conditions["pressure"] = fields["mean_pressure"].item()
+        conditions["friction_coefficient"] = math.nan if cases is None else _friction_of(cases, conditions)
+        kept.append((fields, conditions))
+    return kept
+
+
+def _friction_of(cases: Dataset, conditions: dict[str, Any]) -> float:
+    """Return the friction coefficient of the case with these conditions, NaN if there is none."""
+    same = np.ones(cases.sizes["case"], dtype=bool)
+    for name, value in conditions.items():
+        if name in cases.variables and cases[name].dims == ("case",):
+            column = cases[name].values
+            same &= column == value if isinstance(value, str) else np.isclose(column, value, rtol=_SAME, atol=0.0)
+    rows = np.flatnonzero(same)
+    return float(values(cases, "friction_coefficient")[rows[0]]) if rows.size else math.nan
+
+
+def _varied(found: list[tuple[Dataset, dict[str, Any]]]) -> set[str]:
+    """Return which conditions differ among the contacts, and those that are always listed."""
+    differ = {name for name in COORDINATES if len({str(conditions.get(name)) for _, conditions in found}) > 1}
+    return differ | {"temperature", "speed"}
+
+
+def _contact(fields: Dataset, conditions: dict[str, Any], title: str, named: set[str]) -> Contact:
+    words = [
+        value_label(fields, name, conditions[name]) for name in COORDINATES if name in conditions and name in named
+    ]
+    x, y = (fields[name].values.astype(float) for name in ("x", "y"))
+    pressure = fields["pressure"].transpose("x", "y").values.astype(float)
+    friction, direction = conditions["friction_coefficient"], float(conditions.get("direction", 0.0))
+    return Contact(title, ", ".join(words), friction, x, y, pressure, direction)
 
 
 def plot_contact_map(axes: Axes, contact: Contact, pressure: Array, *, reach: float, highest: float) -> QuadMesh:
@@ -145,7 +218,7 @@ def contact_title(contact: Contact) -> str:
     return "\n".join(line for line in lines if line)
 
 
-def rough_contacts_figure(contacts: Sequence[Contact], directions: Sequence[float]) -> Figure:
+def rough_contacts_figure(contacts: Sequence[Contact]) -> Figure:
     """Return maps of the pressure on a whole period of the surface; of a profile, the pressure along it."""
     is_line = contacts[0].is_line
     count = len(contacts)
@@ -154,7 +227,7 @@ def rough_contacts_figure(contacts: Sequence[Contact], directions: Sequence[floa
     rows, columns = (count, 1) if is_line else (1, count)
     panels = list(figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True).ravel())
     highest = highest_shown(*(contact.pressure for contact in contacts))
-    for axes, contact, direction in zip(panels, contacts, directions, strict=True):
+    for axes, contact in zip(panels, contacts, strict=True):
         touching = f"{100.0 * np.mean(contact.pressure > 0.0):.3g} % in contact"
         title = f"{contact_title(contact)}, {touching}"
         if is_line:
@@ -163,7 +236,7 @@ def rough_contacts_figure(contacts: Sequence[Contact], directions: Sequence[floa
             axes.margins(x=0.0)
             continue
         mesh, label = plot_pressure_of_period(axes, contact.x, contact.y, contact.pressure, highest=highest)
-        mark_motion(axes, (math.cos(direction), math.sin(direction)))
+        mark_motion(axes, (math.cos(contact.direction), math.sin(contact.direction)))
         axes.set_title(title, fontsize=9.5)
         axes.label_outer()
     if is_line:

@@ -15,7 +15,7 @@ from viscofric.datasets import Dataset, DataTree
 from viscofric.files import write_atomically
 from viscofric.report.data import law_of, predicted
 from viscofric.report.figures import saving
-from viscofric.report.figures.contacts import contacts_figure, rough_contacts_figure
+from viscofric.report.figures.contacts import contacts_figure, rough_contacts_figure, shown_contacts
 from viscofric.report.figures.convergence import convergence_figure
 from viscofric.report.figures.friction import (
     plot_coulomb_friction,
@@ -36,7 +36,6 @@ from viscofric.report.figures.rubber import (
     plot_step_master_curve,
 )
 from viscofric.report.figures.shift_factors import plot_shift_comparison, plot_shift_factors, plot_vertical_shift
-from viscofric.report.figures.stored_contacts import shown_contacts
 from viscofric.report.figures.style import WIDE, new_figure, one_panel, temperature_bar
 from viscofric.report.figures.superposition import plot_cole_cole, plot_van_gurp_palmen
 from viscofric.report.figures.sweeps import sweep_figure
@@ -183,10 +182,7 @@ def contacts(tree: DataTree) -> Figure | None:
     shown = shown_contacts(tree)
     if not shown:
         return None
-    each = [contact for contact, _ in shown]
-    if is_rough(tree):
-        return rough_contacts_figure(each, [float(conditions.get("direction", 0.0)) for _, conditions in shown])
-    return contacts_figure(each)
+    return rough_contacts_figure(shown) if is_rough(tree) else contacts_figure(shown)
 
 
 def convergence(tree: DataTree) -> Figure | None:
