@@ -9,7 +9,7 @@ import numpy as np
 
 from viscofric.arrays import Array
 from viscofric.contact.heated_result import AT_THE_LOSS, THIN
-from viscofric.datasets import Dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.errors import InputError
 from viscofric.friction.cases.case import Case, Rubbers, moved
 from viscofric.friction.cases.record import Failure, HistoryRecord
@@ -88,16 +88,15 @@ class Heatings(Singles):
 
     def dataset(self) -> Dataset | None:
         """Return the curves along the axes of the sweep, of Coulomb friction and of slip; None if all failed."""
-        import xarray
-
         table, axes, values = self._table, self._sweep.axes, self.columns_of_cases()
         if not values:
             return None
         size = len(self._sweep.cases), len(table.coulomb), len(self._slips)
         dimensions = {axis.name: len(axis) for axis in axes} | {"coulomb": size[1], "slip": size[2]}
         long = [name for name, count in dimensions.items() if count > 1]
-        variables: dict[str, Any] = {
-            name: (long, values[name].reshape([dimensions[one] for one in long]), {"units": unit, "long_name": words})
+        shape = [dimensions[one] for one in long]
+        columns = {
+            name: (values[name].reshape(shape), unit, words)
             for name, (_, unit, words) in COLUMNS.items()
             if name in values
         }
@@ -114,7 +113,7 @@ class Heatings(Singles):
             "passes": table.passes,
             "heat_of": "interface" if self._interface is not None else "given" if max(table.coulomb) > 0.0 else "none",
         }
-        found = xarray.Dataset(variables, coordinates, attributes)
+        found = dataset(tuple(long), columns, attributes=attributes).assign_coords(coordinates)
         if self._interface is not None or max(table.coulomb) > 0.0:
             by = found["interface_friction"] if self._interface is not None else found["coulomb"]
             found["total_friction"] = (found["friction_coefficient"] + by).transpose(*long).assign_attrs(_TOTAL)
@@ -189,20 +188,20 @@ class Heatings(Singles):
 
     def _map(self) -> dict[str, Dataset]:
         """Return the map as a group of its own."""
-        import xarray
-
         (found,) = self.outcomes[len(self._members) :] or [None]
         if not isinstance(found, HistoryRecord):
             return {}
-        x, y, rise, contact = (np.array(found.columns[name].values) for name in ("x", "y", "rise", "contact"))
-        shape = np.unique(x).size, np.unique(y).size
-        about = {name: {"units": one.unit, "long_name": one.words} for name, one in found.columns.items()}
-        variables: dict[str, Any] = {
-            name: (("x", "y"), values.reshape(shape), about[name])
-            for name, values in (("rise", rise), ("contact", contact))
+        columns = found.columns
+        x, y = (np.unique(columns[name].values) for name in ("x", "y"))
+
+        def labelled(name: str, values: Any) -> tuple[Any, str, str]:
+            return values, columns[name].unit, columns[name].words
+
+        fields = {
+            name: labelled(name, np.reshape(columns[name].values, (x.size, y.size))) for name in ("rise", "contact")
         }
-        coordinates = {"x": ("x", np.unique(x), about["x"]), "y": ("y", np.unique(y), about["y"])}
-        return {_MAP: xarray.Dataset(variables, coordinates, self._shown)}
+        along = {"x": labelled("x", x), "y": labelled("y", y)}
+        return {_MAP: dataset(("x", "y"), fields, coordinates=along, attributes=self._shown)}
 
     def _counted(self, data: Dataset) -> list[Note]:
         found, of = [], int(np.isfinite(data["friction_coefficient"].values).sum())

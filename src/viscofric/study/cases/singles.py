@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from viscofric.datasets import Dataset
+from viscofric.datasets import Dataset, dataset
 from viscofric.friction.cases.record import Failure, HistoryRecord, Record
 from viscofric.friction.cases.solving import Task
 from viscofric.notes import Note, counted
@@ -78,10 +78,11 @@ class Singles:
 
     def dataset(self) -> Dataset | None:
         """Return all results along their axes; None if all failed."""
-        import xarray
-
         columns = self.columns()
-        return xarray.Dataset(columns, self._coordinates, self._attributes) if columns else None
+        if not columns:
+            return None
+        found = dataset((*self._dimensions, self._along), columns, attributes=self._attributes)
+        return found.assign_coords(self._coordinates)
 
     def groups(self) -> dict[str, Dataset]:
         """Return all results by their groups; none if all failed."""
@@ -89,15 +90,14 @@ class Singles:
         return {} if found is None else {self.GROUP: found}
 
     def columns(self) -> dict[str, Any]:
-        """Return the results as variables; contacts without a result are NaN; empty if all failed."""
+        """Return the results with units and names; contacts without a result are NaN; empty if all failed."""
         outcomes = self.outcomes
         records = [one for one in outcomes if isinstance(one, HistoryRecord)]
         found: dict[str, Any] = {}
         for name, (values, unit, words) in records[0].columns.items() if records else ():
             missing = [math.nan] * len(values)
             rows = [one.columns[name].values if isinstance(one, HistoryRecord) else missing for one in outcomes]
-            dimensions = self._dimensions | ({self._along: len(values)} if len(values) > 1 else {})
-            about = {"units": unit, "long_name": words}
-            shaped = np.reshape(np.array(rows, dtype=float), list(dimensions.values()))
-            found[f"{name}_over_time" if name in _OVER_TIME else name] = (list(dimensions), shaped, about)
+            shape = [*self._dimensions.values(), *([len(values)] if len(values) > 1 else [])]
+            shaped = np.reshape(np.array(rows, dtype=float), shape)
+            found[f"{name}_over_time" if name in _OVER_TIME else name] = (shaped, unit, words)
         return found

@@ -101,8 +101,6 @@ def prediction(
     frequency was measured), `curves` (their bands) and `interface` (columns of its friction) are of the solved cases,
     in their order.
     """
-    import xarray
-
     solved = np.array([isinstance(outcome, Record) for outcome in outcomes], dtype=bool)
     records = [outcome for outcome in outcomes if isinstance(outcome, Record)]
     columns: dict[str, Any] = {
@@ -116,20 +114,13 @@ def prediction(
     if within is not None:
         columns[_WITHIN] = within
     meaning = meaning_of(sweep.geometry)
-    dimensions = [axis.name for axis in sweep.axes if len(axis) > 1]
-    shape = [len(axis) for axis in sweep.axes if len(axis) > 1]
-
-    def labelled(name: str, values: Any) -> Any:
-        return dimensions, np.reshape(values, shape), _attributes(name, meaning)
-
-    variables = {}
-    for name, values in columns.items():
-        whole = _spread(values, solved, _FLAGS.get(name))
-        if np.isinf(whole).all():  # the half-width of a line contact
-            continue
-        variables[name] = labelled(name, whole)
-    variables["failed"] = labelled("failed", (~solved).astype(np.int8))
-    return xarray.Dataset(variables, coordinates_of(sweep.axes, sweep.geometry))
+    varied = {axis.name: len(axis) for axis in sweep.axes if len(axis) > 1}
+    whole = {name: _spread(values, solved, _FLAGS.get(name)) for name, values in columns.items()}
+    # the half-width of a line contact is infinite
+    whole = {name: values for name, values in whole.items() if not np.isinf(values).all()}
+    whole["failed"] = (~solved).astype(np.int8)
+    shaped = {name: (np.reshape(values, list(varied.values())), *meaning[name]) for name, values in whole.items()}
+    return dataset(tuple(varied), shaped).assign_coords(coordinates_of(sweep.axes, sweep.geometry))
 
 
 def master_prediction(
@@ -147,29 +138,22 @@ def master_prediction(
 
 def field_groups(sweep: Sweep, outcomes: Sequence[Record | Failure]) -> Groups:
     """Return pressure and displacement of the cases that kept them, with their place in the sweep."""
-    import xarray
-
     groups = {}
     meaning = meaning_of(sweep.geometry)
     for number, outcome in enumerate(outcomes):
         if not isinstance(outcome, Record) or outcome.fields is None:
             continue
         kept = outcome.fields
-        plane = ["x", "y"][: np.ndim(kept.pressure)]
-        variables: dict[str, Any] = {
-            name: (plane, getattr(kept, name), _attributes(name, FIELD_MEANING))
-            for name in ("pressure", "displacement")
-        }
-        coordinates: dict[str, Any] = {
-            name: (name, getattr(kept, name), _attributes(name, FIELD_MEANING)) for name in plane
-        }
+        plane = ("x", "y")[: np.ndim(kept.pressure)]
+        labelled = {name: (getattr(kept, name), *FIELD_MEANING[name]) for name in (*plane, "pressure", "displacement")}
+        at = {name: labelled.pop(name) for name in plane}
         for axis, point in zip(sweep.axes, np.unravel_index(number, sweep.shape), strict=True):
-            coordinates |= {
-                _BESIDE_FIELDS.get(name, name): ((), values[int(point)], _attributes(name, meaning))
+            at |= {
+                _BESIDE_FIELDS.get(name, name): (values[int(point)], *meaning[name])
                 for name, values in axis.columns.items()
                 if _is_informative(name, values)
             }
-        groups[f"/fields/{number + 1}"] = xarray.Dataset(variables, coordinates, {"case": number + 1})
+        groups[f"/fields/{number + 1}"] = dataset(plane, labelled, coordinates=at, attributes={"case": number + 1})
     return groups
 
 
