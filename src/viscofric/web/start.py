@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import copy
 import os
+from collections.abc import Iterator
 from importlib.resources import files
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from viscofric.files import parse_toml
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _PAGE = parse_toml(files("viscofric.web").joinpath("start.toml").read_text(encoding="utf-8"))
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import click
 
@@ -15,9 +16,6 @@ from viscofric.cli.friction_sources import is_of_synthetic
 from viscofric.cli.identify import chosen_beside, chosen_shift, identified_options
 from viscofric.cli.output import answer, drawing, is_synthetic, write_files
 from viscofric.cli.rubber_options import column_options
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 _EXAMPLE = """\b
 Example:

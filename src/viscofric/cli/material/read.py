@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import click
 
@@ -12,11 +13,7 @@ from viscofric.cli.errors import print_notes
 from viscofric.cli.files import WRITTEN, Source, plainly, refuse_to_overwrite
 from viscofric.cli.output import outputs, print_json
 from viscofric.cli.rubber_options import reading_options
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from viscofric.errors import InputError
+from viscofric.errors import InputError
 
 
 @as_command("read")

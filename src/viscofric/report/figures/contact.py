@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
 from scipy.ndimage import uniform_filter
 
 from viscofric.arrays import Array, centre_line
+from viscofric.contact.indenters.indenter import Indenter
+from viscofric.contact.solution import ContactSolution
 from viscofric.report.figures.style import BLUE, GREY, INK, VERMILION, Unit, heat_map, new_figure, slender_bar, unit_for
 from viscofric.report.texts.numbers import prefixed, significant
 from viscofric.units import shown_celsius
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.collections import QuadMesh
-    from matplotlib.figure import Figure
-
-    from viscofric.contact.indenters.indenter import Indenter
-    from viscofric.contact.solution import ContactSolution
-
 
 #: More cells along an edge than this do not show; the map draws every n-th.
 _MOST_CELLS = 256

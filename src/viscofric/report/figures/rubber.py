@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
+from typing import Any, Literal, TypeAlias, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -27,10 +27,8 @@ from viscofric.report.texts.numbers import degrees
 from viscofric.rheology.spectra.modulus_table import ModulusTable
 from viscofric.rheology.spectra.retardation import RelaxationSpectrum, RetardationSpectrum
 from viscofric.rheology.superposition.consistency import SuperpositionCheck
+from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 from viscofric.units import celsius
-
-if TYPE_CHECKING:
-    from viscofric.rheology.uncertainty.material_samples import MaterialSamples
 
 Fitted: TypeAlias = "RetardationSpectrum | ModulusTable | Dataset"
 
