@@ -13,7 +13,7 @@ from viscofric.cli.contact import Contact, heating_options
 from viscofric.cli.contact_options import chosen_direction, contact_options, load_option, sliding_indenter_options
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import CSV
-from viscofric.cli.output import answer, drawing, json_record, outputs, write_files
+from viscofric.cli.output import answer, drawing, json_record, outputs, print_pairs, write_files
 from viscofric.cli.rubber_options import NamedRubber, layer_options, rubber_options
 from viscofric.cli.speed_options import chosen_speeds, chosen_temperatures, speed_options
 
@@ -136,8 +136,10 @@ def _print(title: str, curves: FrictionCurves) -> None:
 
     click.echo("\n".join([f"{title}\n", *friction_table(curves)]))
     worst = float((curves.viscoelastic_error / abs(curves.viscoelastic)).max())
-    click.echo(f"\nnumerical error  {percent(worst)} at most")
+    said = [("numerical error", f"{percent(worst)} at most")]
     if curves.viscoelastic_lower is None:
-        click.echo("{:<15}  {}".format(*(TWO_DIGITS if in_doubt(curves.notes) else AFTER_PLUS_MINUS)))
+        said.append(TWO_DIGITS if in_doubt(curves.notes) else AFTER_PLUS_MINUS)
     if curves.within_measured_frequencies is not None and not curves.within_measured_frequencies.all():
-        click.echo("marked *         frequencies at which the material is not known")
+        said.append(("marked *", "frequencies at which the material is not known"))
+    click.echo()
+    print_pairs(said)

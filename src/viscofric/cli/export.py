@@ -8,7 +8,7 @@ import click
 
 from viscofric.cli.commands import as_command
 from viscofric.cli.files import DASH, Written, check_ending
-from viscofric.cli.output import outputs, print_json
+from viscofric.cli.output import outputs, print_json, print_written
 
 # format -> how its file's name ends
 _ENDINGS = {"csv": ".csv", "excel": ".xlsx", "netcdf": ".nc"}
@@ -61,9 +61,8 @@ def command(results: Path, forms: tuple[str, ...], out: Path | None, as_json: bo
     written = {form: found.export(FORMS[list(_ENDINGS).index(form)], out) for form in forms}
     if as_json:
         print_json({"results": results, "files": written})
-        return
-    for form, path in written.items():
-        click.echo(f"{form:<8} {path}")
+    else:
+        print_written(*written.items())
 
 
 def _by_ending(out: Path | None) -> tuple[str, ...]:

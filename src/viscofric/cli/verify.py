@@ -12,7 +12,7 @@ import click
 from viscofric.cli.commands import NOT_ACCURATE, SOME_CASES_FAILED, as_command
 from viscofric.cli.errors import placed_at
 from viscofric.cli.files import CSV, DASH
-from viscofric.cli.output import outputs, print_json, write_rows
+from viscofric.cli.output import outputs, print_json, print_written, write_rows
 from viscofric.notes import listed
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def compare_test(folder: Path, as_json: bool) -> None:
     click.echo("")
     for sentence in said:
         click.echo(sentence)
-    click.echo(f"page     {output / 'report.html'}")
+    print_written(("page", output / "report.html"))
     sys.exit(status)
 
 

@@ -10,7 +10,7 @@ import click
 from viscofric.cli.commands import Decorator, as_command, quantity
 from viscofric.cli.errors import print_notes, typed_as
 from viscofric.cli.files import WRITTEN, refuse_to_overwrite
-from viscofric.cli.output import outputs, print_json
+from viscofric.cli.output import outputs, print_json, print_written
 
 if TYPE_CHECKING:
     from viscofric.rheology.cards import CardFormat, CardLaw
@@ -98,5 +98,5 @@ def command(
     if as_json:
         print_json({"card": target, "format": form, **listed("notes", notes)})
     else:
-        click.echo(f"card     {target}")
+        print_written(("card", target))
     print_notes(notes)

@@ -11,7 +11,7 @@ import click
 from viscofric.cli.commands import as_command
 from viscofric.cli.errors import print_notes
 from viscofric.cli.files import WRITTEN, Source, plainly, refuse_to_overwrite
-from viscofric.cli.output import outputs, print_json
+from viscofric.cli.output import outputs, print_json, print_written
 from viscofric.cli.rubber_options import reading_options
 from viscofric.errors import InputError
 
@@ -55,7 +55,7 @@ def _print(files: tuple[Path, ...], out: Path | None, as_json: bool, reading: di
         if out is not None and kind == "dma":
             from viscofric.study.rubber_results import write_sweeps
 
-            click.echo(f"table    {write_sweeps(test, out)}", err=as_json)
+            print_written(("table", write_sweeps(test, out)), err=as_json)
     if as_json:
         print_json({"tests": records})
     if out is not None and "dma" not in kinds:
