@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _EXAMPLE = """\b
 Examples:
   viscofric transient --material "synthetic fluoroelastomer" --ball "9.525 mm" \\
-      --load "25 N" --dwell "0.1 s" --slide "20 mm" --speed "100 mm/s" --temperature "60 degC"
+      --load "25 N" --dwell "0.1 s" --slide "20 mm" --speed "100 mm/s" --temperature "60 degC" --accuracy 5e-3
   viscofric transient --material "synthetic fluoroelastomer" --ball "9.525 mm" \\
       --history test.csv --picture test.svg
   viscofric transient --material "synthetic fluoroelastomer" --surface scan.x3p --pressure "0.2 MPa" \\
