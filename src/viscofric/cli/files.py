@@ -140,13 +140,9 @@ def to_be_written(path: Path) -> Iterator[Path]:
 
 
 def write_fields(path: Path, solution: ContactSolution) -> None:
-    """Write the fields of a contact: netCDF, or a table (CSV) of x, y, pressure and displacement of each cell."""
-    from viscofric.files import write_atomically
-
-    if path.suffix.lower() == ".nc":
-        write_dataset(path, solution.to_dataset())
-    else:
-        write_atomically(path, _table(solution))
+    """Write a contact: netCDF with all numbers, or a table (CSV) of x, y, pressure and displacement of each cell."""
+    data = solution.to_dataset()
+    write_dataset(path, data if path.suffix.lower() == ".nc" else data[["pressure", "displacement"]])
 
 
 def write_dataset(path: Path, data: Dataset) -> None:
@@ -163,12 +159,3 @@ def write_dataset(path: Path, data: Dataset) -> None:
     text = io.StringIO()
     write_columns(text, data)
     write_atomically(path, text.getvalue().encode())
-
-
-def _table(solution: ContactSolution) -> bytes:
-    import numpy as np
-
-    x, y = (values.ravel() for values in np.meshgrid(solution.x, solution.y, indexing="ij"))
-    columns = np.column_stack([x, y, solution.pressure.ravel(), solution.displacement.ravel()])
-    rows = [",".join(f"{number:.10g}" for number in row) for row in columns.tolist()]
-    return "\n".join(["x (m),y (m),pressure (Pa),displacement (m)", *rows, ""]).encode()
