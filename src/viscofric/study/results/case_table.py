@@ -20,14 +20,8 @@ from viscofric.study.results.file import OTHER_CASES, PREDICTION, cases_of, open
 
 #: Coordinates that agree to as many digits are the same.
 _DIGITS = 9
-# Friction curves -> the same variables of results.
-_OF_CURVES = {
-    "speed": "speed",
-    "temperature": "temperature",
-    "load": "load",
-    "friction_coefficient": "viscoelastic",
-    "friction_error": "viscoelastic_error",
-}
+# Friction of curves -> the same variables of results.
+_OF_CURVES = {"viscoelastic": "friction_coefficient", "viscoelastic_error": "friction_error"}
 _COORDINATES = ("speed", "temperature", "load")
 # Coordinates whose value needs no name.
 _SPEAKING = ("material", "load", "temperature", "speed")
@@ -58,11 +52,9 @@ class CaseTable:
 
     @classmethod
     def of_curves(cls, curves: FrictionCurves, name: str = "friction curves") -> CaseTable:
-        """Return the points of friction curves."""
-        columns = {own: np.asarray(getattr(curves, theirs), dtype=float) for own, theirs in _OF_CURVES.items()}
-        units = {"speed": "m/s", "temperature": "K", "load": curves.load_unit}
-        units = {own: units.get(own, "1") for own in columns}
-        return cls(name, _COORDINATES, columns, units, np.isfinite(columns["friction_coefficient"]))
+        """Return the points of friction curves, which have no provenance."""
+        points = curves.points_dataset().reset_coords()[[*_COORDINATES, *_OF_CURVES]]
+        return cls.of_group(name, points.rename(_OF_CURVES).drop_attrs(deep=False))
 
     def __len__(self) -> int:
         return len(self.solved)
