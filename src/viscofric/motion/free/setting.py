@@ -315,8 +315,9 @@ class Setting:
             found.append(self._after_jump(start, end))
         after = np.unique(np.concatenate([found[0] + start.time, *found[1:], [end.time]]))
         kept = after[(after > start.time) & (after <= end.time)]
-        apart = np.concatenate([np.diff(kept) > 1e-9 * duration, [True]])
-        return self._split(np.concatenate([[start.time], kept[apart]]))[1:]
+        # no two of them closer than a thousandth of the time since the start, or than rounding lets them be
+        least = np.maximum(1e-3 * (kept[:-1] - start.time), 1e-12 * abs(start.time))
+        return self._split(np.concatenate([[start.time], kept[np.concatenate([np.diff(kept) > least, [True]])]]))[1:]
 
     def _after_start(self, start: Instant, end: Instant, passing: float) -> Array:
         """Return times before the first cell is passed: friction changes over paths much shorter than a cell."""
