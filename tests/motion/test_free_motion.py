@@ -64,6 +64,22 @@ def test_energy_is_balanced_from_a_jump_on_however_long_the_dwell_after_it():
     assert left.max() < 2e-3 * run.work[-1]
 
 
+def test_a_relaxed_cylinder_starts_though_its_depth_hardly_changes():
+    """Errors of a depth without a level are not compared with a change of it that is nearly none."""
+    history = vf.motion.History(
+        [0.0, 0.1, 0.1005], load=2e3, position=[0.0, 0.0, 2e-4], temperature="58 degC", before="at rest"
+    )
+    cylinder, times = vf.Cylinder("5 mm"), [0.1001, 0.1003, 0.1005]
+    rough, fine = (
+        vf.motion.solve_transient(vf.synthetic_fluoroelastomer(), cylinder, history, accuracy=accuracy, times=times)
+        for accuracy in (3e-2, 1e-2)
+    )
+    for name in ("indentation", "friction_force"):
+        errors = getattr(rough.errors, name) + getattr(fine.errors, name)
+        assert np.all(np.abs(getattr(rough, name) - getattr(fine, name)) <= errors)
+    assert np.all(rough.errors.friction_force <= 3e-2 * rough.friction_force.max())
+
+
 def test_a_slow_motion_of_a_cylinder_needs_no_fine_cells():
     """The load is given, and the depth smooth: differences of grids are not those of the times of their steps."""
     time = np.linspace(0.0, 10.0, 5)

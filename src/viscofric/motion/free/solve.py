@@ -51,7 +51,7 @@ _FIRST_WINDOW, _SHORT, _ATTEMPTS = 1.25, 0.6, 5
 # Least friction coefficient that errors are compared with, in the slope of the indenter at the contact's edge.
 _LEAST_FRICTION = 1e-3
 # Least change of the depth of a line contact that errors are compared with, in the unit of depth.
-_LEAST_DEPTH = 0.02
+_LEAST_DEPTH = 0.05
 # Change of the load that is none.
 _STEADY_LOAD = 1e-6
 # Of the contact conditions, in the accuracy, for a friction coefficient that is such a part of the slope; least part.
