@@ -43,6 +43,22 @@ def test_small_oscillation_has_the_stiffness_of_the_complex_modulus() -> None:
     assert cycle.mean_friction_coefficient is None
 
 
+def test_errors_of_small_oscillations_are_those_of_periods_that_repeat() -> None:
+    """Not the difference from a period that begins with an extrapolated memory, which was 9 times the stiffness."""
+    rubber, omega, depth = vf.synthetic_fluoroelastomer(), 250.0, 2e-4
+    phase, values = sine(64, depth, 1e-3 * depth)
+    period = vf.motion.History(phase / omega, indentation=values, temperature="29 degC")
+    cycle = vf.motion.solve_cycle(rubber, vf.Ball("5 mm"), period, accuracy=4e-3)
+    modulus = complex(rubber.modes_at("29 degC").complex_modulus(omega))
+    stiffness = 2.0 * np.sqrt(5e-3 * depth) * modulus / 0.75
+    for found, error, value in (
+        (cycle.storage_stiffness, cycle.storage_stiffness_error, stiffness.real),
+        (cycle.loss_stiffness, cycle.loss_stiffness_error, stiffness.imag),
+        (cycle.loss_tangent, cycle.loss_tangent_error, stiffness.imag / stiffness.real),
+    ):
+        assert abs(found - value) <= error <= 0.02 * value
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("place", ["start", "end", "inside"])
 @pytest.mark.parametrize(("control", "low"), [("load", 1.0), ("indentation", 1e-4)])

@@ -514,3 +514,17 @@ def test_a_surface_without_load_is_refused_as_other_contacts_are() -> None:
         history = vf.motion.History([0.0, 1.0], pressure=0.0, speed=speed)
         with refused("no-contact"):
             vf.motion.solve_transient(vf.synthetic_fluoroelastomer(), profile(16), history)
+
+
+def test_a_start_leaves_errors_of_energies_as_they_are() -> None:
+    """Soon after it, merged modes have a larger error of what changes: of the friction, not of the energy so far."""
+    rubber, heights = vf.synthetic_fluoroelastomer(), 1e-5 * np.cos(2.0 * np.pi * np.arange(64) / 64)[:, None]
+    surface = vf.contact.PeriodicSurface(heights, (1e-3 / 64, 1e-3))
+    pressure = 1.6e-3 * rubber.modes_at("90 degC").E0
+    time, position = [0.0, 5e-3, 0.018], [0.0, 0.0, 7e-5]
+    history = vf.motion.History(time, pressure=pressure, position=position, temperature="90 degC", before="untouched")
+    run = vf.motion.solve_transient(rubber, surface, history, accuracy=1.5e-2)
+    at_start = int(np.searchsorted(run.time, 5e-3))
+    # They were ten times as large from there on.
+    assert run.errors.energy[at_start + 1] < 1.1 * run.errors.energy[at_start]
+    assert run.errors.friction_force[at_start + 1] > 10.0 * run.errors.friction_force[-1]

@@ -143,14 +143,15 @@ def moment_of(
     spread: Difference,
     floor: Sizes,
     *,
-    early: float,
+    early: Sizes,
     extrapolate: bool,
 ) -> Moment[State]:
     """Return what the chains say of one time: the energies extrapolated, and the rest too on request."""
     # Errors are those of steps, by the spread, what the mover leaves out, `early` times that, and by the contact
     # conditions, the floor.
     coarse, fine = pair
-    left_out, floor = (_of_the_rest(one, instant) for one in (Sizes(*(early * e for e in fine.seen.left_out)), floor))
+    left_out = Sizes(*(times * one for times, one in zip(early, fine.seen.left_out, strict=True)))
+    left_out, floor = (_of_the_rest(one, instant) for one in (left_out, floor))
     off = difference(pair)
     steps = errors_of_steps(spread)
     errors = Sizes(*(sum(parts) for parts in zip(steps, left_out, floor, strict=True)))

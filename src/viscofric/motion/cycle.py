@@ -174,7 +174,7 @@ class _Search:
             state = mover.step(state, first, first)
         if self.coarser is not None:
             state = mover.with_memory(state, repeating.memory_from(*self.coarser))
-        mixing, plain = _Anderson(self.damping), False
+        mixing, plain = _Anderson(self.damping), 0
         period: Period | None = None
         for _ in range(self.most_periods):
             memory = mover.memory_of(state)
@@ -200,18 +200,19 @@ class _Search:
             if self.progress is not None:
                 self.progress(self.periods, self.change)
             if self.change > _CLOSE * accuracy:
-                plain, state = False, mover.with_memory(state, mixing.next(memory, change))
-            elif plain and before is not None:
-                coarser = None if self.found is None else self.found.last
-                self.coarser = repeating, reached
-                self.whole, self.found = track, Found(period, before, coarser, self.change, changed, accuracy)
+                plain, state = 0, mover.with_memory(state, mixing.next(memory, change))
+                continue
+            coarser = None if self.found is None else self.found.last
+            found = before and Found(period, before, coarser, self.change, changed, accuracy)
+            if found and (plain > 1 or (plain and found.repeats)):
+                self.coarser, self.whole, self.found = (repeating, reached), track, found
                 if times is None:
                     return track
                 return march(mover, schedule, accuracy=accuracy, times=times, begin=begin, extrapolate=extrapolate)
-            else:
-                # A memory that was extrapolated does not fit the pressure: at a given depth its fast modes begin with a
-                # glassy response.  The period that is returned goes on from the end of another one.
-                plain = True
+            # A memory that was extrapolated does not fit the pressure: at a given depth its fast modes begin with a
+            # glassy response.  The period that is returned goes on from the end of another one, and is compared with
+            # one that does, too, if not with that.
+            plain += 1
         raise ConvergenceError(
             f"no periodic state within {self.most_periods} periods: the memory is still {self.change:.2g} of its "
             "size away from it; ",

@@ -419,7 +419,10 @@ class _March(Generic[State]):
             return
         held = field_of(self.mover, pair) if self.fields else None
         floor = self.mover.floor(self._scales)
-        early = self.mover.early(self.schedule.since_jump(instant))
+        since, part = self.schedule.since_pressed(instant)
+        friction = self.mover.early(self.schedule.since_jump(instant))
+        rest = 1.0 + part * (self.mover.early(since) - 1.0)
+        early = Sizes(rest, rest, friction, rest)
         self.moments += times * [
             moment_of(pair, instant, held, self._spread, floor, early=early, extrapolate=self.extrapolate)
         ]

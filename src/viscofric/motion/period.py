@@ -174,6 +174,13 @@ class Found:
         """Error by the distance that is left, over the change from the period before to the last one."""
         return min(1.0, 2.0 * self.change / self.change_before) if self.change_before > 0.0 else 1.0
 
+    @property
+    def repeats(self) -> bool:
+        """Whether the last period has the numbers of the one before to the accuracy."""
+        one, two = self.last, self.before
+        pairs = (one.stiffness, two.stiffness), (one.rubbed, two.rubbed), (one.dissipated, two.dissipated)
+        return not any(abs(now - then) > self.accuracy * abs(now) for now, then in pairs)  # nan without a stiffness
+
     def energy(self, run: TransientSolution) -> Estimate:
         """Return the energy dissipated in the period."""
         energy = float(run.dissipated[-1] - run.dissipated[0])

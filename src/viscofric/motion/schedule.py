@@ -203,6 +203,24 @@ class Schedule:
         before = self._jumps[self._jumps <= instant.time]
         return instant.clock - self.at(float(before[-1])).clock if len(before) else math.inf
 
+    def since_pressed(self, instant: Instant) -> tuple[float, float]:
+        """Return the time since the last jump of what is prescribed, s of the clock, and what part of all jumped then.
+
+        Load, depth and energies have changed by no more than this part since; at a given depth it is all of them.
+        """
+        pressed = [time for time in self._jumps.tolist() if time <= instant.time and self._pressed(time) > 0.0]
+        return (instant.clock - self.at(pressed[-1]).clock, self._pressed(pressed[-1])) if pressed else (math.inf, 0.0)
+
+    def _pressed(self, time: float) -> float:
+        """Return what part of load, depth and energies changes at a jump at most."""
+        before, after = self.at(time, after=False), self.at(time)
+        if time == self.start and self.before == "untouched":
+            return 1.0
+        if self.control not in ("load", "pressure"):
+            return float(before[3:] != after[3:])
+        one, two = (abs(float(getattr(instant, self.control))) for instant in (before, after))
+        return min(1.0, 2.0 * abs(two - one) / (max(one, two) or 1.0))
+
     @cached_property
     def _jumps(self) -> Array:
         """Times of jumps, starts and turns, and of the first contact with an untouched body, ascending, s."""

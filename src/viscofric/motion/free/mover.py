@@ -180,7 +180,7 @@ class FreeMover(Cells, Mover[FreeState]):
         area, extents = self._footprint(state, window)
         work, stored = scale.force * scale.depth, self._stored(state)
         friction, energy = force * self._sheared(state, window), work * (stored + state.dissipated)
-        # Without a level, displacements as large as the unit of depth may change; what all points share is in the change.
+        # Without a level, what all points share is in the change of the depth; the rest is as large as the unit.
         deep = abs(state.depth) if setting.is_levelled else abs(state.depth - self.datum) + 1.0
         left_out = Sizes(scale.force * load, scale.depth * deep, friction, energy)
         left_out = Sizes(*(setting.body.merged * one for one in left_out))
