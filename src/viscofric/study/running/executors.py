@@ -48,7 +48,7 @@ class NoSolver(Executor):
         for task in tasks:
             yield (
                 task.key,
-                Lost("not solved yet; run the study again with --resume to solve it.", task.label, "not-solved"),
+                Lost("not solved yet; run the study again with --resume.", task.label, "not-solved"),
             )
 
 
