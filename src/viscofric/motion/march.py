@@ -48,6 +48,8 @@ _FIRST, _FIRST_AFTER_JUMP = 1.0 / 32.0, 0.2
 #: interval with too large a difference: contact conditions are met to a tolerance, so that a few may be by chance;
 #: where they can be met more closely, they are after fewer.
 _LEAST, INSTANT, _MOST_LEAST, _FEW_LEAST = 1e-10, 1e-14, 100, 4
+#: Relative difference of times that are the same.
+_SAME_TIME = 1e-12
 #: Times of a mode after which it has followed a jump.
 _FOLLOWED = 40.0
 
@@ -265,8 +267,8 @@ class _March(Generic[State]):
         if ticks is None:
             self._freely(pair, begun, last, least)
         else:
-            edges = _even_steps(np.append(start, ticks) - self._kink)
-            self._by_ticks(pair, _even_steps(np.append(begun, edges[edges > begun + least])))
+            edges = _even_steps(start - self._kink + np.append(0.0, ticks))
+            self._by_ticks(pair, _even_steps(np.append(begun, edges[edges > begun * (1.0 + _SAME_TIME)])))
 
     def _freely(self, pair: Pair[State], start: float, end: float, least: float) -> None:
         time, step, failed = start, self._pace or max(least, self._first_step(start, end)), 0

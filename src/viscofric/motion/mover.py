@@ -175,7 +175,7 @@ class Mover(Protocol[State]):
         return 1.0
 
     def ticks(self, start: Instant, end: Instant) -> Array | None:
-        """Return the times after the start at which steps may end, up to the end; None if any."""
+        """Return the times since the start at which steps may end, up to the end; None if any."""
         return None
 
     # --- of a repeated history ---------------------------------------------------------------------------------

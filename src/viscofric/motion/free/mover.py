@@ -237,7 +237,7 @@ class FreeMover(Cells, Mover[FreeState]):
         return self.setting.modes.growth_of_error(Modes.of(self.setting.schedule.spectrum), since)
 
     def ticks(self, start: Instant, end: Instant) -> Array:
-        """Return times at which steps may end: the indenter is a whole number of cells away."""
+        """Return times since a start at which steps may end: the indenter is a whole number of cells away."""
         return self.setting.ticks(start, end, _TICK * self.grid.spacing)
 
     def memory_of(self, state: FreeState) -> Array:

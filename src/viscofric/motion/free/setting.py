@@ -249,7 +249,7 @@ class Setting:
         return math.hypot(*self.turned(self.schedule.velocity(self.schedule.start, after=False)))
 
     def ticks(self, start: Instant, end: Instant, cell: float) -> Array:
-        """Return times at which the indenter is a whole number of cells away, or graded ones where it rests."""
+        """Return times since a start at which the indenter is a whole number of cells away, or graded ones at rest."""
         places = np.array([self.turned(start.position), self.turned(end.position)])
         straight = float(np.abs(places[1] - places[0]).max())
         if straight > _MOST_STEPS * cell:
@@ -258,9 +258,10 @@ class Setting:
                 "or ask for less accuracy.",
                 code="too-long-path",
             )
-        count = 16 * (2 + math.ceil(straight / cell))
-        times = np.linspace(start.time, end.time, count + 1)
-        path = np.array([self.turned(self.schedule.at(float(time)).position) for time in times[:-1]] + [places[1]])
+        count, duration = 16 * (2 + math.ceil(straight / cell)), end.time - start.time
+        times = np.linspace(0.0, duration, count + 1)
+        every = (start.time + times[:-1]).tolist()
+        path = np.array([self.turned(self.schedule.at(time).position) for time in every] + [places[1]])
         steps = np.hypot(*np.diff(path, axis=0).T)
         length = np.concatenate([[0.0], np.cumsum(steps)])
         if length[-1] < _STILL * cell:
@@ -278,23 +279,25 @@ class Setting:
             wanted = cell * np.arange(1.0, math.ceil(length[-1] / cell - 1e-6))
         found = [np.interp(wanted, length, times)]
         if len(wanted) < (count := math.ceil(_OF_STROKE * max(1.0, _REST_CELL / cell))):
-            found.append(np.linspace(start.time, end.time, count + 1))
+            found.append(np.linspace(0.0, duration, count + 1))
         found.append(self._of_control(start, end))
         if self._begins_with_jump(start):
             found.append(self._after_jump(start, end))
-        found.append(self._after_start(start, end, float(np.interp(cell, length, times, right=end.time)) - start.time))
-        every = np.unique(np.concatenate([*found, [end.time]]))
-        kept = every[(every > start.time) & (every <= end.time)]
-        # no two of them closer than a thousandth of a cell's time, or of the time since the start
-        least = 1e-3 * np.minimum((end.time - start.time) * cell / length[-1], kept[:-1] - start.time)
-        return self._split(np.concatenate([[start.time], kept[np.concatenate([np.diff(kept) > least, [True]])]]))[1:]
+        found.append(self._after_start(start, end, float(np.interp(cell, length, times, right=duration))))
+        return self._apart(start.time, duration, found, duration * cell / length[-1])
 
-    def _split(self, edges: Array) -> Array:
-        """Divide intervals in which the speed changes by much."""
-        schedule = self.schedule
-        pieces = [edges[:1]]
-        for start, end in itertools.pairwise(edges):
-            first, last = schedule.velocity(float(start)), schedule.velocity(float(end), after=False)
+    def _apart(self, begun: float, duration: float, found: list[Array], longest: float = math.inf) -> Array:
+        """Return all times found, less those closer than a thousandth of the longest step, or of the time so far.
+
+        Intervals in which the speed changes by much are divided.
+        """
+        every = np.unique(np.concatenate([*found, [duration]]))
+        kept = every[(every > 0.0) & (every <= duration)]
+        far = np.concatenate([np.diff(kept) > 1e-3 * np.minimum(longest, kept[:-1]), [True]])
+        schedule, edges = self.schedule, np.concatenate([[0.0], kept[far]])
+        pieces = []
+        for start, end in itertools.pairwise(edges.tolist()):
+            first, last = schedule.velocity(begun + start), schedule.velocity(begun + end, after=False)
             fastest = max(math.hypot(*first), math.hypot(*last))
             change = math.hypot(*(last - first)) / fastest if fastest > 0.0 else 0.0
             pieces.append(np.linspace(start, end, 2 + int(_OF_SPEED * change))[1:])
@@ -304,7 +307,7 @@ class Setting:
         """Return times between which the load or the depth changes by a part of the largest."""
         first, last = (one.load if one.load is not None else one.depth for one in (start, end))
         share = abs(last - first) / self.schedule.largest  # type: ignore[operator]
-        return np.linspace(start.time, end.time, 1 + math.ceil(_OF_LOAD * share))[1:-1]
+        return np.linspace(0.0, end.time - start.time, 1 + math.ceil(_OF_LOAD * share))[1:-1]
 
     def _at_rest(self, start: Instant, end: Instant, cell: float) -> Array:
         """Return times that are graded from the start on, more of them on finer cells."""
@@ -313,11 +316,7 @@ class Setting:
         found = [np.geomspace(_FIRST_AT_REST * duration, duration, count), self._of_control(start, end)]
         if self._begins_with_jump(start):
             found.append(self._after_jump(start, end))
-        after = np.unique(np.concatenate([found[0] + start.time, *found[1:], [end.time]]))
-        kept = after[(after > start.time) & (after <= end.time)]
-        # no two of them closer than a thousandth of the time since the start, or than rounding lets them be
-        least = np.maximum(1e-3 * (kept[:-1] - start.time), 1e-12 * abs(start.time))
-        return self._split(np.concatenate([[start.time], kept[np.concatenate([np.diff(kept) > least, [True]])]]))[1:]
+        return self._apart(start.time, duration, found)
 
     def _after_start(self, start: Instant, end: Instant, passing: float) -> Array:
         """Return times before the first cell is passed: friction changes over paths much shorter than a cell."""
@@ -331,7 +330,7 @@ class Setting:
         response = _FIRST_TICK * self.body.quickest / fastest
         first = min(max(response / longest, _LEAST_OF_START), _MOST_OF_START)
         count = math.ceil(-math.log(first) / math.log(_NEXT_OF_START))
-        return np.asarray(begun + longest * _NEXT_OF_START ** -np.arange(float(count)))
+        return np.asarray(begun - start.time + longest * _NEXT_OF_START ** -np.arange(float(count)))
 
     def _begins_with_jump(self, start: Instant) -> bool:
         if start.time == self.schedule.start and self.schedule.before == "untouched":
@@ -344,7 +343,7 @@ class Setting:
         _, fastest = self.schedule.rates(start.time, end.time)
         first = min(_FIRST_TICK * self.body.quickest / fastest, 0.1 * duration)
         count = 1 + math.ceil(_OF_TIME * math.log(duration / first))
-        return np.asarray(start.time + np.concatenate([[0.5 * first], np.geomspace(first, duration, count)]))
+        return np.concatenate([[0.5 * first], np.geomspace(first, duration, count)])
 
 
 def _direction(schedule: Schedule) -> tuple[float, float]:
