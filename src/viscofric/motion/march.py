@@ -421,7 +421,7 @@ class _March(Generic[State]):
             return
         held = field_of(self.mover, pair) if self.fields else None
         floor = self.mover.floor(self._scales)
-        since, part = self.schedule.since_pressed(instant)
+        since, part = self.schedule.since_control_jump(instant)
         friction = self.mover.early(self.schedule.since_jump(instant))
         rest = 1.0 + part * (self.mover.early(since) - 1.0)
         early = Sizes(rest, rest, friction, rest)

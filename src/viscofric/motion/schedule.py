@@ -203,19 +203,21 @@ class Schedule:
         before = self._jumps[self._jumps <= instant.time]
         return instant.clock - self.at(float(before[-1])).clock if len(before) else math.inf
 
-    def since_pressed(self, instant: Instant) -> tuple[float, float]:
-        """Return the time since the last jump of what is prescribed, s of the clock, and what part of all jumped then.
+    def since_control_jump(self, instant: Instant) -> tuple[float, float]:
+        """Return the time since the last jump of what is prescribed, s of the clock, and what part of it jumped.
 
-        Load, depth and energies have changed by no more than this part since; at a given depth it is all of them.
+        Load, depth and energies have changed by no more than this part soon after it; at a given depth, by all.
         """
-        pressed = [time for time in self._jumps.tolist() if time <= instant.time and self._pressed(time) > 0.0]
-        return (instant.clock - self.at(pressed[-1]).clock, self._pressed(pressed[-1])) if pressed else (math.inf, 0.0)
+        jumps = [time for time in self._jumps.tolist() if time <= instant.time and self._jumped_part(time) > 0.0]
+        if not jumps:
+            return math.inf, 0.0
+        return instant.clock - self.at(jumps[-1]).clock, self._jumped_part(jumps[-1])
 
-    def _pressed(self, time: float) -> float:
-        """Return what part of load, depth and energies changes at a jump at most."""
-        before, after = self.at(time, after=False), self.at(time)
+    def _jumped_part(self, time: float) -> float:
+        """Return by what part of themselves load, depth and energies may change soon after a time: 0 without a jump."""
         if time == self.start and self.before == "untouched":
             return 1.0
+        before, after = self.at(time, after=False), self.at(time)
         if self.control not in ("load", "pressure"):
             return float(before[3:] != after[3:])
         one, two = (abs(float(getattr(instant, self.control))) for instant in (before, after))
