@@ -70,6 +70,15 @@ def test_energy_is_balanced_from_a_jump_on_however_long_the_dwell_after_it(
     assert np.all(run.load > 0.0)
 
 
+@pytest.mark.parametrize("between", [0.012680833944943294, 0.014304363343259472])
+def test_just_before_a_jump_the_load_is_that_before_it(between: float) -> None:
+    """Whatever time is asked for on the way: (t − t0) + (t1 − t) may be more than t1 − t0 by rounding, as here."""
+    path = [0.0, 0.0, 1e-3, 1e-3, 1.5e-3]
+    history = vf.motion.History([0.0, 0.01, 0.03, 0.03, 0.04], load=[1e3, 1e3, 1e3, 2e3, 2e3], position=path)
+    run = vf.motion.solve_transient(RUBBER, CYLINDER, history, accuracy=5e-2, times=[between, 0.03, 0.03])
+    assert run.load == pytest.approx([1e3, 1e3, 2e3])
+
+
 def test_a_relaxed_cylinder_starts_though_its_depth_hardly_changes():
     """Errors of a depth without a level are not compared with a change of it that is nearly none."""
     history = vf.motion.History(
