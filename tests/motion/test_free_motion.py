@@ -79,6 +79,17 @@ def test_just_before_a_jump_the_load_is_that_before_it(between: float) -> None:
     assert run.load == pytest.approx([1e3, 1e3, 2e3])
 
 
+def test_energy_is_balanced_after_a_stop_however_long_the_rest() -> None:
+    """The memory of the motion is lost from its shortest times on, not from a thousandth of the rest."""
+    time, position = [0.0, 0.02, 0.0263, 1500.0], [0.0, 0.0, 2.2e-4, 2.2e-4]
+    history = vf.motion.History(time, load=5.0, position=position, temperature="3 degC", before="at rest")
+    run = vf.motion.solve_transient(vf.synthetic_fluoroelastomer(), vf.Ball("5 mm"), history, accuracy=2e-2)
+    left = np.abs(run.work - (run.stored - run.stored[0]) - run.dissipated)
+    assert np.all(left <= run.errors.energy)
+    # 3e-4 of the stored energy were seen, a seventh with steps from a thousandth on.
+    assert left.max() < 2e-3 * run.stored[0]
+
+
 def test_a_relaxed_cylinder_starts_though_its_depth_hardly_changes():
     """Errors of a depth without a level are not compared with a change of it that is nearly none."""
     history = vf.motion.History(

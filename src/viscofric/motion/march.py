@@ -267,7 +267,9 @@ class _March(Generic[State]):
         if ticks is None:
             self._freely(pair, begun, last, least)
         else:
-            edges = _even_steps(np.concatenate([[start - self._kink], start - self._kink + ticks[:-1], [last]]))
+            edges = start - self._kink + np.append(0.0, ticks)
+            edges[-1] = last  # where rounding would be beyond it
+            edges = _even_steps(edges)
             self._by_ticks(pair, _even_steps(np.append(begun, edges[edges > begun * (1.0 + _SAME_TIME)])))
 
     def _freely(self, pair: Pair[State], start: float, end: float, least: float) -> None:

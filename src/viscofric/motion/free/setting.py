@@ -314,7 +314,7 @@ class Setting:
         duration = end.time - start.time
         count = math.ceil(_AT_REST * max(1.0, _REST_CELL / cell))
         found = [np.geomspace(_FIRST_AT_REST * duration, duration, count), self._of_control(start, end)]
-        if self._begins_with_jump(start):
+        if self._begins_with_jump(start) or self.schedule.starts_at(start.time):  # or a motion stops
             found.append(self._after_jump(start, end))
         return self._apart(start.time, duration, found)
 
